@@ -39,7 +39,7 @@ impl<C> DemoDrive<C> {
     }
     /// Leads the state machine "drive" to the state `target`.
     ///
-    /// The method reads [Statusword](objects::STATUSWORD), writes the commands to [Controlword](objects::CONTROLWORD) and waits for transitions of the device. It first resets a fault that is already active. Other bits of [Controlword](objects::CONTROLWORD) do not change. If the device receives [Controlword](objects::CONTROLWORD) in process data, use [`rt::Walker`] instead.
+    /// The method reads [Statusword](objects::STATUSWORD), writes the commands to [Controlword](objects::CONTROLWORD) and waits for transitions of the device. The method first resets a fault that is already active. Other bits of [Controlword](objects::CONTROLWORD) do not change. Use [`rt::Walker`] instead if the device receives [Controlword](objects::CONTROLWORD) in process data.
     ///
     /// # Errors
     ///
@@ -56,14 +56,13 @@ impl<C> DemoDrive<C> {
             Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>,
         >,
     {
-        let control = objects::CONTROLWORD.at(&mut self.client).read()?;
+        let item = objects::CONTROLWORD;
+        let control = item.at(&mut self.client).read()?;
         let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
         match machine.walk(&mut self.client, control, target, deadline) {
             Err(error) if error.is_fault() => {
-                let code = rt::Item::at(
-                    objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1,
-                    &mut self.client,
-                ).read();
+                let item = objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1;
+                let code = item.at(&mut self.client).read();
                 Err(error.with_code(code))
             }
             walked => walked,
@@ -82,14 +81,13 @@ impl<C> DemoDrive<C> {
             Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>,
         >,
     {
-        let control = objects::CONTROLWORD.at(&mut self.client).read_async().await?;
+        let item = objects::CONTROLWORD;
+        let control = item.at(&mut self.client).read_async().await?;
         let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
         match machine.walk_async(&mut self.client, control, target, deadline).await {
             Err(error) if error.is_fault() => {
-                let code = rt::Item::at(
-                    objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1,
-                    &mut self.client,
-                ).read_async().await;
+                let item = objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1;
+                let code = item.at(&mut self.client).read_async().await;
                 Err(error.with_code(code))
             }
             walked => walked,
@@ -428,7 +426,7 @@ pub mod types {
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
-    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
+    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -573,7 +571,7 @@ pub mod types {
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 to 240 | [`Unknown`](Self::Unknown) | synchronous. The data are applied at the next SYNC. |
-    /// | 241 to 253 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
+    /// | 241 to 253 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The data are applied at once, or as the manufacturer defines. |
     /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | The data are applied at once, or as the device profile defines. |
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -624,7 +622,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | The PDO is transmitted at the next SYNC after an event. |
     /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. The PDO is transmitted after this number of SYNC messages. |
-    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
+    /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
     /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. The PDO is sampled at SYNC, and transmitted when a remote frame requests it. |
     /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | The PDO is sampled and transmitted when a remote frame requests it. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The PDO is transmitted after events that the manufacturer defines. |
@@ -832,7 +830,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -877,7 +875,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -913,7 +911,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -931,7 +929,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -1172,7 +1170,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1199,7 +1197,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1226,7 +1224,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1253,7 +1251,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1271,7 +1269,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1298,7 +1296,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1316,7 +1314,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -2098,7 +2096,7 @@ pub mod types {
         Fault,
     }
     impl State {
-        /// Returns the state that these bits encode; `None` if no state matches.
+        /// Returns the state that these bits encode, or `None` if the bits match no state.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
                 return Some(Self::NotReadyToSwitchOn);
@@ -2128,7 +2126,7 @@ pub mod types {
         }
     }
     impl Statusword {
-        /// Returns the state; `None` if the bits match no state.
+        /// Returns the state, or `None` if the bits match no state.
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
         }

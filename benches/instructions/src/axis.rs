@@ -120,7 +120,7 @@ impl<C> Ax1<C> {
     }
     /// Leads the state machine "drive" to the state `target`.
     ///
-    /// The method reads [Statusword](objects::STATUSWORD), writes the commands to [Controlword](objects::CONTROLWORD) and waits for transitions of the device. It first resets a fault that is already active. Other bits of [Controlword](objects::CONTROLWORD) do not change. If the device receives [Controlword](objects::CONTROLWORD) in process data, use [`rt::Walker`] instead.
+    /// The method reads [Statusword](objects::STATUSWORD), writes the commands to [Controlword](objects::CONTROLWORD) and waits for transitions of the device. The method first resets a fault that is already active. Other bits of [Controlword](objects::CONTROLWORD) do not change. Use [`rt::Walker`] instead if the device receives [Controlword](objects::CONTROLWORD) in process data.
     ///
     /// # Errors
     ///
@@ -134,7 +134,8 @@ impl<C> Ax1<C> {
         C: rt::Client,
         rt::OnCoE: rt::On<C::Bus, Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>>,
     {
-        let control = objects::CONTROLWORD.at(&mut self.client).read()?;
+        let item = objects::CONTROLWORD;
+        let control = item.at(&mut self.client).read()?;
         let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
         machine.walk(&mut self.client, control, target, deadline)
     }
@@ -148,7 +149,8 @@ impl<C> Ax1<C> {
         C: rt::AsyncClient,
         rt::OnCoE: rt::On<C::Bus, Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>>,
     {
-        let control = objects::CONTROLWORD.at(&mut self.client).read_async().await?;
+        let item = objects::CONTROLWORD;
+        let control = item.at(&mut self.client).read_async().await?;
         let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
         machine.walk_async(&mut self.client, control, target, deadline).await
     }
@@ -330,7 +332,7 @@ pub mod types {
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
-    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. This value is reserved. Do not use it. |
+    /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -558,7 +560,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -603,7 +605,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -639,7 +641,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -657,7 +659,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
@@ -898,7 +900,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -925,7 +927,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -952,7 +954,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -979,7 +981,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -997,7 +999,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1024,7 +1026,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1042,7 +1044,7 @@ pub mod types {
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
-        /// Returns the bit field with all bits.
+        /// Returns the whole bit field.
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
@@ -1090,7 +1092,7 @@ pub mod types {
         Fault,
     }
     impl State {
-        /// Returns the state that these bits encode; `None` if no state matches.
+        /// Returns the state that these bits encode, or `None` if the bits match no state.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
                 return Some(Self::NotReadyToSwitchOn);
@@ -1120,7 +1122,7 @@ pub mod types {
         }
     }
     impl Statusword {
-        /// Returns the state; `None` if the bits match no state.
+        /// Returns the state, or `None` if the bits match no state.
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
         }
