@@ -41,6 +41,13 @@ async function languages(browser) {
   assert.ok(named.length > 5 && named.every((name) => name.trim()), `a name is missing: ${named}`);
   await choose("");
   assert.ok((await page.locator("tbody[id=Rposact] td").first().innerText()).startsWith("Rposact Posizione"));
+  // The tree shows one name of each message.
+  await window.go("hsd-s-p-a/hsd-motor/no-revision/messages.html");
+  const inTree = () => page.locator("#contents a[href='#CmdTraj']").innerText();
+  assert.equal((await inTree()).trim(), "CmdTraj");
+  await choose("it");
+  assert.equal((await inTree()).trim(), "Posizionamento alla quota assegnata (LINE)");
+  await choose("");
   // Select the next language with the keyboard.
   await page.locator("#language").focus();
   await page.keyboard.press("ArrowDown");

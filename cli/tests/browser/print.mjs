@@ -1,4 +1,5 @@
 // Tests printed pages: they show the name of the device, have dark text on white in both themes, and contain no controls.
+// Folded texts are printed, and numbers stay in one line.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -28,7 +29,21 @@ await withBrowser(async (browser) => {
       assert.ok(await page.locator(control).first().isHidden(), `${control} is printed`);
     }
     assert.ok((await page.pdf({ format: "A4" })).length > 10_000);
+    await complete(window);
     window.clean();
     await window.close();
   }
 });
+
+async function complete(window) {
+  const page = await window.go("hsd-s-p-a/hsd-motor/no-revision/codes.html");
+  const folded = page.locator("main details:not([open])");
+  const count = await folded.count();
+  assert.ok(count > 0, "no ambiguities are folded");
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await folded.count(), 0);
+  const broken = await page.locator("tbody th a").evaluateAll((links) => links.filter((link) => link.getClientRects().length > 1).map((link) => link.textContent));
+  assert.deepEqual(broken, [], "codes are broken");
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await folded.count(), count);
+}

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::diagnostics::ShownDiagnostic;
 use super::entry::{self, Doubt, Known, Row, Rows};
+use super::shared::{self, SharedDoubt};
 use super::split::Fill;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::hex16;
@@ -42,6 +43,8 @@ pub(super) struct Section {
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
     pub doubts: Vec<Doubt>,
+    /// Ambiguities that several entries of the object have in common.
+    pub shared: Vec<SharedDoubt>,
     pub diagnostics: Vec<ShownDiagnostic>,
     pub rows: Vec<Row>,
 }
@@ -180,15 +183,20 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
     facts.extend(PLAIN.manual_entry(rows.known.manual, "", group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| address::object(index, sub));
+    let mut diagnostics = rows.known.diagnostics.of_group(group);
+    let doubts = entry::doubts(&group.doubts, rows.known.manual);
+    let mut rows: Vec<Row> = items.iter().map(|&(id, item)| rows.row(id, item, sub(item), false)).collect();
+    shared::diagnostics(&mut rows, &mut diagnostics);
     Section {
         anchor: Some(anchor),
         number,
         name: format!("{} ({})", group.name, code.name()),
         names: words::names(&group.name, &group.names),
         facts,
-        doubts: entry::doubts(&group.doubts, rows.known.manual),
-        diagnostics: rows.known.diagnostics.of_group(group),
-        rows: items.iter().map(|&(id, item)| rows.row(id, item, sub(item), false)).collect(),
+        doubts,
+        shared: shared::doubts(&mut rows),
+        diagnostics,
+        rows,
     }
 }
 

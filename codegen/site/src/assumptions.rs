@@ -102,6 +102,11 @@ impl<'d> AmbiguitySources<'d> {
                 let (anchor, title) = (section.anchor.as_deref(), named(&section.number, &section.name));
                 let link = || format!("{file}#{}", anchor.unwrap_or_default());
                 section.doubts.iter().for_each(|doubt| visitor(link(), &title, doubt));
+                for shared in &section.shared {
+                    for row in shared.rows(&section.rows) {
+                        visitor(format!("{file}#{}", row.anchor), &named(&row.number, &row.name), &shared.doubt);
+                    }
+                }
                 for row in &section.rows {
                     let (link, title) = (|| format!("{file}#{}", row.anchor), named(&row.number, &row.name));
                     row.doubts.iter().chain(&row.doubts_of_type).for_each(|doubt| visitor(link(), &title, doubt));

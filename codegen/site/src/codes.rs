@@ -5,6 +5,7 @@ use super::entry::{self, Doubt};
 use super::link::Relation;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
+use lexibus_codegen::facts::words::capital;
 use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
 
 /// A code table on a page.
@@ -61,7 +62,7 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
         }
     });
     let rows = rows.collect();
-    let columns = table.columns.iter().map(ToString::to_string).collect();
+    let columns = table.columns.iter().map(|column| capital(column)).collect();
     let doubts = entry::about(&device.doubts, SubjectKind::Codes, &table.name, manual);
     Codes { anchor, title: table.name.to_string(), facts, doubts, columns, rows }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::words::one_line;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::{Class, Code, Diagnostic};
-use lexibus_codegen::facts::words::sentence;
+use lexibus_codegen::facts::words::{capital, sentence};
 use lexibus_codegen::ir::{Group, Item};
 use lexibus_codegen::source::Span;
 
@@ -131,7 +131,8 @@ impl ShownDiagnostics {
 }
 
 fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic {
-    let position = compilation.sources.get(diagnostic.span.file.0 as usize).map(|source| {
+    let source = |span: Span| compilation.sources.get(span.file.0 as usize);
+    let position = source(diagnostic.span).map(|source| {
         let name = source.name().rsplit(['/', '\\']).next().unwrap_or_default();
         let at = source.position(diagnostic.span.start);
         if diagnostic.span.is_empty() {
@@ -140,11 +141,18 @@ fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic 
             format!("{name}:{}:{}", at.line, at.column)
         }
     });
-    let parts = [diagnostic.message.as_str(), &diagnostic.label]
-        .into_iter()
-        .chain(diagnostic.notes.iter().map(|note| note.message.as_str()));
-    let parts = parts.chain(diagnostic.help.as_deref()).map(one_line).filter(|part| !part.is_empty());
-    let text: Vec<String> = parts.map(|part| sentence(&part)).collect();
+    // The label completes the message: what the compiler did, or what is at the position.
+    let message = [diagnostic.message.as_str(), &diagnostic.label].map(one_line);
+    let message: Vec<&str> = message.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
+    // The note of a span names only what is there.
+    let notes = diagnostic.notes.iter().map(|note| match note.span.and_then(|span| source(span).zip(Some(span))) {
+        Some((source, span)) if !span.is_empty() => {
+            format!("Line {}: {}", source.position(span.start).line, one_line(&note.message))
+        }
+        _ => one_line(&note.message),
+    });
+    let parts = std::iter::once(message.join(": ")).chain(notes).chain(diagnostic.help.as_deref().map(one_line));
+    let text: Vec<String> = parts.filter(|part| !part.is_empty()).map(|part| sentence(&capital(&part))).collect();
     ShownDiagnostic { position: position.unwrap_or_default(), code: diagnostic.code, text: text.join(" ") }
 }
 

@@ -62,7 +62,7 @@ pub(super) struct Row {
 }
 
 /// An ambiguity in the source.
-#[derive(Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
     /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the ambiguity is shown at its subject.
     pub subject: String,
@@ -171,7 +171,13 @@ impl Rows<'_> {
         let lookups: Vec<String> =
             addresses.iter().map(|address| address.lookup.clone()).filter(|lookup| !lookup.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|address| address.text != number);
-        let elsewhere = addresses.map(|address| format!("{}: {}", address.bus, address.text)).collect();
+        let mut elsewhere: Vec<String> = Vec::new();
+        // Several windows can have the same address.
+        for address in addresses.map(|address| format!("{}: {}", address.bus, address.text)) {
+            if !elsewhere.contains(&address) {
+                elsewhere.push(address);
+            }
+        }
         let description = PLAIN.description(item.documentation.as_deref());
         Row {
             id,

@@ -266,7 +266,7 @@ impl<'a> Folder<'a> {
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
         let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
-        self.index.device(&listed.title, &listed.words());
+        self.index.device(&listed.title, &listed.words(), listed.distinction());
         self.index_page(&first, "device", &listed.title, &listed.words());
         for area in &parts.areas {
             self.page(&frame, &area.file, Content::Area(area));
@@ -352,8 +352,10 @@ impl<'a> Folder<'a> {
                 }
             }
             for sequence in &behaviour.sequences {
-                let words = sequence.facts.first().map_or("", String::as_str);
-                self.index.entry(&Entry { words, ..index_entry(&sequence.anchor, "procedure", &sequence.name) });
+                // The anchor is the identifier of the procedure.
+                let words = format!("{} {}", sequence.anchor, sequence.facts.first().map_or("", String::as_str));
+                self.index
+                    .entry(&Entry { words: &words, ..index_entry(&sequence.anchor, "procedure", &sequence.name) });
             }
         }
         if let Some((file, tables)) = &parts.codes {
@@ -374,7 +376,7 @@ impl<'a> Folder<'a> {
 
     fn module_pages(&mut self, modules: &Modules, frame: &Frameset) {
         if !modules.files.is_empty() {
-            self.index.device(&frame.title, "");
+            self.index.device(&frame.title, "", "");
         }
         for ((file, title), modules) in modules.pages() {
             self.page(frame, file, Content::Modules(modules));

@@ -67,7 +67,8 @@ type Column = (&'static str, fn(&Listed) -> &str);
 /// The columns of a list of devices, after the name.
 const COLUMNS: [Column; 7] = [
     ("Order code", |device| &device.order_code),
-    ("Vendor", |device| &device.vendor),
+    // The heading of a family contains the vendor.
+    ("Vendor", |device| if device.family.is_empty() { &device.vendor } else { "" }),
     ("Product code", |device| &device.product_code),
     ("Revision", |device| &device.revision),
     ("Buses", |device| &device.buses),

@@ -50,6 +50,7 @@ mod references;
 mod requests;
 mod revisions;
 mod search;
+mod shared;
 mod slots;
 mod split;
 mod tools;

@@ -209,7 +209,7 @@ fn sequence(procedure: &Procedure, device: &Device, manual: &Manual, names: &mut
     let step = |step: &Step| SequenceStep { text: PLAIN.step(step), item: None };
     Sequence {
         anchor: names.anchor(&procedure.name),
-        name: procedure.name.to_string(),
+        name: readable(&procedure.name),
         facts,
         doubts,
         steps: procedure.steps.iter().map(step).collect(),

@@ -7,7 +7,7 @@ use lexibus_codegen::facts::device;
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::profinet::{self, NamedFacts};
 use lexibus_codegen::ir::{
-    Catalog, Device, DistributedClocks, EtherCatSettings, Manual, ModbusTable, ProfinetSettings,
+    Catalog, Device, DistributedClocks, EtherCatSettings, Manual, ModbusTable, ProfinetSettings, RegisterSpace,
 };
 
 /// The content of a device's first page.
@@ -124,8 +124,13 @@ fn addresses(device: &Device) -> &'static str {
 fn modbus(table: &ModbusTable, is_one_of_several: bool) -> String {
     let functions: Vec<String> = table.functions.iter().map(u8::to_string).collect();
     let space = if is_one_of_several { format!("{}: ", table.space.title()) } else { String::new() };
+    let elements = match table.space {
+        RegisterSpace::Coil => "coils",
+        RegisterSpace::DiscreteInput => "discrete inputs",
+        RegisterSpace::Holding | RegisterSpace::Input => "registers",
+    };
     let most = [("reads", table.max_read), ("writes", table.max_write)];
-    let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {}", most?)));
+    let most = most.into_iter().filter_map(|(what, most)| Some(format!("{what} up to {} {}", most?, elements)));
     let facts: Vec<String> = std::iter::once(format!("functions {}", functions.join(", "))).chain(most).collect();
     space + &facts.join("; ")
 }

@@ -154,6 +154,15 @@ impl Listed {
         (Reverse(self.revision_number), &self.file)
     }
 
+    /// Returns the text that distinguishes the device from others with the same title: the revision, otherwise the file.
+    pub fn distinction(&self) -> &str {
+        if self.revision.is_empty() {
+            &self.file
+        } else {
+            &self.revision
+        }
+    }
+
     /// Returns the words that the search finds the device by, apart from its title.
     pub fn words(&self) -> String {
         let words = [&self.order_code, &self.vendor, &self.family, &self.product_code, &self.revision, &self.buses];

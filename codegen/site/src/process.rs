@@ -42,6 +42,13 @@ pub(super) struct Frame {
     pub entries: Vec<Entry>,
 }
 
+impl Frame {
+    /// Returns whether at least one entry is an object. The data of PROFINET submodules have no objects.
+    pub fn has_objects(&self) -> bool {
+        self.entries.iter().any(|entry| !entry.object.is_empty())
+    }
+}
+
 /// A row of the drawing, with eight bytes.
 #[derive(Debug)]
 pub(super) struct Row {

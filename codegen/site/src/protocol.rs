@@ -7,6 +7,7 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::{bytes, hex8};
 use lexibus_codegen::facts::physical::Physical;
 use lexibus_codegen::facts::types;
+use lexibus_codegen::facts::words::{capital, sentence};
 use lexibus_codegen::ir::Manual;
 use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
 
@@ -77,14 +78,14 @@ fn delimited(framing: &Framing) -> Vec<(&'static str, String)> {
     if framing.escape.is_some() {
         let escaped: Vec<String> = framing.escaped.iter().copied().map(hex8).collect();
         facts.push(("Escaped bytes", escaped.join(", ")));
-        facts.push(("Sent combined with", format!("{} (exclusive or)", hex8(framing.escape_xor))));
+        facts.push(("Mask of escaped bytes", format!("{} (XOR)", hex8(framing.escape_xor))));
     }
     if !framing.check.is_empty() {
-        facts.push(("Check", format!("{}, beginning with 0x{:02X}", framing.check, framing.check_seed)));
+        facts.push(("Check byte", format!("{}, beginning with 0x{:02X}", framing.check, framing.check_seed)));
     }
-    facts.extend(framing.check_from.as_ref().map(|field| ("Checked from", field.to_string())));
-    facts.extend(framing.max_data.map(|max| ("Most bytes of data", max.to_string())));
-    facts.extend(framing.address.as_ref().map(|field| ("Number of the device", field.to_string())));
+    facts.extend(framing.check_from.as_ref().map(|field| ("First checked field", field.to_string())));
+    facts.extend(framing.max_data.map(|max| ("Maximum number of data bytes", max.to_string())));
+    facts.extend(framing.address.as_ref().map(|field| ("Address field", field.to_string())));
     facts
 }
 
@@ -92,9 +93,11 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
     let mut facts = PLAIN.description(message.documentation.as_deref());
     facts.extend(match &message.completion {
         Completion::Immediate => None,
-        Completion::Reply => Some("The reply comes when the order is carried out.".to_owned()),
-        Completion::Delayed(milliseconds) => Some(format!("The order is carried out after {milliseconds} ms.")),
-        Completion::Polled { item, .. } => Some(format!("The order is carried out when {item} says so.")),
+        Completion::Reply => Some("The device replies after it has completed the command.".to_owned()),
+        Completion::Delayed(milliseconds) => {
+            Some(format!("The device completes the command {milliseconds} ms after the request."))
+        }
+        Completion::Polled { item, .. } => Some(format!("{item} shows when the device has completed the command.")),
     });
     facts.extend(message.reply_time.map(|time| format!("The reply takes about {time} ms.")));
     if !message.accepted_in.is_empty() {
@@ -107,11 +110,11 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
             .iter()
             .map(|accepted_when| format!("Accepted only while {}.", PLAIN.holds(accepted_when))),
     );
-    facts.extend(message.side_effects.iter().map(|effect| lexibus_codegen::facts::words::sentence(effect)));
-    facts.extend(message.after.as_ref().map(|other| format!("Means this after {other}.")));
-    facts.extend(message.by_default.then(|| "So it is after power-on, too.".to_owned()));
+    facts.extend(message.side_effects.iter().map(|effect| sentence(effect)));
+    facts.extend(message.after.as_ref().map(|other| format!("Has this meaning after {other}.")));
+    facts.extend(message.by_default.then(|| "This meaning also applies after power-on.".to_owned()));
     facts.extend(
-        message.error.as_ref().map(|other| format!("Where the device refuses, {other} comes instead of the reply.")),
+        message.error.as_ref().map(|other| format!("If the device rejects the request, it replies with {other}.")),
     );
     facts.extend(message.availability.as_ref().map(|availability| PLAIN.availability(availability)));
     facts.extend(PLAIN.manual_entry(manual, "", message.documentation.as_deref(), &message.names));
@@ -200,12 +203,12 @@ impl Parts<'_> {
                 .map(|limits| format!("{limits}.")),
         );
         if let Some(quantity) = &item.quantity {
-            facts.extend(PLAIN.unit(quantity).map(|unit| format!("{unit}.")));
+            facts.extend(PLAIN.unit(quantity).map(|unit| sentence(&capital(&unit))));
             facts.extend(PLAIN.notes(quantity));
         }
         if !value.byte_order.is_empty() {
             let order: String = value.byte_order.iter().map(|byte| char::from(b'A'.saturating_add(*byte))).collect();
-            facts.push(format!("Bytes in the order {order}, A being the most significant."));
+            facts.push(format!("Byte order {order}; A is the most significant byte."));
         }
         facts.extend(value.counts.as_ref().map(|from| format!("The number of bytes from {from} on.")));
         facts.extend(PLAIN.description(item.documentation.as_deref()));

@@ -50,6 +50,11 @@ impl Comparison {
         let (old, new) = (old.0.to_owned(), new.0.to_owned());
         Comparison { title: format!("{old} → {new}"), old, new, summary: Summary::of(&changes), changes }
     }
+
+    /// Returns whether the title contains the names of both sides, so that the page does not repeat them.
+    pub fn title_has_names(&self) -> bool {
+        self.title == format!("{} → {}", self.old, self.new)
+    }
 }
 
 /// A page of changes that is written when both descriptions are known.

@@ -13,14 +13,23 @@ const WORDS: usize = 80;
 /// A search index.
 #[derive(Debug, Default)]
 pub(super) struct Index {
-    /// Title and further searchable words of each device: vendor, order code, identity.
-    devices: Vec<(String, String)>,
+    devices: Vec<Device>,
     /// Pages of the devices with their entries.
     pages: Vec<Page>,
     numbers: Texts,
     /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate these
     /// texts.
     texts: Texts,
+}
+
+/// A device in the index.
+#[derive(Clone, Debug)]
+struct Device {
+    title: String,
+    /// Further searchable words: vendor, order code, identity.
+    words: String,
+    /// The revision or file, which the search shows if several devices have the same title.
+    distinction: String,
 }
 
 #[derive(Debug)]
@@ -74,8 +83,9 @@ impl Texts {
 
 impl Index {
     /// Adds a device. Pages that are added later belong to this device. `words` are found together with each entry of the device.
-    pub fn device(&mut self, title: &str, words: &str) {
-        self.devices.push((line(title), line(words)));
+    /// `distinction` is shown after the title if several devices have this title.
+    pub fn device(&mut self, title: &str, words: &str, distinction: &str) {
+        self.devices.push(Device { title: line(title), words: line(words), distinction: line(distinction) });
     }
 
     /// Adds a page of the last device. `path` is relative to the site's folder. Entries that are added later belong to this page.
@@ -118,7 +128,13 @@ impl Index {
     /// Returns the index as a script. Texts are JSON strings, so the browser does not execute them.
     pub fn script(&self) -> String {
         let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
-        let devices = self.devices.iter().map(|(title, words)| format!("[{},{}]", json(title), json(words)));
+        let mut titles: HashMap<&str, usize> = HashMap::new();
+        self.devices.iter().for_each(|device| *titles.entry(&device.title).or_default() += 1);
+        let shown = |Device { title, distinction, .. }: &Device| match titles.get(title.as_str()) {
+            Some(2..) if !distinction.is_empty() => format!("{title} ({distinction})"),
+            _ => title.clone(),
+        };
+        let devices = self.devices.iter().map(|device| format!("[{},{}]", json(&shown(device)), json(&device.words)));
         let devices = devices.collect::<Vec<_>>().join(",");
         let pages = self.pages.iter().map(|page| format!("[{},{},{}]", json(&page.path), page.device, json(page.kind)));
         let pages = pages.collect::<Vec<_>>().join(",");
@@ -150,11 +166,11 @@ mod tests {
     #[test]
     fn indices_are_joined() {
         let (mut one, mut all) = (Index::default(), Index::default());
-        one.device("A", "Vendor");
+        one.device("A", "Vendor", "0x00000001");
         one.page("a.html", "");
         one.entry(&entry("0x6040", "Control\nword"));
         one.entry(&entry("word", "first"));
-        all.device("X", "");
+        all.device("X", "", "");
         all.page("x.html", "state");
         all.entry(&entry("0x6040", "first"));
         all.add(&one);
@@ -165,5 +181,8 @@ mod tests {
 "\n\nword",
 [[0,0],[0,1,0,0]]);"#;
         assert_eq!(all.script().trim_end(), expected);
+        all.device("A", "Vendor", "0x00000002");
+        let expected = r#"[["X",""],["A (0x00000001)","Vendor"],["A (0x00000002)","Vendor"]]"#;
+        assert!(all.script().contains(expected), "{}", all.script());
     }
 }

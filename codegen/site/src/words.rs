@@ -17,11 +17,12 @@ pub(super) fn readable(name: &str) -> String {
 /// Separator of the languages that share a translation.
 const SEPARATOR: &str = ", ";
 
-/// Returns the translations of a name, each with its languages: `("de, fr", "Position")`. Translations that equal `name` are left out.
+/// Returns the translations of a name, each with its languages: `("de, fr", "Position")`. Translations that equal `name`, apart from capitals,
+/// underscores and hyphens, are left out.
 /// Languages with the same text share one entry.
 pub(super) fn names(name: &str, translations: &Texts) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = Vec::new();
-    for translation in translations.iter().filter(|translation| one_line(&translation.text) != one_line(name)) {
+    for translation in translations.iter().filter(|translation| compared(&translation.text) != compared(name)) {
         match all.iter_mut().find(|(_, text)| *text == translation.text) {
             Some((languages, _)) => {
                 languages.push_str(SEPARATOR);
@@ -31,6 +32,12 @@ pub(super) fn names(name: &str, translations: &Texts) -> Vec<(String, String)> {
         }
     }
     all
+}
+
+/// Returns a text in the form in which a name and its translation are compared: `switch on disabled` for `switch_on_disabled` and for
+/// `Switch ON disabled`.
+fn compared(text: &str) -> String {
+    one_line(&text.replace(['_', '-'], " ")).to_lowercase()
 }
 
 /// Returns the translations of a description, each with its languages. Equal texts are handled as in [`names`].
@@ -61,6 +68,8 @@ mod tests {
         let shown = names("Position", &texts.into_iter().map(local).collect());
         let expected = [("de, nl", "Lage"), ("it", "Posizione")];
         assert_eq!(shown, expected.map(|(languages, text)| (languages.to_owned(), text.to_owned())));
+        let printed = [LocalText { language: "it".into(), text: "Switch ON disabled".into() }];
+        assert_eq!(names("switch_on_disabled", &printed.into_iter().collect()), []);
         assert_eq!((first_language("de, nl"), shared_by("de, nl")), ("de", Some("de, nl")));
         assert_eq!((first_language("it"), shared_by("it")), ("it", None));
     }

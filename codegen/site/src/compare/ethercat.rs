@@ -4,7 +4,7 @@ use super::change::Judgement;
 use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
 use super::show::{index, Show};
 use lexibus_codegen::facts::address;
-use lexibus_codegen::facts::number::{bytes, hex16};
+use lexibus_codegen::facts::number::{bytes, hex16, hex32};
 use lexibus_codegen::ir::{
     ClockMode, ClockSyncManager, ClockTime, Coe, CompactString, DistributedClocks, Eeprom, EtherCatSettings, Fmmu,
     InitCommand, Mailbox, ModulePdoGroup, Protocol, SlotRules, SyncUnit,
@@ -14,7 +14,9 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     compare_fields!(EtherCatSettings, old, new, comparison, {
         physics: fact("ports", Judgement::BEHAVIOR),
         group: text("family"),
-        hides: fact_as("hidden revisions", Judgement::NONE, |list: &Vec<(Option<u32>, Option<u32>)>| list.show()),
+        hides: fact_as("hidden revisions", Judgement::NONE, |list: &Vec<(Option<u32>, Option<u32>)>| {
+            joined(list, hidden)
+        }),
         invisible: fact("hidden in lists of devices", Judgement::NONE),
         fmmus: fact_as("FMMUs", Judgement::WIRE, |list: &Vec<Fmmu>| joined(list, fmmu)),
         sync_units: fact_as("sync units", Judgement::WIRE, |list: &Vec<SyncUnit>| joined(list, sync_unit)),
@@ -27,6 +29,11 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
         eeprom: optional("EEPROM", Judgement::BEHAVIOR_COMPATIBLE, Judgement::BEHAVIOR, eeprom),
         timeouts: fact("time limits in ms", Judgement::BEHAVIOR),
     });
+}
+
+/// Returns the product code and revision of a device that the device hides.
+fn hidden((product, revision): &(Option<u32>, Option<u32>)) -> String {
+    [product, revision].into_iter().flatten().copied().map(hex32).collect::<Vec<_>>().join(" ")
 }
 
 /// Joins the elements of a list. `show` formats each element.

@@ -74,13 +74,17 @@ for (const box of document.querySelectorAll(".wide, pre")) boxes.observe(box);
 // The tree of pages. The contents of the open page are below its entry: objects of a table, otherwise headings.
 const tree = byId("tree"), open = tree?.querySelector("[aria-current]");
 
+// Returns copies of the parts of a heading, with names as elements, so that the choice of the language applies to them.
+const copies = (parts) => [...parts].map((part) => part.nodeName === "A" ? part.textContent : part.cloneNode(true));
+
 function contents() {
   const objects = [...document.querySelectorAll("tbody.object[id]")];
   const sections = objects.length ? objects : [...document.querySelectorAll("main section[id]")];
   return sections.map((section) => {
     const heading = section.querySelector("h2, h3") ?? section.querySelector("tr");
-    const [number, name] = heading.matches("tr") ? [heading.cells[0], heading.cells[1].querySelector("b")] : [heading];
-    return element("li", {}, element("a", { href: "#" + section.id, textContent: [number, name].filter(Boolean).map((part) => part.textContent).join(" ") }));
+    const row = heading.matches("tr") && heading.cells;
+    const parts = row ? [row[0].textContent, " ", ...copies(row[1].querySelectorAll(":scope > :is(b, i)"))] : copies(heading.childNodes);
+    return element("li", {}, element("a", { href: "#" + section.id }, ...parts));
   });
 }
 
@@ -97,6 +101,16 @@ byId("filter")?.addEventListener("input", ({ target }) => {
   for (const item of [...tree.querySelectorAll("li")].reverse()) {
     item.hidden = !plain(item.firstElementChild.textContent).includes(typed) && !item.querySelector("li:not([hidden])");
   }
+});
+
+// Printed pages contain the texts that are folded on the screen.
+let unfolded = [];
+addEventListener("beforeprint", () => {
+  unfolded = [...document.querySelectorAll("main details:not([open], .tools)")];
+  for (const details of unfolded) details.open = true;
+});
+addEventListener("afterprint", () => {
+  for (const details of unfolded) details.open = false;
 });
 
 // The drawer with the tree on narrow screens.
@@ -130,5 +144,5 @@ byId("devices")?.addEventListener("input", ({ target }) => {
     group.hidden = shown === 0;
     count += shown;
   }
-  byId("shown").textContent = `${count} devices`;
+  byId("shown").textContent = `${count} device${count === 1 ? "" : "s"}`;
 });

@@ -39,6 +39,8 @@ fn the_search_finds_modules_by_name_order_code_and_ident_number() {
     }
     let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
     assert!(modules.contains("<section id=\"module-00000030\">"), "{modules}");
+    // The data of submodules have no objects.
+    assert!(!modules.contains("<th scope=\"col\">Object"), "{modules}");
 }
 
 #[test]
@@ -142,12 +144,54 @@ fn revisions_in_two_files_are_compared() {
         let pages = site(Format::Html, sources);
         let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
         let changes = text("maker/pump-0x00000007/0x00000002/changes.html");
-        assert!(changes.contains("<td>access<td>rw<td>ro"), "{changes}");
+        assert!(changes.contains("<td>access<td data-title=\"Old\">rw<td data-title=\"New\">ro"), "{changes}");
         assert!(text("maker/pump-0x00000007/0x00000002/index.html").contains("Changes since revision 0x00000001"));
         assert!(text("maker/pump-0x00000007/latest/index.html").contains("href=\"../0x00000002/index.html\""));
         assert!(pages.iter().all(|page| page.path != "maker/pump-0x00000007/0x00000001/changes.html"));
         html_links(&pages);
+        // The results of the search state the revision if the titles are equal.
+        for device in ["[\"Pump (0x00000001)\",", "[\"Pump (0x00000002)\","] {
+            assert!(text("search.js").contains(device), "{device}");
+        }
     }
+}
+
+#[test]
+fn notes_of_an_object_are_shown_once() {
+    let pages = files(Format::Html, &["dictionaries/aec-vector-step.toml", "dictionaries/eco.toml"]);
+    let text = |end: &str| &pages.iter().find(|page| page.path.ends_with(end)).unwrap_or_else(|| panic!("{end}")).text;
+    let objects = text("vector-step/no-revision/communication-objects.html");
+    // Both entries of the object have this ambiguity.
+    assert_eq!(objects.matches("both have the symbol standard_error_field").count(), 1);
+    assert!(objects.contains("<p>For 0x1003:01, 0x1003:02:<div"), "{objects}");
+    // A register has the same address in several windows.
+    let (_, parameter) = text("eco/no-revision/parameters.html").split_once("<tbody id=\"d1\"").expect("a register");
+    let (parameter, _) = parameter.split_once("</tbody>").expect("an end");
+    assert_eq!(parameter.matches("parameter 0x0001 on CANopen").count(), 1, "{parameter}");
+    // The compiler reports the object once, at its section.
+    let eds = "[DeviceInfo]\nProductName=Pump\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
+               [2000]\nParameterName=Speed\nDataType=6\nAccessType=ro\n\
+               [3001]\nParameterName=Gains\nObjectType=9\nSubNumber=2\n\
+               [3001sub0]\nParameterName=Count\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+               [3001sub1]\nParameterName=Gain\nDataType=6\nAccessType=rw\n";
+    let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.eds", eds.into()))]);
+    let page = pages.iter().find(|page| page.path.ends_with("manufacturer-objects.html")).expect("the page");
+    assert_eq!(page.text.matches("Object 0x3001 is described, but is in no object list").count(), 1, "{}", page.text);
+}
+
+#[test]
+fn families_have_their_vendor_in_the_heading() {
+    let device = "<Device Physics=\"YY\"><Type ProductCode=\"#x1\" RevisionNo=\"#x1\">T1</Type><Name>T1</Name>\
+                  <GroupType>Terminals</GroupType></Device>";
+    let esi = format!(
+        "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Maker</Name></Vendor><Descriptions><Groups><Group>\
+         <Type>Terminals</Type><Name>Terminals</Name></Group></Groups><Devices>{device}</Devices></Descriptions>\
+         </EtherCATInfo>"
+    );
+    let pages = site(Format::Html, vec![("terminals".to_owned(), Source::new("terminals.xml", esi.into()))]);
+    let list = &pages.iter().find(|page| page.path == "index.html").expect("the list").text;
+    assert!(list.contains("Maker – Terminals") && !list.contains("<th scope=\"col\">Vendor"), "{list}");
+    assert!(list.contains(">1 device<"), "{list}");
 }
 
 #[test]
