@@ -47,6 +47,7 @@
 //! | buses and addresses of an item | [`Location`], [`On`], [`location!`] |
 //! | scaling and units | [`Quantity`], [`Scaled`] and related types |
 //! | the state machine of a drive | [`Walker`], [`Machine`], [`Step`] |
+//! | modes, homing and motion of a CiA 402 drive | [`cia402`] |
 //! | the configuration of a DCF or XDC | [`Configuration`] |
 //! | alarms and other codes | [`codes`] |
 //! | custom clients | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`], [`Clock`], [`Timer`] |
@@ -92,6 +93,7 @@ mod axes;
 mod bit_field;
 pub mod bits;
 mod bus;
+pub mod cia402;
 mod client;
 #[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus", feature = "serial"))]
 pub mod clients;
@@ -127,6 +129,7 @@ pub mod profinet;
 mod quantity;
 mod range;
 mod register;
+mod remaining;
 mod retrying;
 mod route;
 #[cfg(feature = "canopen")]

@@ -93,6 +93,40 @@ impl<C> DemoDrive<C> {
             walked => walked,
         }
     }
+    /// Returns the operations of CiA 402: change of the mode and set-points with handshake.
+    ///
+    /// The operations need a drive in the state "Operation enabled", except the change of the mode. See [`rt::cia402`].
+    pub fn cia402(&mut self) -> rt::cia402::Drive<'_, C, DemoDrive<()>> {
+        rt::cia402::Drive::new(&mut self.client)
+    }
+}
+impl<B: rt::Bus> rt::cia402::Objects<B> for DemoDrive<()>
+where
+    rt::OnCanOpen: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn controlword() -> impl rt::cia402::ReadInteger<B> + rt::cia402::WriteInteger<B> {
+        objects::CONTROLWORD
+    }
+    fn statusword() -> impl rt::cia402::ReadInteger<B> {
+        objects::STATUSWORD
+    }
+    fn modes_of_operation() -> impl rt::cia402::WriteInteger<B> {
+        objects::MODES_OF_OPERATION
+    }
+    fn modes_of_operation_display() -> impl rt::cia402::ReadInteger<B> {
+        objects::MODES_OF_OPERATION_DISPLAY
+    }
+    fn error_code() -> impl rt::cia402::ReadInteger<B> {
+        objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1
+    }
+}
+impl<B: rt::Bus> rt::cia402::Positioning<B> for DemoDrive<()>
+where
+    rt::OnCanOpen: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn target_position() -> impl rt::cia402::WriteInteger<B> {
+        objects::TARGET_POSITION
+    }
 }
 /// Communication objects.
 impl<C> DemoDrive<C> {

@@ -243,6 +243,76 @@ impl<C> Eco<C> {
         let machine = rt::Machine::new(objects::STATUSWORD, objects::CONTROLWORD);
         machine.walk_async(&mut self.client, control, target, deadline).await
     }
+    /// Returns the operations of CiA 402: change of the mode, set-points with handshake, velocities and homing.
+    ///
+    /// The operations need a drive in the state "Operation enabled", except the change of the mode. See [`rt::cia402`].
+    pub fn cia402(&mut self) -> rt::cia402::Drive<'_, C, Eco<()>> {
+        rt::cia402::Drive::new(&mut self.client)
+    }
+}
+impl<B: rt::Bus> rt::cia402::Objects<B> for Eco<()>
+where
+    objects::OnCanOpenCoEImage: rt::On<B, Route: rt::ReadRoute<B>>,
+    objects::OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut: rt::On<
+        B,
+        Route: rt::WriteRoute<B>,
+    >,
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn controlword() -> impl rt::cia402::ReadInteger<B> + rt::cia402::WriteInteger<B> {
+        objects::CONTROLWORD
+    }
+    fn statusword() -> impl rt::cia402::ReadInteger<B> {
+        objects::STATUSWORD
+    }
+    fn modes_of_operation() -> impl rt::cia402::WriteInteger<B> {
+        objects::MODES_OF_OPERATION
+    }
+    fn modes_of_operation_display() -> impl rt::cia402::ReadInteger<B> {
+        objects::MODES_OF_OPERATION_DISPLAY
+    }
+}
+impl<B: rt::Bus> rt::cia402::Positioning<B> for Eco<()>
+where
+    objects::OnCanOpenCoEImage: rt::On<B, Route: rt::ReadRoute<B>>,
+    objects::OnCanOpenCoEModbusImageWindowInOut: rt::On<B, Route: rt::WriteRoute<B>>,
+    objects::OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut: rt::On<
+        B,
+        Route: rt::WriteRoute<B>,
+    >,
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn target_position() -> impl rt::cia402::WriteInteger<B> {
+        objects::TARGET_POSITION
+    }
+}
+impl<B: rt::Bus> rt::cia402::Velocity<B> for Eco<()>
+where
+    objects::OnCanOpenCoEImage: rt::On<B, Route: rt::ReadRoute<B>>,
+    objects::OnCanOpenCoEModbusImageWindows: rt::On<B, Route: rt::WriteRoute<B>>,
+    objects::OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut: rt::On<
+        B,
+        Route: rt::WriteRoute<B>,
+    >,
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn target_velocity() -> impl rt::cia402::WriteInteger<B> {
+        objects::TARGET_VELOCITY
+    }
+}
+impl<B: rt::Bus> rt::cia402::Homing<B> for Eco<()>
+where
+    objects::OnCanOpenCoEImage: rt::On<B, Route: rt::ReadRoute<B>>,
+    objects::OnCanOpenCoEModbusImageWindows: rt::On<B, Route: rt::WriteRoute<B>>,
+    objects::OnCanOpenWindowInLimitedOutCoEWindowInLimitedOutModbusImageWindowInOut: rt::On<
+        B,
+        Route: rt::WriteRoute<B>,
+    >,
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn homing_method() -> impl rt::cia402::WriteInteger<B> {
+        objects::HOMING_METHOD
+    }
 }
 /// Process images.
 impl<C> Eco<C> {

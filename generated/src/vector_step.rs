@@ -394,6 +394,48 @@ impl<C> VectorStep<C> {
             walked => walked,
         }
     }
+    /// Returns the operations of CiA 402: change of the mode, set-points with handshake and homing.
+    ///
+    /// The operations need a drive in the state "Operation enabled", except the change of the mode. See [`rt::cia402`].
+    pub fn cia402(&mut self) -> rt::cia402::Drive<'_, C, VectorStep<()>> {
+        rt::cia402::Drive::new(&mut self.client)
+    }
+}
+impl<B: rt::Bus> rt::cia402::Objects<B> for VectorStep<()>
+where
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn controlword() -> impl rt::cia402::ReadInteger<B> + rt::cia402::WriteInteger<B> {
+        objects::CONTROLWORD
+    }
+    fn statusword() -> impl rt::cia402::ReadInteger<B> {
+        objects::STATUSWORD
+    }
+    fn modes_of_operation() -> impl rt::cia402::WriteInteger<B> {
+        objects::MODES_OF_OPERATION
+    }
+    fn modes_of_operation_display() -> impl rt::cia402::ReadInteger<B> {
+        objects::MODES_OF_OPERATION_DISPLAY
+    }
+    fn error_code() -> impl rt::cia402::ReadInteger<B> {
+        objects::ERROR_CODE
+    }
+}
+impl<B: rt::Bus> rt::cia402::Positioning<B> for VectorStep<()>
+where
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn target_position() -> impl rt::cia402::WriteInteger<B> {
+        objects::TARGET_POSITION
+    }
+}
+impl<B: rt::Bus> rt::cia402::Homing<B> for VectorStep<()>
+where
+    rt::OnCanOpenAndCoE: rt::On<B, Route: rt::ReadRoute<B> + rt::WriteRoute<B>>,
+{
+    fn homing_method() -> impl rt::cia402::WriteInteger<B> {
+        objects::HOMING_METHOD
+    }
 }
 /// Position registers.
 impl<C> VectorStep<C> {

@@ -7,15 +7,12 @@ use super::walker::{MachineState, Stopped, Walker};
 use super::word::StateWord;
 use crate::access::{Readable, Writable};
 use crate::client::{AsyncClient, Client};
-use crate::clock::{Clock, DefaultClock};
 use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
+use crate::remaining::Remaining;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Fixed;
-
-/// Maximum pause between two readings of the status word.
-const PAUSE: Duration = Duration::from_millis(5);
 
 /// The items of a state machine: the status item `V` and the control item `W`, with their access rights and locations.
 pub struct Machine<V: Fixed, A, L, W: Fixed, B, M> {
@@ -100,28 +97,6 @@ impl<S: MachineState + fmt::Debug, E: core::error::Error> core::error::Error for
             Self::Access(error) => error.source(),
             _ => None,
         }
-    }
-}
-
-/// The time until a deadline. Without a clock, only the pauses count.
-struct Remaining {
-    start: Option<Duration>,
-    waited: Duration,
-    deadline: Duration,
-}
-
-impl Remaining {
-    fn new(deadline: Duration) -> Self {
-        Self { start: DefaultClock.now(), waited: Duration::ZERO, deadline }
-    }
-
-    /// Returns the next pause, or `None` after the deadline.
-    fn pause(&mut self) -> Option<Duration> {
-        let elapsed = self.start.zip(DefaultClock.now()).map(|(start, now)| now.saturating_sub(start));
-        let rest = self.deadline.saturating_sub(elapsed.unwrap_or_default().max(self.waited));
-        let pause = rest.min(PAUSE);
-        self.waited += pause;
-        (!pause.is_zero()).then_some(pause)
     }
 }
 

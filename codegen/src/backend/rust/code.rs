@@ -6,4 +6,5 @@ mod layout;
 mod writer;
 
 pub(super) use doc::{call, generic, list, seq, slice, Break, Data, Doc, Stop};
+pub(super) use layout::MARGIN;
 pub(super) use writer::{line, open, Code};

@@ -2,6 +2,7 @@
 
 use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
+use super::cia402::Cia402Model;
 use super::code::Doc;
 use super::code_table::{self, CodeTableModel};
 use super::composite;
@@ -71,6 +72,8 @@ pub(super) struct Model {
     pub types: Types,
     /// Methods that lead a state machine to a state.
     pub walks: Vec<WalkModel>,
+    /// The objects of CiA 402 for the operations of the runtime.
+    pub cia402: Option<Cia402Model>,
     pub code_tables: Vec<CodeTableModel>,
     /// Procedures that consist only of object writes.
     pub procedures: Vec<ProcedureModel>,
@@ -152,6 +155,7 @@ impl Model {
         let pdos = if options.pdos { pdo::models(context, options) } else { Vec::new() };
         let types = Types::of(context, options);
         let remappable = if options.pdos { remap::models(context, &mut objects) } else { Vec::new() };
+        let walks = walk::models(context, &locations, &objects, &types.machines);
         Model {
             location: locations.name(locations.usual, ""),
             has_locations: locations.several,
@@ -159,7 +163,8 @@ impl Model {
             makers: locations.makers(),
             windows: window_model::models(context),
             handles: context.handles(),
-            walks: walk::models(context, &locations, &objects, &types.machines),
+            cia402: Cia402Model::new(context, &locations, &objects, &walks),
+            walks,
             types,
             accessor_derives: options.derives(false),
             aliases: handle::aliases(&objects),

@@ -3,6 +3,7 @@
 
 mod accessors;
 pub(super) mod bit_field;
+mod cia402;
 pub(super) mod codes;
 mod configuration;
 mod device;

@@ -2,18 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::code::{generic, seq, Doc};
+use super::code::Doc;
+use super::constants::{bound, Constant, Constants};
 use super::context::Context;
 use super::docs;
-use super::item::ItemModel;
-use super::item_addresses::ItemAddresses;
-use super::links::DocModule;
 use super::locations::Locations;
 use super::machine::MachineModel;
 use super::method_names::{unused_name, RESERVED};
 use super::naming::machines::NamedMachine;
 use super::objects::ObjectModel;
-use super::value_type;
 use crate::ir::{ItemRef, StateMachine};
 use crate::names::{self, Case, NameRequest};
 
@@ -38,7 +35,7 @@ pub(super) struct WalkModel {
 
 /// Objects that contain the error code of a fault, by preference: the error code of CiA 402, 6.2, and the first entry of the
 /// pre-defined error field of CiA 301, 7.5.2.4.
-const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
+pub(super) const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
 
 /// Returns the methods for the machines whose commands are bit patterns of an item. `machines` are the machines of the
 /// context, ready to be printed.
@@ -48,37 +45,28 @@ pub(super) fn models(
     objects: &[ObjectModel],
     machines: &[MachineModel],
 ) -> Vec<WalkModel> {
-    let constants = Constants { context, locations, objects };
+    let machines_of = Machines { constants: Constants { context, locations, objects } };
     let named = context.names.types.machines.iter().zip(machines).filter(|(_, model)| model.has_transitions());
     let count = named.clone().count();
     let mut used: Vec<String> = RESERVED.map(str::to_owned).to_vec();
     used.extend(objects.iter().map(|object| object.name.clone()));
-    let model = |(named, model): (&NamedMachine<'_>, &MachineModel)| {
+    let lower = |(named, model): (&NamedMachine<'_>, &MachineModel)| {
         let name = if count == 1 { "walk".to_owned() } else { format!("walk {}", named.machine.name) };
         let request = NameRequest { name: &name, fallback: "walk".to_owned(), suffix: String::new() };
         let name = names::identifier(&request, Case::Snake);
         let method = unused_name(|name| used.contains(name), name);
         used.extend([method.clone(), format!("{method}_async")]);
-        constants.walk(named, model.energized.clone(), method)
+        machines_of.walk(named, model.energized.clone(), method)
     };
-    named.filter_map(model).collect()
+    named.filter_map(lower).collect()
 }
 
-/// Access to the constants of items.
-struct Constants<'c, 'a> {
-    context: &'c Context<'a>,
-    locations: &'c Locations,
-    objects: &'c [ObjectModel],
+/// Creates the methods of state machines.
+struct Machines<'c, 'a> {
+    constants: Constants<'c, 'a>,
 }
 
-/// The constant of an item.
-struct Constant<'c> {
-    model: &'c ItemModel,
-    path: String,
-    location: String,
-}
-
-impl Constants<'_, '_> {
+impl Machines<'_, '_> {
     fn walk(&self, named: &NamedMachine<'_>, energized: Option<String>, method: String) -> Option<WalkModel> {
         let machine = named.machine;
         let (status, control) = (self.word(&machine.status_item)?, self.word(&machine.control_item)?);
@@ -92,9 +80,9 @@ impl Constants<'_, '_> {
         *of_control = (of_control.0 | reads_control, true);
         // The error code must exist on all buses on which the machine is accessed.
         let code = self.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
-        let bounds = accesses.iter().map(|(location, (reads, writes))| bound(location, *reads, *writes)).collect();
-        let error_code = code.as_ref().map(|code| self.link(code)).unwrap_or_default();
-        let docs = documentation(machine, &self.link(&status), &self.link(&control), &error_code);
+        let bounds = accesses.iter().map(|(location, access)| bound(location, "C::Bus", *access)).collect();
+        let error_code = code.as_ref().map(|code| self.constants.link(code)).unwrap_or_default();
+        let docs = documentation(machine, &self.constants.link(&status), &self.constants.link(&control), &error_code);
         Some(WalkModel {
             method,
             docs,
@@ -108,59 +96,14 @@ impl Constants<'_, '_> {
         })
     }
 
-    /// Returns a link to the constant of an item.
-    fn link(&self, constant: &Constant<'_>) -> String {
-        let id = constant.model.id;
-        let name = self.context.item(id).map_or("", |item| item.name.as_str());
-        self.context.link_to(id.into(), name, DocModule::TOP).unwrap_or_default()
-    }
-
     /// Returns the constant of a status item or control item.
     fn word(&self, reference: &ItemRef) -> Option<Constant<'_>> {
-        self.constant(&|model| Some(model.id) == reference.id)
+        self.constants.integer(&|model| Some(model.id) == reference.id).filter(|constant| !constant.is_quantity)
     }
 
     fn error_code(&self) -> Option<Constant<'_>> {
-        let of = |object: &(u16, u8)| self.constant(&|model| model.object == Some(*object));
-        ERROR_CODES.iter().find_map(of).filter(Constant::is_readable)
+        ERROR_CODES.iter().find_map(|object| self.constants.object(*object)).filter(Constant::is_readable)
     }
-
-    /// Returns the constant of an item, if the item is an integer of up to 32 bits without a unit.
-    fn constant(&self, is_it: &dyn Fn(&ItemModel) -> bool) -> Option<Constant<'_>> {
-        let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
-        let (object, model) = all.into_iter().find(|(_, item)| is_it(item))?;
-        let item = self.context.item(model.id)?;
-        let path = match object.is_module {
-            true => format!("objects::{}::{}", object.name, model.constant),
-            false => format!("objects::{}", model.constant),
-        };
-        let location = self.locations.name(ItemAddresses::of(self.context, item).buses(), "objects::");
-        (value_type::is_word(self.context.base(item.ty)) && item.quantity.is_none()).then_some(Constant {
-            model,
-            path,
-            location,
-        })
-    }
-}
-
-impl Constant<'_> {
-    fn is_readable(&self) -> bool {
-        self.model.access != "WriteOnly"
-    }
-
-    fn is_writable(&self) -> bool {
-        matches!(self.model.access, "ReadWrite" | "WriteOnly")
-    }
-}
-
-/// Returns the bound of a location type that a client reads, writes or both.
-fn bound(location: &str, reads: bool, writes: bool) -> Doc {
-    let route = match (reads, writes) {
-        (true, true) => "Route: rt::ReadRoute<C::Bus> + rt::WriteRoute<C::Bus>",
-        (true, false) => "Route: rt::ReadRoute<C::Bus>",
-        (false, _) => "Route: rt::WriteRoute<C::Bus>",
-    };
-    seq![location, ": ", generic!("rt::On", "C::Bus", route), ","]
 }
 
 /// Returns the documentation of the method. It links to the status item, the control item and the item that contains the

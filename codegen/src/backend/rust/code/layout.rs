@@ -3,7 +3,7 @@
 use super::doc::{Doc, Mark};
 
 /// Maximum width of a line in bytes. Like `prettyplease`, the writer counts bytes and not characters.
-const MARGIN: usize = 89;
+pub(in crate::backend::rust) const MARGIN: usize = 89;
 
 /// Number of spaces per indentation level.
 pub(super) const STEP: usize = 4;

@@ -86,7 +86,13 @@ fn methods(code: &mut Code, model: &Model) {
         self::walk(code, walk, false);
         self::walk(code, walk, true);
     }
+    if let Some(cia402) = &model.cia402 {
+        super::cia402::method(code, name, cia402);
+    }
     code.close("}");
+    if let Some(cia402) = &model.cia402 {
+        super::cia402::objects(code, name, cia402);
+    }
     for objects in model.objects.chunk_by(|one, other| one.area == other.area) {
         code.docs(objects.first().map(|object| docs::sentence(&docs::escape(&object.area))).as_slice());
         code.lines(method_allow(objects.iter().map(|object| object.name.as_str())));

@@ -1,0 +1,156 @@
+//! The objects of CiA 402 that a device has, for the operations of the runtime.
+
+use std::collections::BTreeMap;
+
+use super::code::Doc;
+use super::constants::{bound, Constant, Constants};
+use super::context::Context;
+use super::locations::Locations;
+use super::method_names::{unused_name, RESERVED};
+use super::objects::ObjectModel;
+use super::walk::{WalkModel, ERROR_CODES};
+
+/// The objects of CiA 402, ready to be printed.
+pub(super) struct Cia402Model {
+    /// Name of the method that returns the operations.
+    pub method: String,
+    pub docs: Vec<String>,
+    /// Traits of the runtime that the device's type implements.
+    pub traits: Vec<TraitModel>,
+}
+
+/// Implementation of a trait of the runtime.
+pub(super) struct TraitModel {
+    /// Path of the trait without its parameter.
+    pub path: &'static str,
+    pub functions: Vec<FunctionModel>,
+    /// Bounds of the location types.
+    pub bounds: Vec<Doc>,
+}
+
+/// A function that returns an object.
+pub(super) struct FunctionModel {
+    pub name: &'static str,
+    /// Whether the object is read and whether it is written.
+    pub access: (bool, bool),
+    /// Path of the constant.
+    pub path: String,
+}
+
+/// An object of CiA 402: its address, the function that returns it, and whether it is read and written.
+struct Role {
+    object: (u16, u8),
+    function: &'static str,
+    access: (bool, bool),
+}
+
+const READ: (bool, bool) = (true, false);
+const WRITE: (bool, bool) = (false, true);
+
+const CONTROLWORD: Role = Role { object: (0x6040, 0), function: "controlword", access: (true, true) };
+const STATUSWORD: Role = Role { object: (0x6041, 0), function: "statusword", access: READ };
+const MODE: Role = Role { object: (0x6060, 0), function: "modes_of_operation", access: WRITE };
+const ACTIVE_MODE: Role = Role { object: (0x6061, 0), function: "modes_of_operation_display", access: READ };
+const FOLLOWING_ERROR: Role = Role { object: (0x60F4, 0), function: "following_error", access: READ };
+
+/// Traits for objects that not every drive has: path of the trait, object, and text for the documentation.
+const CAPABILITIES: [(&str, Role, &str); 3] = [
+    (
+        "rt::cia402::Positioning",
+        Role { object: (0x607A, 0), function: "target_position", access: WRITE },
+        "set-points with handshake",
+    ),
+    ("rt::cia402::Velocity", Role { object: (0x60FF, 0), function: "target_velocity", access: WRITE }, "velocities"),
+    ("rt::cia402::Homing", Role { object: (0x6098, 0), function: "homing_method", access: WRITE }, "homing"),
+];
+
+/// A role and the constant of its object.
+type Played<'r, 'c> = (&'r Role, Constant<'c>);
+
+impl Cia402Model {
+    /// Returns the model of a device whose state machine is that of CiA 402, and which also has the objects of the mode.
+    pub(super) fn new(
+        context: &Context<'_>,
+        locations: &Locations,
+        objects: &[ObjectModel],
+        walks: &[WalkModel],
+    ) -> Option<Self> {
+        let constants = Constants { context, locations, objects };
+        let find = |role: &Role| {
+            let (reads, writes) = role.access;
+            let is_allowed =
+                |constant: &Constant<'_>| (!reads || constant.is_readable()) && (!writes || constant.is_writable());
+            constants.object(role.object).filter(is_allowed)
+        };
+        let mut core = Vec::new();
+        for role in [&CONTROLWORD, &STATUSWORD, &MODE, &ACTIVE_MODE] {
+            core.push((role, find(role)?));
+        }
+        let [(_, control), (_, status), ..] = core.as_slice() else { return None };
+        let is_drive =
+            |walk: &WalkModel| walk.energized.is_some() && walk.control == control.path && walk.status == status.path;
+        if !walks.iter().any(is_drive) {
+            return None;
+        }
+        // Optional objects must not restrict the buses of the operations.
+        let read = accesses(&core);
+        let is_everywhere = |constant: &Constant<'_>| read.get(&constant.location).is_some_and(|access| access.0);
+        let codes = ERROR_CODES.map(|object| Role { object, function: "error_code", access: READ });
+        let code = codes.iter().find_map(|role| Some((role, find(role)?))).filter(|(_, code)| is_everywhere(code));
+        let following = find(&FOLLOWING_ERROR).filter(is_everywhere).map(|constant| (&FOLLOWING_ERROR, constant));
+        core.extend(code.into_iter().chain(following));
+        let mut traits = vec![implementation("rt::cia402::Objects", &core, &[])];
+        let mut operations = vec!["change of the mode"];
+        for (path, role, operation) in &CAPABILITIES {
+            let Some(constant) = find(role) else { continue };
+            traits.push(implementation(path, &[(role, constant)], &core));
+            operations.push(operation);
+        }
+        let names = objects.iter().map(|object| object.name.as_str());
+        let walks = walks.iter().map(|walk| walk.method.as_str());
+        let used: Vec<&str> = names.chain(walks).chain(RESERVED).collect();
+        let method = unused_name(|name| used.contains(&name.as_str()), "cia402".to_owned());
+        Some(Self { method, docs: documentation(&operations), traits })
+    }
+}
+
+/// Returns the implementation of a trait. `core` contains the objects of the trait on which this trait depends.
+fn implementation(path: &'static str, objects: &[Played<'_, '_>], core: &[Played<'_, '_>]) -> TraitModel {
+    let function = |(role, constant): &Played<'_, '_>| FunctionModel {
+        name: role.function,
+        access: role.access,
+        path: constant.path.clone(),
+    };
+    let all = accesses(objects.iter().chain(core));
+    TraitModel {
+        path,
+        functions: objects.iter().map(function).collect(),
+        bounds: all.iter().map(|(location, access)| bound(location, "B", *access)).collect(),
+    }
+}
+
+/// Returns whether the items at each location are read and written.
+fn accesses<'p, 'r: 'p, 'c: 'p>(
+    objects: impl IntoIterator<Item = &'p Played<'r, 'c>>,
+) -> BTreeMap<String, (bool, bool)> {
+    let mut all: BTreeMap<String, (bool, bool)> = BTreeMap::new();
+    for (role, constant) in objects {
+        let access = all.entry(constant.location.clone()).or_default();
+        *access = (access.0 | role.access.0, access.1 | role.access.1);
+    }
+    all
+}
+
+fn documentation(operations: &[&str]) -> Vec<String> {
+    let list = match operations {
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        all => all.concat(),
+    };
+    vec![
+        format!("Returns the operations of CiA 402: {list}."),
+        String::new(),
+        "The operations need a drive in the state \"Operation enabled\", except the change of the mode. See \
+         [`rt::cia402`]."
+            .to_owned(),
+    ]
+}

@@ -1,0 +1,79 @@
+//! Constants of items to which generated methods refer.
+
+use super::code::{generic, seq, Doc};
+use super::context::Context;
+use super::item::ItemModel;
+use super::item_addresses::ItemAddresses;
+use super::links::DocModule;
+use super::locations::Locations;
+use super::objects::ObjectModel;
+use super::value_type;
+
+/// Access to the constants of items.
+pub(super) struct Constants<'c, 'a> {
+    pub context: &'c Context<'a>,
+    pub locations: &'c Locations,
+    pub objects: &'c [ObjectModel],
+}
+
+/// The constant of an item.
+pub(super) struct Constant<'c> {
+    model: &'c ItemModel,
+    pub path: String,
+    /// Path of the location type.
+    pub location: String,
+    /// True if the item has a unit or a scale.
+    pub is_quantity: bool,
+}
+
+impl Constants<'_, '_> {
+    /// Returns a link to the constant of an item.
+    pub fn link(&self, constant: &Constant<'_>) -> String {
+        let id = constant.model.id;
+        let name = self.context.item(id).map_or("", |item| item.name.as_str());
+        self.context.link_to(id.into(), name, DocModule::TOP).unwrap_or_default()
+    }
+
+    /// Returns the constant of an object, if the object is an integer of up to 32 bits.
+    pub fn object(&self, object: (u16, u8)) -> Option<Constant<'_>> {
+        self.integer(&|model| model.object == Some(object))
+    }
+
+    /// Returns the constant of the first item that `is_it` accepts, if the item is an integer of up to 32 bits.
+    pub fn integer(&self, is_it: &dyn Fn(&ItemModel) -> bool) -> Option<Constant<'_>> {
+        let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
+        let (object, model) = all.into_iter().find(|(_, item)| is_it(item))?;
+        let item = self.context.item(model.id)?;
+        let path = match object.is_module {
+            true => format!("objects::{}::{}", object.name, model.constant),
+            false => format!("objects::{}", model.constant),
+        };
+        let location = self.locations.name(ItemAddresses::of(self.context, item).buses(), "objects::");
+        value_type::is_word(self.context.base(item.ty)).then_some(Constant {
+            model,
+            path,
+            location,
+            is_quantity: item.quantity.is_some(),
+        })
+    }
+}
+
+impl Constant<'_> {
+    pub fn is_readable(&self) -> bool {
+        self.model.access != "WriteOnly"
+    }
+
+    pub fn is_writable(&self) -> bool {
+        matches!(self.model.access, "ReadWrite" | "WriteOnly")
+    }
+}
+
+/// Returns the bound of a location type whose items a client of `bus` reads, writes or both.
+pub(super) fn bound(location: &str, bus: &str, access: (bool, bool)) -> Doc {
+    let route = match access {
+        (true, true) => format!("Route: rt::ReadRoute<{bus}> + rt::WriteRoute<{bus}>"),
+        (true, false) => format!("Route: rt::ReadRoute<{bus}>"),
+        (false, _) => format!("Route: rt::WriteRoute<{bus}>"),
+    };
+    seq![location, ": ", generic!("rt::On", bus, route), ","]
+}

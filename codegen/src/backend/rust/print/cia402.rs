@@ -1,0 +1,43 @@
+//! Prints the method that returns the operations of CiA 402, and the implementations of their traits.
+
+use crate::backend::rust::cia402::{Cia402Model, FunctionModel};
+use crate::backend::rust::code::{call, generic, line, open, seq, Code, MARGIN};
+
+/// Writes the method of the device's type `device`.
+pub(super) fn method(code: &mut Code, device: &str, model: &Cia402Model) {
+    code.docs(&model.docs);
+    let result = generic!("rt::cia402::Drive", "'_", "C", seq![device, "<()>"]);
+    open!(code, call!(seq!["pub fn ", model.method], "&mut self"), " -> ", result, " {");
+    line!(code, call!("rt::cia402::Drive::new", "&mut self.client"));
+    code.close("}");
+}
+
+/// Writes the implementations of the traits for the type `device` without a client.
+pub(super) fn objects(code: &mut Code, device: &str, model: &Cia402Model) {
+    for implementation in &model.traits {
+        let (bound, ty) = (format!("impl<B: rt::Bus> {}<B>", implementation.path), format!("for {device}<()>"));
+        // Unlike other constructs, the second line of a long header isn't indented.
+        if bound.len() + 1 + ty.len() <= MARGIN {
+            line!(code, bound, " ", ty);
+        } else {
+            line!(code, bound);
+            line!(code, ty);
+        }
+        open!(code, "where");
+        code.lines(&implementation.bounds);
+        code.reopen("{");
+        implementation.functions.iter().for_each(|function| self::function(code, function));
+        code.close("}");
+    }
+}
+
+fn function(code: &mut Code, function: &FunctionModel) {
+    let result = match function.access {
+        (true, true) => "impl rt::cia402::ReadInteger<B> + rt::cia402::WriteInteger<B>",
+        (true, false) => "impl rt::cia402::ReadInteger<B>",
+        (false, _) => "impl rt::cia402::WriteInteger<B>",
+    };
+    open!(code, "fn ", function.name, "() -> ", result, " {");
+    line!(code, function.path);
+    code.close("}");
+}

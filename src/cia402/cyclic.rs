@@ -1,0 +1,290 @@
+//! Set-points of the cyclic synchronous modes in process data.
+
+use core::fmt;
+
+use super::bits::{CONFIRMED, FAILED, OF_MODE};
+use super::state::{Mode, State};
+use crate::enumeration::Enumeration;
+use crate::machine::StateWord;
+
+/// Watches over a drive in a cyclic synchronous mode (CSP, CSV or CST), and decides in each cycle which set-point the
+/// drive receives. A `Cyclic` needs no client: the program copies its inputs from the process data, and its outputs to
+/// the process data. It therefore works with every bus library.
+///
+/// - Until the drive follows the command values (bit 12 of the statusword in "Operation enabled" and in this mode), the
+///   set-point is the actual position, or 0 for a velocity and a torque. The axis therefore doesn't jump when the
+///   operation is enabled.
+/// - Once the drive has followed, the cycle in which the drive leaves "Operation enabled" or the mode is an error.
+/// - A following error is an error: bit 13 of the statusword in CSP, or an actual following error (0x60F4) above the
+///   limit of the program.
+/// - The bits 4, 5, 6 and 9 of the controlword become 0, as these modes require. Other bits stay as they are: a
+///   [`Walker`](crate::Walker) enables the drive.
+///
+/// After an error, the program decides how the axis stops, for example with a walker to "Switched on". [`Self::hold`]
+/// returns a set-point without motion.
+///
+/// ```
+/// use lexibus::cia402::{Cyclic, CycleError, Inputs};
+///
+/// let mut cyclic = Cyclic::position().with_limit(100);
+/// // Statusword, active mode, actual position and following error from the TPDO.
+/// let mut inputs = Inputs { status: 0x0237_u16, mode: Some(8), actual: 5000, following_error: Some(3) };
+/// // The drive doesn't follow yet: the target is the actual position.
+/// let cycle = cyclic.cycle(inputs, 0x000F_u16, 9000)?;
+/// assert_eq!((cycle.control, cycle.target, cycle.is_following), (0x000F, 5000, false));
+/// // Bit 12: the drive follows.
+/// inputs.status = 0x1237;
+/// assert_eq!(cyclic.cycle(inputs, 0x000F_u16, 5010)?.target, 5010);
+/// inputs.following_error = Some(-101);
+/// let error = CycleError::LimitExceeded { error: -101, limit: 100 };
+/// assert_eq!(cyclic.cycle(inputs, 0x000F_u16, 5020), Err(error));
+/// # Ok::<(), CycleError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Cyclic {
+    mode: Mode,
+    limit: Option<u32>,
+    /// True if the drive has followed the command values.
+    has_followed: bool,
+}
+
+/// Process data from the drive, in one cycle of a [`Cyclic`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inputs<S> {
+    /// Statusword (0x6041).
+    pub status: S,
+    /// Active mode (0x6061) if it is part of the process data. Without it, the program must have activated the mode, for
+    /// example with [`Drive::set_mode`](super::Drive::set_mode).
+    pub mode: Option<i8>,
+    /// Actual position (0x6064) as raw value. CSV and CST ignore this value.
+    pub actual: i32,
+    /// Actual following error (0x60F4) as raw value, if it is part of the process data.
+    pub following_error: Option<i32>,
+}
+
+/// Process data for the drive, in one cycle of a [`Cyclic`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cycle<W> {
+    /// Controlword (0x6040).
+    pub control: W,
+    /// Target position (0x607A), target velocity (0x60FF) or target torque (0x6071), as raw value.
+    pub target: i32,
+    /// True if the drive follows the command values, so that `target` is the set-point of the program.
+    pub is_following: bool,
+}
+
+/// Reason why a [`Cyclic`] stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CycleError {
+    /// A fault has occurred. The drive is in this state.
+    Fault(State),
+    /// The drive has left "Operation enabled".
+    NotEnabled {
+        /// State of the drive, or `None` if the statusword encodes no state.
+        state: Option<State>,
+    },
+    /// The drive has left the mode. This mode is active.
+    WrongMode(Mode),
+    /// The drive reports a following error: bit 13 of the statusword in CSP.
+    FollowingError {
+        /// Actual following error as raw value, if it is part of the process data.
+        error: Option<i32>,
+    },
+    /// The absolute value of the actual following error is above the limit of the program.
+    LimitExceeded {
+        /// Actual following error as raw value.
+        error: i32,
+        /// Limit of the program.
+        limit: u32,
+    },
+}
+
+impl Cyclic {
+    const fn new(mode: Mode) -> Self {
+        Self { mode, limit: None, has_followed: false }
+    }
+
+    /// Creates a watch over the mode 8, cyclic synchronous position (CSP).
+    #[must_use]
+    pub const fn position() -> Self {
+        Self::new(Mode::CyclicSynchronousPosition)
+    }
+
+    /// Creates a watch over the mode 9, cyclic synchronous velocity (CSV).
+    #[must_use]
+    pub const fn velocity() -> Self {
+        Self::new(Mode::CyclicSynchronousVelocity)
+    }
+
+    /// Creates a watch over the mode 10, cyclic synchronous torque (CST).
+    #[must_use]
+    pub const fn torque() -> Self {
+        Self::new(Mode::CyclicSynchronousTorque)
+    }
+
+    /// Returns the watch with a limit for the absolute value of the actual following error (0x60F4, raw value). The limit
+    /// applies while the operation is enabled, and only in cycles whose inputs contain the following error. It applies in
+    /// addition to the window of the drive (0x6065).
+    #[must_use]
+    pub const fn with_limit(self, limit: u32) -> Self {
+        Self { limit: Some(limit), ..self }
+    }
+
+    /// Returns the mode to request (0x6060).
+    #[must_use]
+    pub const fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// Returns the set-point that doesn't move the axis: the actual position, or 0 for a velocity and a torque.
+    #[must_use]
+    pub const fn hold<S: StateWord>(&self, inputs: &Inputs<S>) -> i32 {
+        match self.mode {
+            Mode::CyclicSynchronousPosition => inputs.actual,
+            _ => 0,
+        }
+    }
+
+    /// Returns the outputs of a cycle. `control` is the controlword that the program would send, for example from a
+    /// [`Walker`](crate::Walker), and `target` is the set-point of the program.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the drive has followed the command values and leaves "Operation enabled" or the mode. Returns
+    /// an error in each cycle in which the operation is enabled and the following error is too large.
+    pub fn cycle<S: StateWord, W: StateWord>(
+        &mut self,
+        inputs: Inputs<S>,
+        control: W,
+        target: i32,
+    ) -> Result<Cycle<W>, CycleError> {
+        let status = inputs.status.bits() as u16;
+        let state = State::of_status(status);
+        let control = W::from_bits(control.bits() & !u32::from(OF_MODE));
+        let held = Cycle { control, target: self.hold(&inputs), is_following: false };
+        if state != Some(State::OperationEnabled) {
+            return match state {
+                _ if !self.has_followed => Ok(held),
+                Some(state) if state.is_fault() => Err(CycleError::Fault(state)),
+                state => Err(CycleError::NotEnabled { state }),
+            };
+        }
+        let active = inputs.mode.map_or(self.mode, Mode::from_native);
+        if active != self.mode {
+            return if self.has_followed { Err(CycleError::WrongMode(active)) } else { Ok(held) };
+        }
+        self.check_following(status, inputs.following_error)?;
+        if status & CONFIRMED == 0 {
+            return Ok(held);
+        }
+        self.has_followed = true;
+        Ok(Cycle { target, is_following: true, ..held })
+    }
+
+    fn check_following(&self, status: u16, error: Option<i32>) -> Result<(), CycleError> {
+        if self.mode == Mode::CyclicSynchronousPosition && status & FAILED != 0 {
+            return Err(CycleError::FollowingError { error });
+        }
+        match (error, self.limit) {
+            (Some(error), Some(limit)) if error.unsigned_abs() > limit => {
+                Err(CycleError::LimitExceeded { error, limit })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for CycleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fault(state) => write!(f, "the drive has a fault: state \"{state}\""),
+            Self::NotEnabled { state: Some(state) } => {
+                write!(f, "the drive has left the state \"operation enabled\", and is in the state \"{state}\"")
+            }
+            Self::NotEnabled { state: None } => f.write_str("the statusword encodes no state"),
+            Self::WrongMode(active) => write!(f, "the drive has left the mode; the active mode is {active}"),
+            Self::FollowingError { error: Some(error) } => write!(f, "following error: {error}"),
+            Self::FollowingError { error: None } => f.write_str("following error"),
+            Self::LimitExceeded { error, limit } => {
+                write!(f, "the following error {error} is above the limit {limit}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for CycleError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENABLED: u16 = 0x0237;
+    const FOLLOWING: u16 = 0x1237;
+
+    fn inputs(status: u16) -> Inputs<u16> {
+        Inputs { status, mode: None, actual: 7, following_error: None }
+    }
+
+    /// Runs a cycle with the set-point 50.
+    fn target(cyclic: &mut Cyclic, status: u16) -> Result<i32, CycleError> {
+        cyclic.cycle(inputs(status), 0x000F_u16, 50).map(|cycle| cycle.target)
+    }
+
+    #[test]
+    fn set_points_before_the_drive_follows() {
+        let mut position = Cyclic::position();
+        assert_eq!(
+            [0, 0x40, 0x08, ENABLED, FOLLOWING].map(|status| target(&mut position, status)),
+            [7, 7, 7, 7, 50].map(Ok)
+        );
+        for mut cyclic in [Cyclic::velocity(), Cyclic::torque()] {
+            assert_eq!([0x40, ENABLED, FOLLOWING].map(|status| target(&mut cyclic, status)), [0, 0, 50].map(Ok));
+        }
+        // A drive that no longer follows, for example because of a local limit, holds its position.
+        assert_eq!(target(&mut position, ENABLED), Ok(7));
+    }
+
+    #[test]
+    fn a_drive_that_leaves_the_operation() {
+        let after = |status| {
+            let mut cyclic = Cyclic::position();
+            target(&mut cyclic, FOLLOWING)?;
+            target(&mut cyclic, status)
+        };
+        assert_eq!(after(0x021F), Err(CycleError::Fault(State::FaultReactionActive)));
+        assert_eq!(after(0x0217), Err(CycleError::NotEnabled { state: Some(State::QuickStopActive) }));
+        assert_eq!(after(0x002F & !1), Err(CycleError::NotEnabled { state: None }));
+    }
+
+    #[test]
+    fn the_mode_of_the_drive() {
+        let mut cyclic = Cyclic::velocity();
+        let other = Inputs { mode: Some(1), ..inputs(FOLLOWING) };
+        assert_eq!(cyclic.cycle(other, 0_u16, 50), Ok(Cycle { control: 0, target: 0, is_following: false }));
+        let this = Inputs { mode: Some(9), ..other };
+        assert_eq!(cyclic.cycle(this, 0_u16, 50), Ok(Cycle { control: 0, target: 50, is_following: true }));
+        assert_eq!(cyclic.cycle(other, 0_u16, 50), Err(CycleError::WrongMode(Mode::ProfilePosition)));
+    }
+
+    #[test]
+    fn following_errors() {
+        // Bit 13 is reserved in CSV.
+        assert_eq!(target(&mut Cyclic::velocity(), FOLLOWING | FAILED), Ok(50));
+        let error = Err(CycleError::FollowingError { error: None });
+        assert_eq!(target(&mut Cyclic::position(), ENABLED | FAILED), error);
+        let with = |error, limit| {
+            let inputs = Inputs { following_error: Some(error), ..inputs(FOLLOWING) };
+            Cyclic::position().with_limit(limit).cycle(inputs, 0_u16, 50).map(|cycle| cycle.target)
+        };
+        assert_eq!((with(-10, 10), with(10, 10)), (Ok(50), Ok(50)));
+        assert_eq!(with(i32::MIN, 10), Err(CycleError::LimitExceeded { error: i32::MIN, limit: 10 }));
+        assert_eq!(with(1, 0), Err(CycleError::LimitExceeded { error: 1, limit: 0 }));
+    }
+
+    #[test]
+    fn only_the_bits_of_the_mode_change() {
+        let cycle = Cyclic::torque().cycle(inputs(ENABLED), 0xFFFF_u16, 50);
+        assert_eq!(cycle.map(|cycle| cycle.control), Ok(0xFD8F));
+    }
+}

@@ -1,0 +1,138 @@
+//! Errors of operations of a drive.
+
+use core::fmt;
+
+use super::state::{Mode, State};
+use crate::error::Error;
+
+/// Reason why an operation of a [`Drive`](super::Drive) failed. `E` is the error type of the client.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MotionError<E> {
+    /// An access to an object failed. The drive may still execute what it has received.
+    Access(Error<E>),
+    /// The drive has a fault.
+    Fault {
+        /// State of the drive: [`State::FaultReactionActive`] or [`State::Fault`].
+        state: State,
+        /// Error code of the drive (0x603F, or 0x1003:01 without the additional information), if it can be read.
+        code: Option<u16>,
+    },
+    /// The drive isn't in the state [`State::OperationEnabled`], or has left this state. A drive never enters this state
+    /// because of an operation: use the generated method `walk`.
+    NotEnabled {
+        /// State of the drive, or `None` if the statusword encodes no state.
+        state: Option<State>,
+        /// Statusword of the drive.
+        status: u16,
+    },
+    /// The bit "halt" of the controlword is 1, so the axis wouldn't move.
+    Halted,
+    /// The operation isn't possible in the active mode.
+    WrongMode {
+        /// Active mode (0x6061).
+        active: Mode,
+    },
+    /// The drive hasn't activated the requested mode before the deadline. A drive that doesn't support a mode usually
+    /// keeps the active mode.
+    ModeNotConfirmed {
+        /// Requested mode.
+        requested: Mode,
+        /// Active mode (0x6061).
+        active: Mode,
+    },
+    /// The drive reports a homing error: bit 13 of the statusword in the mode "homing".
+    Homing,
+    /// The drive reports a following error: bit 13 of the statusword in the mode "profile position".
+    FollowingError {
+        /// Raw value of the actual following error (0x60F4), if it can be read.
+        error: Option<i64>,
+    },
+    /// The drive reports that the maximum slippage is exceeded: bit 13 of the statusword in the mode "profile
+    /// velocity".
+    Slippage,
+    /// The operation hasn't ended before the deadline.
+    Deadline {
+        /// Statusword of the drive.
+        status: u16,
+    },
+}
+
+impl<E> MotionError<E> {
+    /// Returns whether the drive has a fault.
+    pub const fn is_fault(&self) -> bool {
+        matches!(self, Self::Fault { .. })
+    }
+
+    /// Returns whether the operation may still write the controlword: the drive replies and its operation is enabled.
+    pub(super) const fn allows_commands(&self) -> bool {
+        !matches!(self, Self::Access(_) | Self::Fault { .. } | Self::NotEnabled { .. })
+    }
+}
+
+impl<E> From<Error<E>> for MotionError<E> {
+    fn from(error: Error<E>) -> Self {
+        Self::Access(error)
+    }
+}
+
+impl<E: fmt::Display> fmt::Display for MotionError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Access(error) => error.fmt(f),
+            Self::Fault { state, code } => {
+                write!(f, "the drive has a fault: state \"{state}\"")?;
+                code.map_or(Ok(()), |code| write!(f, ", error code 0x{code:04X}"))
+            }
+            Self::NotEnabled { state: Some(state), .. } => {
+                write!(f, "the operation is not enabled: the drive is in the state \"{state}\"")
+            }
+            Self::NotEnabled { state: None, status } => {
+                write!(f, "the operation is not enabled: the statusword 0x{status:04X} encodes no state")
+            }
+            Self::Halted => f.write_str("the bit \"halt\" of the controlword is 1"),
+            Self::WrongMode { active } => write!(f, "the operation is not possible in the active mode {active}"),
+            Self::ModeNotConfirmed { requested, active } => {
+                write!(f, "timeout: the drive has not activated the mode {requested}; the active mode is {active}")
+            }
+            Self::Homing => f.write_str("homing error"),
+            Self::FollowingError { error } => {
+                f.write_str("following error")?;
+                error.map_or(Ok(()), |error| write!(f, ": {error}"))
+            }
+            Self::Slippage => f.write_str("the maximum slippage is exceeded"),
+            Self::Deadline { status } => {
+                write!(f, "timeout: the operation has not ended; the statusword is 0x{status:04X}")
+            }
+        }
+    }
+}
+
+impl<E: core::error::Error> core::error::Error for MotionError<E> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Access(error) => error.source(),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn messages() {
+        type Motion = MotionError<crate::TextError>;
+        let text = |error: Motion| error.to_string();
+        let fault = Motion::Fault { state: State::Fault, code: Some(0x8611) };
+        assert!(fault.is_fault() && !fault.allows_commands());
+        assert_eq!(text(fault), "the drive has a fault: state \"fault\", error code 0x8611");
+        let disabled = Motion::NotEnabled { state: Some(State::SwitchedOn), status: 0x33 };
+        assert_eq!(text(disabled), "the operation is not enabled: the drive is in the state \"switched on\"");
+        let refused = Motion::ModeNotConfirmed { requested: Mode::Homing, active: Mode::Other(-3) };
+        assert_eq!(text(refused), "timeout: the drive has not activated the mode 6 (homing); the active mode is -3");
+        assert_eq!(text(Motion::FollowingError { error: Some(-7) }), "following error: -7");
+    }
+}

@@ -1,0 +1,31 @@
+//! Time that is left until a deadline.
+
+use core::time::Duration;
+
+use crate::clock::{Clock, DefaultClock};
+
+/// Maximum pause between two polls of a device.
+const PAUSE: Duration = Duration::from_millis(5);
+
+/// The time until a deadline. Without a clock, only the pauses count.
+pub(crate) struct Remaining {
+    start: Option<Duration>,
+    waited: Duration,
+    deadline: Duration,
+}
+
+impl Remaining {
+    /// Starts to measure the time. The deadline is `deadline` from now.
+    pub(crate) fn new(deadline: Duration) -> Self {
+        Self { start: DefaultClock.now(), waited: Duration::ZERO, deadline }
+    }
+
+    /// Returns the next pause, or `None` after the deadline.
+    pub(crate) fn pause(&mut self) -> Option<Duration> {
+        let elapsed = self.start.zip(DefaultClock.now()).map(|(start, now)| now.saturating_sub(start));
+        let rest = self.deadline.saturating_sub(elapsed.unwrap_or_default().max(self.waited));
+        let pause = rest.min(PAUSE);
+        self.waited += pause;
+        (!pause.is_zero()).then_some(pause)
+    }
+}

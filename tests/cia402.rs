@@ -1,0 +1,606 @@
+//! Tests the operations of CiA 402 with simulated drives: mode, homing, profile position, velocities and cyclic modes.
+
+#![cfg(feature = "std")]
+
+use std::time::Duration;
+
+use lexibus::cia402::{self, CycleError, Cyclic, Inputs, Mode, MotionError, ReadInteger, State, Target, WriteInteger};
+use lexibus::sim::{Connection, Device, Fault};
+use lexibus::table::{AccessRights, Bound, Entry, RawInitial};
+use lexibus::{AbortCode, AsyncClient, CanOpen, Client, CoE, DataType, Error, Flags, Item, Object, OnCanOpen, Ro, Rw};
+use lexibus_drives::{demo_drive, eco, vector_step};
+
+const DEADLINE: Duration = Duration::from_secs(2);
+const ENABLED: u16 = 0x0237;
+
+const fn ms(time: u64) -> Duration {
+    Duration::from_millis(time)
+}
+
+/// The objects of the drive in most tests.
+struct Full;
+
+const CONTROLWORD: Item<u16, Rw, OnCanOpen> = Item::object(0x6040, 0, "");
+const STATUSWORD: Item<u16, Ro, OnCanOpen> = Item::object(0x6041, 0, "");
+const MODE: Item<i8, Rw, OnCanOpen> = Item::object(0x6060, 0, "");
+const ACTIVE_MODE: Item<i8, Ro, OnCanOpen> = Item::object(0x6061, 0, "");
+const POSITION: Item<i32, Ro, OnCanOpen> = Item::object(0x6064, 0, "");
+const ERROR_CODE: Item<u16, Ro, OnCanOpen> = Item::object(0x603F, 0, "");
+const FOLLOWING_ERROR: Item<i32, Ro, OnCanOpen> = Item::object(0x60F4, 0, "");
+const TARGET_POSITION: Item<i32, Rw, OnCanOpen> = Item::object(0x607A, 0, "");
+const TARGET_VELOCITY: Item<i32, Rw, OnCanOpen> = Item::object(0x60FF, 0, "");
+const HOMING_METHOD: Item<i8, Rw, OnCanOpen> = Item::object(0x6098, 0, "");
+
+impl cia402::Objects<CanOpen> for Full {
+    fn controlword() -> impl ReadInteger<CanOpen> + WriteInteger<CanOpen> {
+        CONTROLWORD
+    }
+    fn statusword() -> impl ReadInteger<CanOpen> {
+        STATUSWORD
+    }
+    fn modes_of_operation() -> impl WriteInteger<CanOpen> {
+        MODE
+    }
+    fn modes_of_operation_display() -> impl ReadInteger<CanOpen> {
+        ACTIVE_MODE
+    }
+    fn error_code() -> impl ReadInteger<CanOpen> {
+        ERROR_CODE
+    }
+    fn following_error() -> impl ReadInteger<CanOpen> {
+        FOLLOWING_ERROR
+    }
+}
+
+impl cia402::Positioning<CanOpen> for Full {
+    fn target_position() -> impl WriteInteger<CanOpen> {
+        TARGET_POSITION
+    }
+}
+
+impl cia402::Velocity<CanOpen> for Full {
+    fn target_velocity() -> impl WriteInteger<CanOpen> {
+        TARGET_VELOCITY
+    }
+}
+
+impl cia402::Homing<CanOpen> for Full {
+    fn homing_method() -> impl WriteInteger<CanOpen> {
+        HOMING_METHOD
+    }
+}
+
+const fn entry(index: u16, data_type: DataType) -> Entry {
+    Entry {
+        object: Some(Object::new(index, 0)),
+        register: None,
+        name: "",
+        data_type,
+        access: AccessRights::ReadWrite,
+        flags: Flags::PDO,
+        initial: RawInitial::Unknown,
+        low: Bound::Unlimited,
+        high: Bound::Unlimited,
+        unit: "",
+    }
+}
+
+const ENTRIES: [Entry; 17] = [
+    entry(0x603F, DataType::Unsigned16),
+    entry(0x6040, DataType::Unsigned16),
+    entry(0x6041, DataType::Unsigned16),
+    entry(0x6060, DataType::Integer8),
+    entry(0x6061, DataType::Integer8),
+    entry(0x6064, DataType::Integer32),
+    entry(0x6065, DataType::Unsigned32),
+    entry(0x606C, DataType::Integer32),
+    entry(0x607A, DataType::Integer32),
+    entry(0x607C, DataType::Integer32),
+    entry(0x607F, DataType::Unsigned32),
+    entry(0x6081, DataType::Unsigned32),
+    entry(0x6083, DataType::Unsigned32),
+    entry(0x6098, DataType::Integer8),
+    entry(0x60F4, DataType::Integer32),
+    entry(0x60FF, DataType::Integer32),
+    entry(0x6502, DataType::Unsigned32),
+];
+
+/// What happens to the drive at a moment of a test.
+type Event = Box<dyn FnMut(&mut Rig)>;
+
+/// A client of a drive. Events can happen while the driver waits, and statuswords can differ from those of the drive.
+struct Rig {
+    drive: Connection<CanOpen>,
+    /// Simulated time in milliseconds.
+    time: u64,
+    /// Events with their times, in order.
+    events: Vec<(u64, Event)>,
+    /// Bits of the statusword that are always 1 and always 0.
+    set: u16,
+    cleared: u16,
+    /// All written values.
+    writes: Vec<(u16, i32)>,
+}
+
+impl Rig {
+    /// Creates a drive that is enabled in this mode.
+    fn enabled(mode: i8) -> Self {
+        let device = Device::new(&ENTRIES).with_cia402();
+        let mut rig =
+            Self { drive: device.into_client(), time: 0, events: Vec::new(), set: 0, cleared: 0, writes: Vec::new() };
+        rig.write(0x6060, &mode.to_le_bytes());
+        rig.write(0x6081, &1000_u32.to_le_bytes());
+        rig.write(0x6083, &10_000_u32.to_le_bytes());
+        for control in [6, 7, 0x0F_u16] {
+            rig.drive.device().step(ms(2));
+            rig.write(0x6040, &control.to_le_bytes());
+        }
+        rig.drive.device().step(ms(2));
+        assert_eq!(rig.drive.device().get(STATUSWORD).map(State::of_status), Ok(Some(State::OperationEnabled)));
+        assert_eq!(rig.drive.device().get(ACTIVE_MODE), Ok(mode));
+        rig.writes.clear();
+        rig
+    }
+
+    fn at(mut self, time: u64, event: impl FnMut(&mut Rig) + 'static) -> Self {
+        self.events.push((time, Box::new(event)));
+        self
+    }
+
+    fn write(&mut self, index: u16, data: &[u8]) {
+        Client::write(self, Object::new(index, 0), data).unwrap();
+    }
+
+    fn motion(&mut self) -> cia402::Drive<'_, Self, Full> {
+        cia402::Drive::new(self)
+    }
+
+    /// Returns the values that were written to the controlword.
+    fn controls(&self) -> Vec<i32> {
+        self.writes.iter().filter(|(index, _)| *index == 0x6040).map(|(_, value)| *value).collect()
+    }
+
+    fn control(&mut self) -> u16 {
+        self.drive.device().get(CONTROLWORD).unwrap()
+    }
+
+    fn position(&mut self) -> i32 {
+        self.drive.device().get(POSITION).unwrap()
+    }
+
+    fn fail(&mut self, code: u16) {
+        self.drive.device().fail(code).unwrap();
+    }
+}
+
+impl Client for Rig {
+    type Bus = CanOpen;
+    type Error = Fault;
+
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+        let length = Client::read(&mut self.drive, object, buffer)?;
+        if let (0x6041, [low, high]) = (object.index, buffer) {
+            let status = u16::from_le_bytes([*low, *high]) & !self.cleared | self.set;
+            [*low, *high] = status.to_le_bytes();
+        }
+        Ok(length)
+    }
+
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Fault>> {
+        let number = data.iter().rev().fold(0, |number, byte| number << 8 | i32::from(*byte));
+        self.writes.push((object.index, number));
+        Client::write(&mut self.drive, object, data)
+    }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Fault>> {
+        self.time += time.as_millis() as u64;
+        while self.events.first().is_some_and(|(at, _)| *at <= self.time) {
+            let (_, mut event) = self.events.remove(0);
+            event(self);
+        }
+        Client::wait(&mut self.drive, time)
+    }
+}
+
+impl AsyncClient for Rig {
+    type Bus = CanOpen;
+    type Error = Fault;
+
+    async fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+        Client::read(self, object, buffer)
+    }
+
+    async fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Fault>> {
+        Client::write(self, object, data)
+    }
+
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<Fault>> {
+        Client::wait(self, time)
+    }
+}
+
+#[test]
+fn modes() {
+    let mut rig = Rig::enabled(1);
+    assert_eq!(rig.motion().set_mode(Mode::ProfileVelocity, DEADLINE), Ok(()));
+    assert_eq!(rig.motion().mode(), Ok(Mode::ProfileVelocity));
+    assert_eq!(rig.motion().set_mode(6_i8, DEADLINE), Ok(()));
+    assert_eq!(rig.writes, [(0x6060, 3), (0x6060, 6)]);
+    // The drive doesn't activate the mode.
+    let refused = MotionError::ModeNotConfirmed { requested: Mode::Other(-5), active: Mode::Homing };
+    assert_eq!(rig.motion().set_mode(-5_i8, ms(50)), Err(refused));
+    assert_eq!(rig.time, 60);
+    // The drive refuses the access.
+    rig.drive.device().on_write(MODE, |_, _| Err(AbortCode::DEVICE_STATE)).unwrap();
+    let refused = rig.motion().set_mode(Mode::ProfilePosition, DEADLINE);
+    assert_eq!(refused, Err(MotionError::Access(Error::Abort(AbortCode::DEVICE_STATE))));
+}
+
+#[test]
+fn a_new_mode_starts_nothing() {
+    // Bit 4 is "new set-point" in the mode 1, and "homing operation start" in the mode 6.
+    let mut rig = Rig::enabled(1);
+    rig.write(0x6040, &0x887F_u16.to_le_bytes());
+    rig.motion().set_mode(Mode::Homing, DEADLINE).unwrap();
+    assert_eq!(rig.control(), 0x880F);
+    // The controlword of a drive that isn't enabled doesn't change: "enable operation" would enable it.
+    rig.write(0x6040, &0x0017_u16.to_le_bytes());
+    rig.writes.clear();
+    assert_eq!(rig.motion().set_mode(Mode::ProfilePosition, DEADLINE), Ok(()));
+    assert_eq!(rig.writes, [(0x6060, 1)]);
+}
+
+#[test]
+fn homing() {
+    let mut rig = Rig::enabled(1);
+    rig.write(0x607C, &[10, 0, 0, 0]);
+    rig.write(0x6040, &0x080F_u16.to_le_bytes());
+    rig.writes.clear();
+    assert_eq!(rig.motion().home(DEADLINE), Ok(()));
+    assert_eq!(rig.writes, [(0x6060, 6), (0x6040, 0x081F), (0x6040, 0x080F)]);
+    assert_eq!(rig.position(), 10);
+    // The bit "homing attained" of the first procedure isn't the result of the second one.
+    let begin = rig.time;
+    assert_eq!(rig.motion().home_with(35, DEADLINE), Ok(()));
+    assert!((100..=110).contains(&(rig.time - begin)), "{}", rig.time);
+    assert_eq!(rig.drive.device().get(HOMING_METHOD), Ok(35));
+    // A method that doesn't fit the type is not sent.
+    let refused = rig.motion().home_with(200, DEADLINE);
+    assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
+}
+
+#[test]
+fn a_start_bit_that_is_already_set() {
+    let mut rig = Rig::enabled(6);
+    // The mode 6 is active, and the drive has executed this bit.
+    rig.write(0x6040, &0x001F_u16.to_le_bytes());
+    rig.drive.device().step(ms(200));
+    rig.writes.clear();
+    assert_eq!(rig.motion().home(DEADLINE), Ok(()));
+    assert_eq!(rig.controls(), [0x0F, 0x1F, 0x0F]);
+}
+
+#[test]
+fn results_of_an_earlier_homing_procedure() {
+    // The drive needs 40 ms to clear the bits of an earlier procedure.
+    let late = |rig: &mut Rig| rig.set = 0;
+    let mut rig = Rig::enabled(6).at(40, late);
+    rig.set = 1 << 12 | 1 << 10;
+    assert_eq!(rig.motion().home(DEADLINE), Ok(()));
+    assert!(rig.time > 100, "{}", rig.time);
+    // An earlier error isn't the result either.
+    let mut rig = Rig::enabled(6).at(40, late);
+    rig.set = 1 << 13;
+    assert_eq!(rig.motion().home(DEADLINE), Ok(()));
+    // If the bits never change, the drive has ended the new procedure.
+    let mut rig = Rig::enabled(6);
+    rig.set = 1 << 13;
+    assert_eq!(rig.motion().home(DEADLINE), Err(MotionError::Homing));
+    assert!((90..=110).contains(&rig.time), "{}", rig.time);
+}
+
+#[test]
+fn homing_that_fails() {
+    // The simulated drive reports an error for the reserved method 36.
+    let mut rig = Rig::enabled(1);
+    assert_eq!(rig.motion().home_with(36, DEADLINE), Err(MotionError::Homing));
+    assert_eq!(rig.control(), 0x0F, "the start bit is cleared");
+
+    let mut rig = Rig::enabled(1);
+    assert!(matches!(rig.motion().home(ms(50)), Err(MotionError::Deadline { status: ENABLED })));
+    assert_eq!(rig.control(), 0x0F, "the drive aborts homing");
+    rig.drive.device().step(DEADLINE);
+    assert_eq!(rig.drive.device().get(STATUSWORD), Ok(ENABLED | 1 << 10));
+
+    // Homing without "target reached" isn't complete.
+    let mut rig = Rig::enabled(1);
+    rig.cleared = 1 << 10;
+    assert!(matches!(rig.motion().home(ms(300)), Err(MotionError::Deadline { status: 0x1237 })));
+
+    let mut rig = Rig::enabled(1);
+    rig.write(0x6502, &[1, 0, 0, 0]);
+    let refused = MotionError::ModeNotConfirmed { requested: Mode::Homing, active: Mode::ProfilePosition };
+    assert_eq!(rig.motion().home(ms(50)), Err(refused));
+}
+
+#[test]
+fn a_fault_during_homing() {
+    let mut rig = Rig::enabled(6).at(50, |rig| rig.fail(0x7305));
+    let fault = MotionError::Fault { state: State::Fault, code: Some(0x7305) };
+    assert_eq!(rig.motion().home(DEADLINE), Err(fault));
+    // After a fault, the controlword isn't written any more.
+    assert_eq!(rig.controls(), [0x1F]);
+}
+
+#[test]
+fn moves() {
+    let mut rig = Rig::enabled(1);
+    rig.write(0x6040, &0x084F_u16.to_le_bytes());
+    rig.writes.clear();
+    assert_eq!(rig.motion().move_to(Target::absolute(500), DEADLINE), Ok(()));
+    assert_eq!(rig.writes, [(0x607A, 500), (0x6040, 0x081F), (0x6040, 0x080F)]);
+    assert!(rig.position() < 100, "the method doesn't wait for the end of the move");
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
+    assert_eq!(rig.position(), 500);
+    assert_eq!(rig.motion().move_to(Target::relative(-20), DEADLINE), Ok(()));
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
+    assert_eq!((rig.position(), rig.control()), (480, 0x084F));
+}
+
+#[test]
+fn set_points_wait_or_replace() {
+    let mut rig = Rig::enabled(1);
+    rig.motion().move_to(Target::absolute(300), DEADLINE).unwrap();
+    // The drive stores one set-point. The next one is accepted when the first move ends.
+    let begin = rig.time;
+    rig.motion().move_to(Target::absolute(200), DEADLINE).unwrap();
+    assert_eq!(rig.time, begin);
+    rig.motion().move_to(Target::absolute(100), DEADLINE).unwrap();
+    assert!((350..=450).contains(&(rig.time - begin)), "{}", rig.time);
+    rig.motion().wait_reached(DEADLINE).unwrap();
+    assert_eq!(rig.position(), 100);
+    // A set-point that replaces all others is sent at once, although a set-point waits.
+    rig.motion().move_to(Target::absolute(5000), DEADLINE).unwrap();
+    rig.motion().move_to(Target::absolute(6000), DEADLINE).unwrap();
+    let begin = rig.time;
+    rig.motion().move_to(Target::absolute(0).immediately(), DEADLINE).unwrap();
+    assert!(rig.time - begin <= 110, "{}", rig.time - begin);
+    rig.motion().wait_reached(DEADLINE).unwrap();
+    assert_eq!(rig.position(), 0);
+}
+
+#[test]
+fn set_points_that_the_drive_does_not_acknowledge() {
+    let mut rig = Rig::enabled(1);
+    rig.cleared = 1 << 12;
+    assert!(matches!(rig.motion().move_to(Target::absolute(500), ms(50)), Err(MotionError::Deadline { .. })));
+    assert_eq!(rig.controls(), [0x1F, 0x0F], "the bit is cleared");
+    // Without a free place, the set-point isn't sent.
+    let mut rig = Rig::enabled(1);
+    rig.set = 1 << 12;
+    assert!(matches!(rig.motion().move_to(Target::absolute(500), ms(50)), Err(MotionError::Deadline { .. })));
+    assert_eq!(rig.writes, []);
+    // The move is longer than the deadline.
+    let mut rig = Rig::enabled(1);
+    rig.motion().move_to(Target::absolute(500), DEADLINE).unwrap();
+    assert_eq!(rig.motion().wait_reached(ms(100)), Err(MotionError::Deadline { status: ENABLED }));
+}
+
+#[test]
+fn following_errors_of_a_move() {
+    let mut rig = Rig::enabled(1).at(100, |rig| rig.set = 1 << 13);
+    rig.motion().move_to(Target::absolute(500), DEADLINE).unwrap();
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Err(MotionError::FollowingError { error: Some(0) }));
+    // A drive with a following error gets no set-point.
+    rig.writes.clear();
+    let refused = rig.motion().move_to(Target::absolute(7), DEADLINE);
+    assert_eq!((refused, rig.writes.as_slice()), (Err(MotionError::FollowingError { error: Some(0) }), [].as_slice()));
+    // A following error during the handshake: the bit is cleared.
+    let mut rig = Rig::enabled(1).at(20, |rig| rig.set = 1 << 13);
+    rig.cleared = 1 << 12;
+    let failed = rig.motion().move_to(Target::absolute(500), DEADLINE);
+    assert_eq!((failed, rig.control()), (Err(MotionError::FollowingError { error: Some(0) }), 0x0F));
+}
+
+#[test]
+fn a_fault_during_a_move() {
+    let mut rig = Rig::enabled(1).at(200, |rig| rig.fail(0x8611));
+    rig.motion().move_to(Target::absolute(10_000), DEADLINE).unwrap();
+    let failed = rig.motion().wait_reached(DEADLINE);
+    let MotionError::Fault { state, code } = failed.unwrap_err() else { panic!("{failed:?}") };
+    assert!(state.is_fault());
+    assert_eq!(code, Some(0x8611));
+    // No operation resets the fault.
+    rig.drive.device().step(ms(100));
+    rig.writes.clear();
+    let fault = Err(MotionError::Fault { state: State::Fault, code: Some(0x8611) });
+    assert_eq!(rig.motion().move_to(Target::absolute(0), DEADLINE), fault);
+    assert_eq!(rig.motion().home(DEADLINE), fault);
+    assert_eq!(rig.motion().set_velocity(1), fault);
+    assert_eq!(rig.writes, []);
+}
+
+#[test]
+fn operations_never_enable_a_drive() {
+    for (control, state) in [(0x02, State::SwitchOnDisabled), (0x06, State::ReadyToSwitchOn), (0x07, State::SwitchedOn)]
+    {
+        let mut rig = Rig::enabled(1);
+        rig.write(0x6040, &[control, 0]);
+        rig.drive.device().step(ms(100));
+        rig.writes.clear();
+        let refused = |result| matches!(result, Err(MotionError::NotEnabled { state: Some(s), .. }) if s == state);
+        assert!(refused(rig.motion().move_to(Target::absolute(1), DEADLINE)));
+        assert!(refused(rig.motion().wait_reached(DEADLINE)));
+        assert!(refused(rig.motion().home(DEADLINE)));
+        assert!(refused(rig.motion().home_with(1, DEADLINE)));
+        assert!(refused(rig.motion().set_velocity(1)));
+        assert_eq!(rig.writes, []);
+    }
+    // The controlword still contains "enable operation". It isn't written after a local quick stop.
+    let mut rig = Rig::enabled(6).at(20, |rig| {
+        (rig.set, rig.cleared) = (0, 1 << 5);
+    });
+    let stopped = MotionError::NotEnabled { state: Some(State::QuickStopActive), status: 0x0217 };
+    assert_eq!(rig.motion().home(DEADLINE), Err(stopped));
+    assert_eq!(rig.controls(), [0x1F]);
+}
+
+#[test]
+fn velocities() {
+    let mut rig = Rig::enabled(3);
+    assert_eq!(rig.motion().set_velocity(-700), Ok(()));
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
+    let velocity: Item<i32, Ro, OnCanOpen> = Item::object(0x606C, 0, "");
+    assert_eq!(rig.drive.device().get(velocity), Ok(-700));
+    assert_eq!(rig.writes, [(0x60FF, -700)]);
+    rig.set = 1 << 13;
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Err(MotionError::Slippage));
+    let mut rig = Rig::enabled(9);
+    assert_eq!(rig.motion().set_velocity(5), Ok(()));
+    // In the cyclic modes, bit 10 doesn't mean "target reached".
+    let wrong = Err(MotionError::WrongMode { active: Mode::CyclicSynchronousVelocity });
+    assert_eq!(rig.motion().wait_reached(DEADLINE), wrong);
+}
+
+#[test]
+fn operations_in_another_mode_or_with_halt() {
+    let mut rig = Rig::enabled(3);
+    let wrong = |active| Err(MotionError::WrongMode { active });
+    assert_eq!(rig.motion().move_to(Target::absolute(1), DEADLINE), wrong(Mode::ProfileVelocity));
+    let mut rig = Rig::enabled(1);
+    assert_eq!(rig.motion().set_velocity(1), wrong(Mode::ProfilePosition));
+    rig.write(0x6040, &0x010F_u16.to_le_bytes());
+    rig.writes.clear();
+    assert_eq!(rig.motion().move_to(Target::absolute(1), DEADLINE), Err(MotionError::Halted));
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Err(MotionError::Halted));
+    assert_eq!(rig.motion().home(DEADLINE), Err(MotionError::Halted));
+    assert_eq!(rig.writes, []);
+}
+
+#[test]
+fn accesses_that_fail() {
+    let mut rig = Rig::enabled(1).at(20, |rig| rig.drive.device().fail_next(AbortCode::DEVICE_STATE));
+    rig.motion().move_to(Target::absolute(500), DEADLINE).unwrap();
+    let failed = rig.motion().wait_reached(DEADLINE);
+    assert_eq!(failed, Err(MotionError::Access(Error::Abort(AbortCode::DEVICE_STATE))));
+}
+
+#[tokio::test]
+async fn without_blocking() {
+    let mut rig = Rig::enabled(1);
+    let moves = async {
+        rig.motion().home_async(DEADLINE).await?;
+        rig.motion().set_mode_async(Mode::ProfilePosition, DEADLINE).await?;
+        rig.motion().move_to_async(Target::absolute(300), DEADLINE).await?;
+        rig.motion().wait_reached_async(DEADLINE).await?;
+        assert_eq!(rig.position(), 300);
+        rig.motion().set_mode_async(Mode::ProfileVelocity, DEADLINE).await?;
+        rig.motion().set_velocity_async(20).await?;
+        rig.motion().home_with_async(36, DEADLINE).await
+    };
+    assert_eq!(moves.await, Err(MotionError::Homing));
+}
+
+/// Runs a cycle of 2 ms with a set-point, and returns the result of the watch.
+fn cycle(rig: &mut Rig, cyclic: &mut Cyclic, target: i32) -> Result<bool, CycleError> {
+    let device = rig.drive.device();
+    device.step(ms(2));
+    let inputs = Inputs {
+        status: device.get(STATUSWORD).unwrap(),
+        mode: device.get(ACTIVE_MODE).ok(),
+        actual: device.get(POSITION).unwrap(),
+        following_error: device.get(FOLLOWING_ERROR).ok(),
+    };
+    let control = device.get(CONTROLWORD).unwrap();
+    let cycle = cyclic.cycle(inputs, control, target)?;
+    device.set(TARGET_POSITION, cycle.target).unwrap();
+    device.set(CONTROLWORD, cycle.control).unwrap();
+    Ok(cycle.is_following)
+}
+
+#[test]
+fn cyclic_positions() {
+    let mut rig = Rig::enabled(1);
+    rig.write(0x607F, &1000_u32.to_le_bytes());
+    let mut cyclic = Cyclic::position().with_limit(50);
+    // The axis doesn't move before the mode is active.
+    for target in 0..10 {
+        assert_eq!(cycle(&mut rig, &mut cyclic, 900 + target), Ok(false));
+    }
+    assert_eq!(rig.position(), 0);
+    rig.motion().set_mode(cyclic.mode(), DEADLINE).unwrap();
+    for target in 1..=100 {
+        assert_eq!(cycle(&mut rig, &mut cyclic, target), Ok(true));
+    }
+    // 5 units in 2 ms are more than the axis can move.
+    let error = (1..100).find_map(|step| cycle(&mut rig, &mut cyclic, 100 + 5 * step).err());
+    let Some(CycleError::LimitExceeded { error, limit: 50 }) = error else { panic!("{error:?}") };
+    assert!((51..=56).contains(&error), "{error}");
+    // The window of the drive.
+    rig.write(0x6065, &40_u32.to_le_bytes());
+    let failed = cycle(&mut rig, &mut Cyclic::position(), 500);
+    assert!(matches!(failed, Err(CycleError::FollowingError { error: Some(error) }) if error > 40), "{failed:?}");
+    rig.fail(0x8611);
+    assert_eq!(cycle(&mut rig, &mut cyclic, 0).map_err(|error| matches!(error, CycleError::Fault(_))), Err(true));
+}
+
+/// Tests the operations of generated bindings.
+#[test]
+fn generated_drives() {
+    use lexibus_drives::demo_drive::types::ModesOfOperation;
+
+    let mut device = Device::new(demo_drive::ENTRIES).with_cia402();
+    let mut drive = demo_drive::DemoDrive::new(device.client::<CanOpen>());
+    let disabled = drive.cia402().move_to(Target::absolute(5), DEADLINE);
+    assert!(matches!(disabled, Err(MotionError::NotEnabled { .. })), "{disabled:?}");
+    drive.walk(demo_drive::types::State::OperationEnabled, DEADLINE).unwrap();
+    drive.cia402().set_mode(ModesOfOperation::ProfilePosition, DEADLINE).unwrap();
+    drive.cia402().move_to(Target::absolute(-5), DEADLINE).unwrap();
+    drive.cia402().wait_reached(DEADLINE).unwrap();
+    assert_eq!(drive.position_actual_value().read(), Ok(-5));
+    // The description declares the range of the target position, and the modes up to 8.
+    let refused = drive.cia402().move_to(Target::absolute(1_000_001), DEADLINE);
+    assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
+    let refused = drive.cia402().set_mode(Mode::CyclicSynchronousVelocity, DEADLINE);
+    assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
+    // The error code of this drive is in 0x1003.
+    device.fail(0x2310).unwrap();
+    let mut drive = demo_drive::DemoDrive::new(device.client::<CanOpen>());
+    let fault = drive.cia402().wait_reached(DEADLINE);
+    assert!(matches!(fault, Err(MotionError::Fault { code: Some(0x2310), .. })), "{fault:?}");
+}
+
+#[test]
+fn a_generated_drive_with_several_axes() {
+    use lexibus_drives::vector_step::types::State;
+
+    let mut device = Device::new(vector_step::ENTRIES).with_cia402().with_axes(&vector_step::AXES);
+    let mut drive = vector_step::VectorStep::new(device.client::<CoE>());
+    let mut axis = drive.axis(2);
+    axis.walk(State::OperationEnabled, DEADLINE).unwrap();
+    axis.cia402().home_with(35, DEADLINE).unwrap();
+    axis.cia402().set_mode(Mode::ProfilePosition, DEADLINE).unwrap();
+    axis.cia402().move_to(Target::absolute(700), Duration::from_secs(20)).unwrap();
+    axis.cia402().wait_reached(Duration::from_secs(20)).unwrap();
+    assert_eq!(axis.position_actual_value().read(), Ok(700));
+    assert_eq!(drive.position_actual_value().read(), Ok(0));
+    let disabled = drive.cia402().home(DEADLINE);
+    assert!(matches!(disabled, Err(MotionError::NotEnabled { .. })), "{disabled:?}");
+}
+
+#[test]
+fn a_generated_drive_with_scaled_values() {
+    use lexibus_drives::eco::types::State;
+
+    let mut device = Device::new(eco::ENTRIES).with_cia402();
+    let mut drive = eco::Eco::new(device.client::<CoE>());
+    drive.walk(State::OperationEnabled, DEADLINE).unwrap();
+    drive.cia402().set_mode(Mode::ProfilePosition, DEADLINE).unwrap();
+    drive.cia402().move_to(Target::absolute(300), DEADLINE).unwrap();
+    drive.cia402().wait_reached(DEADLINE).unwrap();
+    assert_eq!(drive.position_actual_value().read(), Ok(300));
+    drive.cia402().set_mode(Mode::ProfileVelocity, DEADLINE).unwrap();
+    drive.cia402().set_velocity(-40).unwrap();
+    drive.cia402().wait_reached(DEADLINE).unwrap();
+    assert_eq!(drive.velocity_actual_value().read(), Ok(-40));
+}
