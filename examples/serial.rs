@@ -28,8 +28,8 @@ mod unix {
     use lexibus::framing::{Check, Delimited, Framing};
     use lexibus::message::WriteError;
     use lexibus::{
-        AbortCode, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter, ParameterMessages,
-        Parameters, Range, Rw,
+        AbortCode, AccessError, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter,
+        ParameterMessages, Parameters, Range, Rw,
     };
     use serialport::{SerialPort, TTYPort};
 
@@ -76,7 +76,7 @@ mod unix {
         POSITION.at(&mut drive).write(0x0203_1B00)?;
         println!("gain {}, position {:#010x}", GAIN.at(&mut drive).read()?, POSITION.at(&mut drive).read()?);
         println!("gain 1001: {}", GAIN.at(&mut drive).write(1001).err().ok_or("it is out of range")?);
-        let refused: Option<Error<SerialError<_>>> = MISSING.at(&mut drive).read().err();
+        let refused: Option<AccessError<SerialError<_>>> = MISSING.at(&mut drive).read().err();
         println!("parameter 0x0999: {}", refused.ok_or("it doesn't exist")?);
         Ok(())
     }

@@ -7,10 +7,14 @@ mod text;
 
 use core::fmt;
 
+use crate::access_error::{AccessError, Place};
+use crate::bus::Bus;
+use crate::bus_address::BusAddress;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
+use crate::raw_value::RawValue;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Value;
 use crate::value_error::LengthError;
@@ -24,7 +28,8 @@ use crate::value_error::LengthError;
 /// # Errors
 ///
 /// Every read and write returns the errors of the client (see [`Client::read`]) and the errors that its own
-/// documentation lists. If a reply has the wrong length, the method returns [`Error::Length`] and doesn't panic.
+/// documentation lists, in an [`AccessError`] that names the item. If a reply has the wrong length, the method returns
+/// [`Error::Length`] and doesn't panic.
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
     item: Item<V, A, L>,
@@ -50,6 +55,31 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     #[must_use]
     pub const fn item(&self) -> &Item<V, A, L> {
         &self.item
+    }
+}
+
+impl<C, V: Value, A, L> Accessor<'_, C, V, A, L> {
+    /// Returns the name and the address of the item for errors. The function is inlined, so that the item itself doesn't
+    /// have to be in memory.
+    #[inline(always)]
+    fn place(&self, address: Option<BusAddress>) -> Place {
+        (self.item.name(), address)
+    }
+
+    #[inline(always)]
+    fn read_failed<B: Bus, E>(&self, error: Error<E>) -> AccessError<E>
+    where
+        L: On<B, Route: ReadRoute<B>>,
+    {
+        AccessError::read(error, self.place(self.item.location().route().read_address()))
+    }
+
+    #[inline(always)]
+    fn write_failed<B: Bus, E>(&self, error: Error<E>, value: Option<RawValue>) -> AccessError<E>
+    where
+        L: On<B, Route: WriteRoute<B>>,
+    {
+        AccessError::write(error, self.place(self.item.location().route().write_address()), value)
     }
 }
 

@@ -57,7 +57,7 @@ use crate::error::Error;
 ///
 /// // 300,000 is outside the range of the item, so nothing is sent:
 /// let refused = TARGET_POSITION.at(&mut client).write(300_000);
-/// assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
+/// assert_eq!(refused.map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
 /// # Ok::<(), Error<core::convert::Infallible>>(())
 /// ```
 pub trait Client {

@@ -2,6 +2,7 @@
 
 use crate::data_type::DataType;
 use crate::range::Range;
+use crate::raw_value::RawValue;
 use crate::value::{Fixed, Value};
 use crate::value_error::{LengthError, OutOfRange};
 
@@ -90,6 +91,11 @@ impl<E: Enumeration> Fixed for E {
             Range::Between(low, high) => within(Range::Between(low.native(), high.native())),
             Range::OneOf(list) => list.iter().any(|(low, high)| within(Range::Between(low.native(), high.native()))),
         }
+    }
+
+    #[inline]
+    fn raw_value(native: E) -> Option<RawValue> {
+        <E::Base as Fixed>::raw_value(native.native())
     }
 }
 

@@ -18,7 +18,7 @@
 //! # let client = device.client::<lexibus::CanOpen>();
 //! use std::time::Duration;
 //!
-//! use lexibus::Error;
+//! use lexibus::{AccessError, Error};
 //! use lexibus_drives::demo_drive::types::{ModesOfOperation, State};
 //! use lexibus_drives::demo_drive::DemoDrive;
 //!
@@ -31,7 +31,8 @@
 //! # assert_eq!(position, 0);
 //!
 //! // 600,000 is outside the range that the EDS declares, so nothing is sent:
-//! assert!(matches!(drive.profile_velocity().write(600_000), Err(Error::OutOfRange(_))));
+//! let refused = drive.profile_velocity().write(600_000);
+//! assert!(matches!(refused, Err(AccessError { error: Error::OutOfRange(_), .. })));
 //! // drive.position_actual_value().write(0) does not compile, because the object is read-only.
 //! # }
 //! # Ok::<(), lexibus::AbortCode>(())
@@ -43,7 +44,7 @@
 //!
 //! | topic | items |
 //! |---|---|
-//! | values, reading and writing | [`Item`], [`Accessor`], [`Value`], [`Range`], [`Error`] |
+//! | values, reading and writing | [`Item`], [`Accessor`], [`Value`], [`Range`], [`AccessError`], [`Error`] |
 //! | buses and addresses of an item | [`Location`], [`On`], [`location!`] |
 //! | scaling and units | [`Quantity`], [`Scaled`] and related types |
 //! | the state machine of a drive | [`Walker`], [`Machine`], [`Step`] |
@@ -88,11 +89,13 @@ extern crate std;
 
 mod abort;
 mod access;
+mod access_error;
 mod accessor;
 mod axes;
 mod bit_field;
 pub mod bits;
 mod bus;
+mod bus_address;
 pub mod cia402;
 mod client;
 #[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus", feature = "serial"))]
@@ -128,6 +131,7 @@ pub mod pdo;
 pub mod profinet;
 mod quantity;
 mod range;
+mod raw_value;
 mod register;
 mod remaining;
 mod retrying;
@@ -145,12 +149,14 @@ mod wide;
 
 pub use abort::AbortCode;
 pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
+pub use access_error::AccessError;
 pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::debug_bits;
 #[doc(hidden)]
 pub use bit_field::{bits16, bits32, bits64, bits8};
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
+pub use bus_address::BusAddress;
 pub use client::{AsyncClient, Client, Timed, Write};
 pub use clock::{Clock, DefaultClock, Timer};
 pub use composite::Composite;
@@ -174,6 +180,7 @@ pub use node_id::NodeId;
 pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWrite, Tpdo};
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
+pub use raw_value::RawValue;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
 pub use retrying::{Deadline, Retrying};
 pub use route::{

@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use crate::data_type::DataType;
 use crate::range::Range;
+use crate::raw_value::RawValue;
 use crate::value::{Fixed, Value};
 use crate::value_error::{LengthError, OutOfRange};
 
@@ -170,6 +171,11 @@ macro_rules! like_its_base {
             #[inline]
             fn in_range(value: Self::Native, range: &Range<Self::Native>) -> bool {
                 $base::in_range(value, range)
+            }
+
+            #[inline]
+            fn raw_value(native: Self::Native) -> Option<RawValue> {
+                $base::raw_value(native)
             }
         }
     };

@@ -1,6 +1,7 @@
 //! Routes: transfers of an item's value on one bus, directly to an address or indirectly.
 
 use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
+use crate::bus_address::BusAddress;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::image_field::ImageField;
@@ -62,6 +63,12 @@ pub trait Direct<B: Bus>: Copy {
     label = "the client's bus has no route that reads this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
+    /// Returns the address that error messages name, or `None` if the route has no address.
+    #[inline]
+    fn read_address(&self) -> Option<BusAddress> {
+        None
+    }
+
     /// Reads the value into the start of `buffer` and returns its length, as [`Client::read`] does.
     ///
     /// # Errors
@@ -88,6 +95,12 @@ pub trait ReadRoute<B: Bus>: Copy {
     label = "the client's bus has no route that writes this item"
 )]
 pub trait WriteRoute<B: Bus>: Copy {
+    /// Returns the address that error messages name, or `None` if the route has no address.
+    #[inline]
+    fn write_address(&self) -> Option<BusAddress> {
+        None
+    }
+
     /// Writes the value, as [`Client::write`] does.
     ///
     /// # Errors
@@ -107,6 +120,11 @@ pub trait WriteRoute<B: Bus>: Copy {
 /// Defines the methods of a [`ReadRoute`] that delegates to `self.$route`.
 macro_rules! read_by {
     ($route:tt) => {
+        #[inline]
+        fn read_address(&self) -> Option<BusAddress> {
+            self.$route.read_address()
+        }
+
         #[inline]
         fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
             self.$route.read(client, buffer)
@@ -132,6 +150,11 @@ macro_rules! direct {
 
         impl<B: Bus<Address = $address>> ReadRoute<B> for $address {
             #[inline]
+            fn read_address(&self) -> Option<BusAddress> {
+                Some((*self).into())
+            }
+
+            #[inline]
             fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
                 client.read(*self, buffer)
             }
@@ -146,6 +169,11 @@ macro_rules! direct {
         }
 
         impl<B: Bus<Address = $address>> WriteRoute<B> for $address {
+            #[inline]
+            fn write_address(&self) -> Option<BusAddress> {
+                Some((*self).into())
+            }
+
             #[inline]
             fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
                 client.write(*self, data)
@@ -241,6 +269,11 @@ impl<B: Bus, R: ReadRoute<B>, W: Copy> ReadRoute<B> for Split<R, W> {
 }
 
 impl<B: Bus, R: Copy, W: WriteRoute<B>> WriteRoute<B> for Split<R, W> {
+    #[inline]
+    fn write_address(&self) -> Option<BusAddress> {
+        self.write.write_address()
+    }
+
     #[inline]
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         self.write.write(client, data)

@@ -2,6 +2,7 @@
 
 use crate::data_type::DataType;
 use crate::range::Range;
+use crate::raw_value::RawValue;
 use crate::value_error::{LengthError, OutOfRange};
 
 /// The type of an item's value.
@@ -36,6 +37,13 @@ pub trait Fixed: Value {
 
     /// Returns whether `range` contains `value`.
     fn in_range(value: Self::Native, range: &Range<Self::Native>) -> bool;
+
+    /// Returns the raw value for error messages, or `None` if the value isn't a number.
+    #[inline]
+    fn raw_value(native: Self::Native) -> Option<RawValue> {
+        let _ = native;
+        None
+    }
 }
 
 /// Writes `raw` to `buffer`. Returns the number of bytes that `bits` bits occupy.
@@ -88,6 +96,11 @@ impl Fixed for bool {
     fn in_range(value: Self, range: &Range<Self>) -> bool {
         range.contains(value)
     }
+
+    #[inline]
+    fn raw_value(native: Self) -> Option<RawValue> {
+        Some(native.into())
+    }
 }
 
 macro_rules! fixed {
@@ -116,6 +129,11 @@ macro_rules! fixed {
             #[inline]
             fn in_range(value: Self, range: &Range<Self>) -> bool {
                 range.contains(value)
+            }
+
+            #[inline]
+            fn raw_value(native: Self) -> Option<RawValue> {
+                Some(native.into())
             }
         }
     )*};

@@ -3,6 +3,7 @@
 use crate::data_type::DataType;
 use crate::pdo::{mask, sign_extend};
 use crate::range::Range;
+use crate::raw_value::RawValue;
 use crate::value::{decode_raw, encode_raw, Fixed, Value};
 use crate::value_error::{LengthError, OutOfRange};
 
@@ -164,6 +165,11 @@ macro_rules! wide {
             #[inline]
             fn in_range(value: $native, range: &Range<$native>) -> bool {
                 range.contains(value)
+            }
+
+            #[inline]
+            fn raw_value(native: $native) -> Option<RawValue> {
+                Some(native.into())
             }
         }
     )*};

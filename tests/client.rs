@@ -90,11 +90,11 @@ fn the_client_may_be_borrowed() -> Result<(), Error<Object>> {
 fn errors() {
     let mut device = Memory::default();
     let missing = Object { index: 0x607A, sub_index: 0 };
-    assert_eq!(TARGET_POSITION.at(&mut device).write(100_001), Err(Error::OutOfRange(OutOfRange)));
-    assert_eq!(TARGET_POSITION.at(&mut device).read(), Err(Error::Client(missing)));
+    assert_eq!(TARGET_POSITION.at(&mut device).write(100_001).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(TARGET_POSITION.at(&mut device).read().map_err(Error::from), Err(Error::Client(missing)));
     device.0.insert(missing, vec![1, 2, 3, 4, 5]);
     let length = Error::Length(LengthError { expected: 4, actual: 5 });
-    assert_eq!(TARGET_POSITION.at(&mut device).read(), Err(length));
+    assert_eq!(TARGET_POSITION.at(&mut device).read().map_err(Error::from), Err(length));
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn without_blocking() {
         assert_eq!(TARGET_POSITION.at(&mut device).read_async().await?, 5);
         TARGET_POSITION.at(&mut device).write_async(i32::MAX).await
     });
-    assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(refused.map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
 }
 
 #[test]

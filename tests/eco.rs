@@ -246,7 +246,7 @@ where
     L: On<CanOpen>,
     L::Route: ReadRoute<CanOpen>,
 {
-    item.at(own).read()
+    Ok(item.at(own).read()?)
 }
 
 #[test]
@@ -299,7 +299,7 @@ fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     objects::CONTROL_WORD.at(&mut own).write(enabled)?;
     assert!(is_done(own.client()));
     // A value outside the range of d2 must not be sent.
-    assert_eq!(objects::D2.at(&mut own).write(100), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(objects::D2.at(&mut own).write(100).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(waited, [Duration::from_millis(3); 4]);
     Ok(())
 }

@@ -148,8 +148,8 @@ fn saving_by_an_address_on_modbus() -> Outcome<()> {
     objects::SAVE_TO_FLASH.at(&mut drive).write(0x0011)?;
     objects::SAVE_TO_FLASH_32.at(&mut drive).write(0x0000_0011)?;
     let refused = Err(Error::OutOfRange(OutOfRange));
-    assert_eq!(objects::SAVE_TO_FLASH.at(&mut drive).write(0x0012), refused);
-    assert_eq!(objects::SAVE_TO_FLASH_32.at(&mut drive).write(0), refused);
+    assert_eq!(objects::SAVE_TO_FLASH.at(&mut drive).write(0x0012).map_err(Error::from), refused);
+    assert_eq!(objects::SAVE_TO_FLASH_32.at(&mut drive).write(0).map_err(Error::from), refused);
     // In this test, a write of one register also uses function 16. The test program `frames` tests function 6.
     let printed =
         ["01 10 80 00 00 02 04 00 00 00 00", "01 10 38 02 00 01 02 00 11", "01 10 38 02 00 02 04 00 00 00 11"];

@@ -123,7 +123,7 @@ fn what_the_device_refuses() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         // Both the accessor and the device reject values outside the range.
-        let refused = drive.profile_velocity().write_async(1_000_001).await;
+        let refused = drive.profile_velocity().write_async(1_000_001).await.map_err(Error::from);
         assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
         let client = drive.client();
         let too_high = write(client, 0x6081, 0, &1_000_001_u32.to_le_bytes()).await;
@@ -390,7 +390,7 @@ fn a_lost_mailbox_reply_is_requested_again() {
         }
         // A read fails because four replies are lost. The next read must return the right value.
         lost.set(4);
-        assert!(matches!(drive.target_position().read_async().await, Err(Error::Client(_))));
+        assert!(matches!(drive.target_position().read_async().await.map_err(Error::from), Err(Error::Client(_))));
         lost.set(0);
         assert_eq!(drive.target_position().read_async().await, Ok(103));
     });
@@ -419,14 +419,17 @@ fn what_goes_wrong_on_the_bus() {
         let group = pre_op(maindevice).await;
         let mut mute = drive(maindevice, &group, 0);
         let missing = BusError::Mailbox(MailboxError::NoWriteMailbox);
-        assert_eq!(mute.target_position().read_async().await, Err(Error::Client(missing)));
+        assert_eq!(mute.target_position().read_async().await.map_err(Error::from), Err(Error::Client(missing)));
 
         let mut other = drive(maindevice, &group, 1);
         let unknown = Error::Abort(AbortCode(0x1234_5678));
-        assert_eq!(other.target_position().write_async(1).await, Err(unknown));
-        assert_eq!(other.target_position().read_async().await, Err(Error::Abort(AbortCode::GENERAL)));
+        assert_eq!(other.target_position().write_async(1).await.map_err(Error::from), Err(unknown));
+        assert_eq!(
+            other.target_position().read_async().await.map_err(Error::from),
+            Err(Error::Abort(AbortCode::GENERAL))
+        );
         let mut hasty = DemoServo::new(other.into_client().with_timeout(Duration::ZERO));
-        let late = hasty.target_position().read_async().await;
+        let late = hasty.target_position().read_async().await.map_err(Error::from);
         assert_eq!(late, Err(Error::Timeout));
     });
 }

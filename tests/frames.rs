@@ -132,7 +132,9 @@ fn modbus_exceptions() {
     let refused = exchanged((5, &request, &reply), |device| {
         Box::pin(async move { objects::D3.at(device).write_async(10).await })
     });
-    let Err(Error::Client(ModbusError::Exception(code))) = refused else { panic!("{refused:?}") };
+    let Err(Error::Client(ModbusError::Exception(code))) = refused.map_err(Error::from) else {
+        panic!("another error")
+    };
     assert_eq!(code, ExceptionCode::IllegalDataAddress);
 }
 

@@ -13,15 +13,18 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Pairs of functions whose counts may differ: value, operation, and allowed number of additional instructions per call.
-const TOLERATED: [(&str, &str, f64); 3] = [
+const TOLERATED: [(&str, &str, f64); 4] = [
     // The generated code stores bytes 4 and 5 of the first PDO with two instructions. LLVM shifts both bytes out of a
     // larger loaded word instead of loading the field.
     ("several_pdos", "pack", 1.0),
     // The buffer for values has 8 bytes for all types. Values and errors are returned in the same location, which costs
-    // a jump instruction.
-    ("objects", "read", 2.0),
-    // The value is converted to an enumeration that names most of its values.
-    ("objects", "write_mode", 4.0),
+    // a jump instruction. Another register for the error is saved and restored.
+    ("objects", "read", 4.0),
+    // The error of an item names the item, so generated code checks the result of the client. Handwritten code passes
+    // the result to the caller.
+    ("objects", "write", 5.0),
+    // As for "write". In addition, the value is converted to an enumeration that names most of its values.
+    ("objects", "write_mode", 9.0),
 ];
 
 /// For each function: the number of calls, and the instructions of all calls. The instructions of called functions are

@@ -151,7 +151,7 @@ fn parameters_are_items() {
     assert_eq!(hoist.gain().read(), Ok(150));
     assert_eq!(now(hoist.height().read_async()), Ok(0x0102_AB34));
     assert_eq!(hoist.serial().read(), Ok(123_456));
-    assert_eq!(hoist.ramp().read(), Err(Error::Refused));
+    assert_eq!(hoist.ramp().read().map_err(Error::from), Err(Error::Refused));
     assert_eq!(hoist.mode().write(types::Mode::Automatic), Ok(()));
     let sent = &hoist.client().exchange().sent;
     assert_eq!(sent[0], [5, 0xB8, 0x01, 0x05, 0x00, 0x96]);

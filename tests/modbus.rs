@@ -148,9 +148,9 @@ fn one_value_that_is_missing_fails_its_request() {
 fn what_the_device_does_not_take_is_not_sent() {
     let (device, _server, mut inverter) = connected();
     assert_eq!(inverter.recipe().read_into(&mut [0; 10]).unwrap(), "ABCDEFGHIJ");
-    let refused = inverter.recipe().write("recipe");
+    let refused = inverter.recipe().write("recipe").map_err(Error::from);
     assert!(matches!(refused, Err(Error::Client(ModbusError::TooLong { count: 5, max: 4 }))));
-    assert!(matches!(inverter.speed_setpoint().write(3001), Err(Error::OutOfRange(_))));
+    assert!(matches!(inverter.speed_setpoint().write(3001).map_err(Error::from), Err(Error::OutOfRange(_))));
     assert_eq!(device.requests(), ["ReadHoldingRegisters(19, 5)"]);
     // The device supports no function for several registers and allows reading the registers of a value separately.
     let context = inverter.into_client().into_context();

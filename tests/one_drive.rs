@@ -77,7 +77,7 @@ fn windows_are_as_addresses() {
     now(drive.gain().write_async(70_001)).unwrap();
     assert_eq!(now(drive.gain().read_async()), Ok(70_001));
     // The accessor also checks the range of the item.
-    assert_eq!(drive.gain().write(100_001), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(drive.gain().write(100_001).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     // An item that has its own object must not use the window.
     drive.target_position().write(60_000).unwrap();
     assert_eq!(device.bytes(Object::new(0x607A, 0)), Ok(60_000_i32.to_le_bytes().as_slice()));
@@ -88,12 +88,18 @@ fn windows_are_as_addresses() {
 fn what_the_device_refuses_comes_through_a_window() {
     let mut device = node();
     device.fail_next(AbortCode::HARDWARE);
-    assert_eq!(OneDrive::new(device.client::<CanOpen>()).gain().read(), Err(Error::Abort(AbortCode::HARDWARE)));
+    assert_eq!(
+        OneDrive::new(device.client::<CanOpen>()).gain().read().map_err(Error::from),
+        Err(Error::Abort(AbortCode::HARDWARE))
+    );
     // The device never clears the number in the window.
     let mut dead = Device::new(ENTRIES);
-    assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().read(), Err(Error::Timeout));
-    assert_eq!(now(OneDrive::new(dead.client::<CanOpen>()).gain().read_async()), Err(Error::Timeout));
-    assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().write(1), Err(Error::Timeout));
+    assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().read().map_err(Error::from), Err(Error::Timeout));
+    assert_eq!(
+        now(OneDrive::new(dead.client::<CanOpen>()).gain().read_async()).map_err(Error::from),
+        Err(Error::Timeout)
+    );
+    assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().write(1).map_err(Error::from), Err(Error::Timeout));
 }
 
 #[test]
@@ -115,7 +121,7 @@ fn a_window_of_bytes_takes_what_fits() {
     let mut drive = OneDrive::new(device.client::<CanOpen>());
     drive.station().write(199).unwrap();
     assert_eq!(drive.station().read(), Ok(208));
-    assert_eq!(drive.station().write(201), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(drive.station().write(201).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
 }
 
 /// A simulated drive on EtherCAT that logs all accesses.
@@ -191,7 +197,7 @@ fn each_axis_has_its_windows() {
     assert_eq!(drive.master_speed().read(), Ok(-1));
     drive.target_position().write(1).unwrap();
     let mut third = OneDrive::new(Axis::new(&mut slave, &AXES, 3));
-    assert!(matches!(third.master_speed().read(), Err(Error::NoSuchAxis { axis: 3, .. })));
+    assert!(matches!(third.master_speed().read().map_err(Error::from), Err(Error::NoSuchAxis { axis: 3, .. })));
     assert_eq!(
         slave.log,
         ["write 0x2005:03 [17, 80]", "wait 3ms", "read 0x2005:04, 4 bytes", "write 0x687A:00 [01, 00, 00, 00]"]
@@ -201,7 +207,7 @@ fn each_axis_has_its_windows() {
 #[test]
 fn time_has_to_come_from_somewhere() {
     let mut drive = OneDrive::new(Slave::default());
-    assert_eq!(now(drive.gain().read_async()), Err(Error::NoClock));
+    assert_eq!(now(drive.gain().read_async()).map_err(Error::from), Err(Error::NoClock));
     let mut waited = Duration::ZERO;
     let clock = |time| {
         waited += time;
@@ -223,7 +229,7 @@ fn each_bus_has_its_own_width() {
     // The item has 8 bits on CANopen. On CANopen, the mode for saving does not exist, and reads use the window.
     let mut device = node();
     let mut drive = OneDrive::new(device.client::<CanOpen>());
-    assert_eq!(drive.mode().write(Modes::SaveParameters), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(drive.mode().write(Modes::SaveParameters).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     drive.mode().write(Modes::Torque).unwrap();
     assert_eq!(drive.mode().read(), Ok(Modes::Torque));
     assert_eq!(device.bytes(Object::new(0x6060, 0)), Ok([0xFF].as_slice()));
@@ -344,7 +350,7 @@ fn fields_of_one_cycle_go_out_together() {
 fn data_that_are_not_valid_are_no_data() {
     let mut drive = image();
     drive.client().image().is_bad = true;
-    assert_eq!(drive.torque().read(), Err(Error::InvalidData));
+    assert_eq!(drive.torque().read().map_err(Error::from), Err(Error::InvalidData));
     drive.target_position().write(1).unwrap();
 }
 

@@ -280,11 +280,11 @@ fn parameters_are_items() {
     GAIN.at(&mut drive).write(-2).unwrap();
     POSITION.at(&mut drive).write(0x0203_1BFF).unwrap();
     assert_eq!((GAIN.at(&mut drive).read(), POSITION.at(&mut drive).read()), (Ok(-2), Ok(0x0203_1BFF)));
-    assert_eq!(MISSING.at(&mut drive).read(), Err(Error::Abort(AbortCode::NO_OBJECT)));
-    assert_eq!(MISSING.at(&mut drive).write(1), Err(Error::Abort(AbortCode::NO_OBJECT)));
+    assert_eq!(MISSING.at(&mut drive).read().map_err(Error::from), Err(Error::Abort(AbortCode::NO_OBJECT)));
+    assert_eq!(MISSING.at(&mut drive).write(1).map_err(Error::from), Err(Error::Abort(AbortCode::NO_OBJECT)));
     let parameters = &drive.exchange().stream().drive.as_ref().expect("a drive").parameters;
     assert_eq!(*parameters, BTreeMap::from([(3, vec![0xFF, 0xFE]), (0x1B, vec![0x02, 0x03, 0x1B, 0xFF])]));
-    let short = item::<i32>(3).at(&mut drive).read();
+    let short = item::<i32>(3).at(&mut drive).read().map_err(Error::from);
     assert_eq!(short, Err(Error::Length(LengthError::new(4, 2))));
 
     let stream = drive.into_exchange().into_stream();
@@ -297,10 +297,10 @@ fn parameters_are_items() {
     // The reply in this test belongs to another request.
     let line = SerialLine::<_, _, 64>::new(Line::replying(framed(b"w\x04")), FRAMING);
     let mut drive = Parameters::<_, _, 20>::new(line, Messages);
-    assert_eq!(GAIN.at(&mut drive).write(1), Err(Error::UnexpectedReply));
+    assert_eq!(GAIN.at(&mut drive).write(1).map_err(Error::from), Err(Error::UnexpectedReply));
     let line = SerialLine::<_, _, 64>::new(Line::default(), FRAMING);
     let mut small = Parameters::<_, _, 3>::new(line, Messages);
-    assert_eq!(GAIN.at(&mut small).write(1), Err(Error::Length(LengthError::new(4, 3))));
+    assert_eq!(GAIN.at(&mut small).write(1).map_err(Error::from), Err(Error::Length(LengthError::new(4, 3))));
 }
 
 #[test]

@@ -385,7 +385,7 @@ fn reactions_refuse_and_see_everything() {
         .unwrap();
     let mut drive = DemoDrive::new(device.client::<CanOpen>());
     drive.modes_of_operation().write(ModesOfOperation::Homing).unwrap();
-    let refused = drive.modes_of_operation().write(ModesOfOperation::from_raw(7));
+    let refused = drive.modes_of_operation().write(ModesOfOperation::from_raw(7)).map_err(Error::from);
     assert_eq!(refused, abort(AbortCode::INVALID_VALUE));
     assert_eq!(drive.modes_of_operation().read(), Ok(ModesOfOperation::Homing));
     assert_eq!(drive.modes_of_operation_display().read(), Ok(ModesOfOperation::Homing));
@@ -407,13 +407,13 @@ fn faults_of_ones_choosing() {
     device.fail_next(AbortCode::HARDWARE);
     device.fail_next(Fault::Bus);
     let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
-    assert_eq!(drive.statusword().read().map(|_| ()), abort(AbortCode::HARDWARE));
-    assert_eq!(drive.controlword().write(Controlword::new()), Err(Error::Client(Fault::Bus)));
+    assert_eq!(drive.statusword().read().map(|_| ()).map_err(Error::from), abort(AbortCode::HARDWARE));
+    assert_eq!(drive.controlword().write(Controlword::new()).map_err(Error::from), Err(Error::Client(Fault::Bus)));
     assert!(drive.statusword().read().is_ok());
     let mut device = vector();
     device.fail_next(Exception::ServerDeviceFailure);
     let mut drive = VectorStep::new(device.client::<Modbus>());
-    assert_eq!(drive.rpostarg().read(), exception(Exception::ServerDeviceFailure));
+    assert_eq!(drive.rpostarg().read().map_err(Error::from), exception(Exception::ServerDeviceFailure));
 }
 
 #[test]
@@ -794,8 +794,8 @@ mod frames {
         // If no frames arrive, waiting only advances the clock of the node.
         drive.client().port().set_connected(false);
         assert_eq!(drive.client().heartbeat(Duration::from_secs(3600)), Ok(None));
-        assert_eq!(drive.statusword().read().map(|_| ()), Err(Error::Timeout));
-        assert_eq!(now(drive.statusword().read_async()).map(|_| ()), Err(Error::Timeout));
+        assert_eq!(drive.statusword().read().map(|_| ()).map_err(Error::from), Err(Error::Timeout));
+        assert_eq!(now(drive.statusword().read_async()).map(|_| ()).map_err(Error::from), Err(Error::Timeout));
         drive.client().port().set_connected(true);
         assert_eq!(now(drive.profile_velocity().read_async()), Ok(1000));
     }

@@ -170,9 +170,9 @@ fn only_values_that_are_allowed_are_written() {
     let mut press = Press::new(Registers::default());
     assert_eq!(press.stroke().write(5), Ok(()));
     assert_eq!(press.stroke().write(15), Ok(()));
-    assert_eq!(press.stroke().write(6), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(press.stroke().write(6).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(press.sizes().write(Mode::Eject), Ok(()));
-    assert_eq!(press.sizes().write(Mode::Unknown(3)), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(press.sizes().write(Mode::Unknown(3)).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
 }
 
 #[test]
@@ -196,7 +196,7 @@ fn further_axes() {
     assert_eq!(entries[&Object::new(0x200D, 1)], [3, 0]);
     assert_eq!(press.axis(2).velocity().read_scaled(), Ok(Some(2.0)));
     let object = Object::new(0x607A, 0);
-    assert_eq!(press.axis(3).target_position().read(), Err(Error::NoSuchAxis { axis: 3, object }));
+    assert_eq!(press.axis(3).target_position().read().map_err(Error::from), Err(Error::NoSuchAxis { axis: 3, object }));
 }
 
 #[test]
@@ -205,9 +205,9 @@ fn scaled_values() {
     press.velocity().write_scaled(12.34).unwrap();
     assert_eq!(press.velocity().read(), Ok(123));
     assert_eq!(press.velocity().read_scaled(), Ok(Some(12.3)));
-    assert_eq!(press.velocity().write_scaled(500.1), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(press.velocity().write_scaled(500.1).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     // The value 0 means that the ram is off, so it is not a valid velocity.
-    assert_eq!(press.velocity().write_scaled(0.0), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(press.velocity().write_scaled(0.0).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     press.velocity().write(0).unwrap();
     assert_eq!(press.velocity().read_scaled(), Ok(None));
     assert_eq!(objects::POSITION_8.physical(-1234), -12.34);

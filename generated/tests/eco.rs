@@ -84,7 +84,10 @@ fn saving_on_ethercat() -> Answer<()> {
     assert_eq!(drive.client().log, ["write 0x6040:00 [02, 00]", "write 0x2007:00 [11]"]);
     // The mode that saves registers is not a mode of 0x6060.
     drive.client().log.clear();
-    assert_eq!(drive.modes_of_operation().write(Mode::SaveAndLoad), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(
+        drive.modes_of_operation().write(Mode::SaveAndLoad).map_err(Error::from),
+        Err(Error::OutOfRange(OutOfRange))
+    );
     assert!(drive.client().log.is_empty());
     Ok(())
 }

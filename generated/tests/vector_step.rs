@@ -133,13 +133,13 @@ fn each_of_three_axes_has_its_objects() {
     drive.axis(3).rloadsav().write(EepromCommand::from_raw(129)).unwrap();
     assert!(drive.client().0.contains_key(&Object::new(0x20C2, 1)));
     let missing = drive.axis(4).target_position().write(0);
-    assert!(matches!(missing, Err(Error::NoSuchAxis { axis: 4, .. })));
+    assert!(matches!(missing.map_err(Error::from), Err(Error::NoSuchAxis { axis: 4, .. })));
 }
 
 #[test]
 fn ranges_and_pdos() {
     let mut drive = VectorStep::new(Objects::<CanOpen>::new());
-    assert_eq!(drive.end_velocity().write_scaled(1e9), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(drive.end_velocity().write_scaled(1e9).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x0F), target_position: -2 }.pack();
     assert_eq!(frame, [0x0F, 0, 0xFE, 0xFF, 0xFF, 0xFF]);
     assert_eq!(objects::RPOSTARG.location().modbus, Register::low_first(8, 2));

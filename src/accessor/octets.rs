@@ -2,7 +2,9 @@
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
+use crate::access_error::AccessError;
 use crate::client::{AsyncClient, Client};
+#[cfg(doc)]
 use crate::error::Error;
 use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
@@ -20,13 +22,13 @@ macro_rules! octets {
             /// # Errors
             ///
             /// Returns [`Error::Length`] if the byte string is longer than `buffer`.
-            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], AccessError<C::Error>>
             where
                 A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
-                self.$fetch(buffer)$(.$await)?
+                self.$fetch(buffer)$(.$await)?.map_err(|error| self.read_failed(error))
             }
 
             /// Writes the byte string.
@@ -34,13 +36,13 @@ macro_rules! octets {
             /// # Errors
             ///
             /// Returns only the errors of the client.
-            pub $($async)? fn $write(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+            pub $($async)? fn $write(&mut self, data: &[u8]) -> Result<(), AccessError<C::Error>>
             where
                 A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
-                self.$send(data)$(.$await)?
+                self.$send(data)$(.$await)?.map_err(|error| self.write_failed(error, None))
             }
         }
     };
@@ -73,6 +75,6 @@ mod tests {
     fn more_than_the_buffer_is_an_error() {
         let mut device = Device::answering(&[0; 9]);
         let error = Error::Length(LengthError { expected: 8, actual: 9 });
-        assert_eq!(item::<Domain, Rw>().at(&mut device).read_into(&mut [0; 8]), Err(error));
+        assert_eq!(item::<Domain, Rw>().at(&mut device).read_into(&mut [0; 8]).map_err(Error::from), Err(error));
     }
 }

@@ -2,11 +2,30 @@
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
+use crate::access_error::AccessError;
+use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
+#[cfg(doc)]
 use crate::error::Error;
 use crate::location::On;
 use crate::quantity::Quantity;
+use crate::raw_value::limits;
 use crate::route::{ReadRoute, WriteRoute};
+use crate::value_error::OutOfRange;
+
+impl<C, V: Quantity, A, L> Accessor<'_, C, V, A, L> {
+    /// Converts a physical value to the nearest raw value. Doesn't check the range.
+    #[inline]
+    fn raw<B: Bus, E>(&self, physical: f64, other: V::Other) -> Result<V::Native, AccessError<E>>
+    where
+        L: On<B, Route: WriteRoute<B>>,
+    {
+        V::raw(physical, other).map_err(|OutOfRange| {
+            let place = self.place(self.item.location().route().write_address());
+            AccessError::unscalable(place, physical, limits::<V>(self.item.range()))
+        })
+    }
+}
 
 /// Defines the methods for physical values, blocking and async.
 macro_rules! scaled {
@@ -21,7 +40,7 @@ macro_rules! scaled {
             /// # Errors
             ///
             /// Returns the errors of [`read`](Accessor::read).
-            pub $($async)? fn $read_scaled(&mut self) -> Result<V::Physical, Error<C::Error>>
+            pub $($async)? fn $read_scaled(&mut self) -> Result<V::Physical, AccessError<C::Error>>
             where
                 A: Readable,
                 C: $Client,
@@ -36,13 +55,14 @@ macro_rules! scaled {
             ///
             /// Returns [`Error::OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has
             /// a special meaning. An invalid value isn't sent.
-            pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
+            pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), AccessError<C::Error>>
             where
                 A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
-                self.$write(V::raw(physical, ())?)$(.$await)?
+                let raw = self.raw::<C::Bus, _>(physical, ())?;
+                self.$write(raw)$(.$await)?
             }
         }
 
@@ -54,7 +74,7 @@ macro_rules! scaled {
             /// # Errors
             ///
             /// Returns the errors of [`read`](Accessor::read).
-            pub $($async)? fn $read_scaled_by(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
+            pub $($async)? fn $read_scaled_by(&mut self, other: f64) -> Result<V::Physical, AccessError<C::Error>>
             where
                 A: Readable,
                 C: $Client,
@@ -68,13 +88,14 @@ macro_rules! scaled {
             /// # Errors
             ///
             /// Returns the errors of [`write_scaled`](Accessor::write_scaled).
-            pub $($async)? fn $write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
+            pub $($async)? fn $write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), AccessError<C::Error>>
             where
                 A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
-                self.$write(V::raw(physical, other)?)$(.$await)?
+                let raw = self.raw::<C::Bus, _>(physical, other)?;
+                self.$write(raw)$(.$await)?
             }
         }
     };
@@ -109,8 +130,8 @@ mod tests {
         assert_eq!(VELOCITY.at(&mut device).write_scaled(15.004), Ok(()));
         assert_eq!(device.written.take().as_deref(), Some([0xDC, 0x05].as_slice()));
         let refused = Err(Error::OutOfRange(OutOfRange));
-        assert_eq!(VELOCITY.at(&mut device).write_scaled(15.006), refused);
-        assert_eq!(now(VELOCITY.at(&mut device).write_scaled_async(1e9)), refused);
+        assert_eq!(VELOCITY.at(&mut device).write_scaled(15.006).map_err(Error::from), refused);
+        assert_eq!(now(VELOCITY.at(&mut device).write_scaled_async(1e9)).map_err(Error::from), refused);
         assert_eq!(device.written, None);
     }
 
@@ -127,7 +148,10 @@ mod tests {
         let mut device = Device::answering(&[0xFF, 0xFF]);
         let temperature = item::<OrNone<Scaled<u16, 1, 10>, 0xFFFF>, Rw>();
         assert_eq!(temperature.at(&mut device).read_scaled(), Ok(None));
-        assert_eq!(temperature.at(&mut device).write_scaled(6553.5), Err(Error::OutOfRange(OutOfRange)));
+        assert_eq!(
+            temperature.at(&mut device).write_scaled(6553.5).map_err(Error::from),
+            Err(Error::OutOfRange(OutOfRange))
+        );
         assert_eq!(temperature.at(&mut device).write(0xFFFF), Ok(()));
     }
 

@@ -14,6 +14,8 @@ pub(super) struct Device {
     pub(super) answer: Vec<u8>,
     pub(super) written: Option<Vec<u8>>,
     pub(super) claimed: Option<usize>,
+    /// Number of reads.
+    pub(super) reads: u32,
 }
 
 impl Device {
@@ -27,6 +29,7 @@ impl Client for Device {
     type Error = Infallible;
 
     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+        self.reads += 1;
         buffer.iter_mut().zip(&self.answer).for_each(|(to, from)| *to = *from);
         Ok(self.claimed.unwrap_or(self.answer.len()))
     }

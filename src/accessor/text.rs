@@ -2,7 +2,9 @@
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
+use crate::access_error::AccessError;
 use crate::client::{AsyncClient, Client};
+#[cfg(doc)]
 use crate::error::Error;
 use crate::location::On;
 use crate::route::{ReadRoute, WriteRoute};
@@ -19,13 +21,15 @@ macro_rules! texts {
             ///
             /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text is neither
             /// ASCII nor UTF-8.
-            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
+            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, AccessError<C::Error>>
             where
                 A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
-                Ok(decode_visible(self.$fetch(buffer)$(.$await)??)?)
+                let bytes = self.$fetch(buffer)$(.$await)?;
+                let text = bytes.and_then(|bytes| Ok(decode_visible(bytes)?));
+                text.map_err(|error| self.read_failed(error))
             }
 
             /// Writes the text.
@@ -33,13 +37,17 @@ macro_rules! texts {
             /// # Errors
             ///
             /// Returns [`Error::Text`] if a character is outside the range 0x20 to 0x7E; the text isn't sent.
-            pub $($async)? fn $write(&mut self, text: &str) -> Result<(), Error<C::Error>>
+            pub $($async)? fn $write(&mut self, text: &str) -> Result<(), AccessError<C::Error>>
             where
                 A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
-                self.$send(encode_visible(text)?)$(.$await)?
+                let sent = match encode_visible(text) {
+                    Ok(bytes) => self.$send(bytes)$(.$await)?,
+                    Err(error) => Err(error.into()),
+                };
+                sent.map_err(|error| self.write_failed(error, None))
             }
         }
 
@@ -50,13 +58,15 @@ macro_rules! texts {
             ///
             /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text isn't
             /// UTF-16.
-            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
+            pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, AccessError<C::Error>>
             where
                 A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
-                Ok(Utf16::new(self.$fetch(buffer)$(.$await)??)?)
+                let bytes = self.$fetch(buffer)$(.$await)?;
+                let text = bytes.and_then(|bytes| Ok(Utf16::new(bytes)?));
+                text.map_err(|error| self.read_failed(error))
             }
 
             /// Writes the text. The method encodes the text into `scratch`, two bytes per code unit.
@@ -64,13 +74,17 @@ macro_rules! texts {
             /// # Errors
             ///
             /// Returns [`Error::Length`] if `scratch` is too short; the text isn't sent.
-            pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
+            pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), AccessError<C::Error>>
             where
                 A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
-                self.$send(encode_utf16(text, scratch)?)$(.$await)?
+                let sent = match encode_utf16(text, scratch) {
+                    Ok(bytes) => self.$send(bytes)$(.$await)?,
+                    Err(error) => Err(error.into()),
+                };
+                sent.map_err(|error| self.write_failed(error, None))
             }
         }
     };
@@ -92,7 +106,7 @@ mod tests {
         assert_eq!(name.at(&mut device).read_into(&mut buffer), Ok("Drive"));
         assert_eq!(now(name.at(&mut device).read_into_async(&mut buffer)), Ok("Drive"));
         let long = Error::Length(LengthError { expected: 5, actual: 6 });
-        assert_eq!(name.at(&mut device).read_into(&mut buffer[..5]), Err(long));
+        assert_eq!(name.at(&mut device).read_into(&mut buffer[..5]).map_err(Error::from), Err(long));
         assert_eq!(name.at(&mut device).write("save"), Ok(()));
         assert_eq!(device.written.as_deref(), Some(b"save".as_slice()));
     }
@@ -101,8 +115,8 @@ mod tests {
     fn invalid_visible_text_is_not_sent() {
         let mut device = Device::default();
         let name = item::<VisibleString, Rw>();
-        assert_eq!(name.at(&mut device).write("5°"), Err(Error::Text(TextError)));
-        assert_eq!(now(name.at(&mut device).write_async("5°")), Err(Error::Text(TextError)));
+        assert_eq!(name.at(&mut device).write("5°").map_err(Error::from), Err(Error::Text(TextError)));
+        assert_eq!(now(name.at(&mut device).write_async("5°")).map_err(Error::from), Err(Error::Text(TextError)));
         assert_eq!(device.written, None);
     }
 
@@ -116,7 +130,7 @@ mod tests {
         assert_eq!(label.at(&mut device).write("°", &mut buffer), Ok(()));
         assert_eq!(device.written.take().as_deref(), Some([0xB0, 0].as_slice()));
         let short = Error::Length(LengthError { expected: 6, actual: 4 });
-        assert_eq!(now(label.at(&mut device).write_async("abc", &mut buffer)), Err(short));
+        assert_eq!(now(label.at(&mut device).write_async("abc", &mut buffer)).map_err(Error::from), Err(short));
         assert_eq!(device.written, None);
     }
 }

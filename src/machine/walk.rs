@@ -6,6 +6,7 @@ use core::time::Duration;
 use super::walker::{MachineState, Stopped, Walker};
 use super::word::StateWord;
 use crate::access::{Readable, Writable};
+use crate::access_error::AccessError;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::item::Item;
@@ -26,7 +27,9 @@ pub struct Machine<V: Fixed, A, L, W: Fixed, B, M> {
 #[non_exhaustive]
 pub enum WalkError<S, E> {
     /// An access to the status item or control item failed.
-    Access(Error<E>),
+    Access(AccessError<E>),
+    /// The client failed to wait between two accesses.
+    Wait(Error<E>),
     /// A fault occurred on the way, or a fault that was active at the start could not be reset before the deadline.
     Fault {
         /// State of the device.
@@ -58,7 +61,7 @@ impl<S, E> WalkError<S, E> {
 
     /// Adds the error code of the device to a fault, if the code could be read. Only the low 16 bits of `code` are the error code.
     #[must_use]
-    pub fn with_code<W: StateWord>(self, code: Result<W, Error<E>>) -> Self {
+    pub fn with_code<W: StateWord>(self, code: Result<W, AccessError<E>>) -> Self {
         match self {
             Self::Fault { state, .. } => Self::Fault { state, code: code.ok().map(|code| code.bits() as u16) },
             other => other,
@@ -66,8 +69,8 @@ impl<S, E> WalkError<S, E> {
     }
 }
 
-impl<S, E> From<Error<E>> for WalkError<S, E> {
-    fn from(error: Error<E>) -> Self {
+impl<S, E> From<AccessError<E>> for WalkError<S, E> {
+    fn from(error: AccessError<E>) -> Self {
         Self::Access(error)
     }
 }
@@ -76,6 +79,7 @@ impl<S: MachineState, E: fmt::Display> fmt::Display for WalkError<S, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Access(error) => error.fmt(f),
+            Self::Wait(error) => error.fmt(f),
             Self::Fault { state, code } => {
                 Stopped::Fault(*state).fmt(f)?;
                 code.map_or(Ok(()), |code| write!(f, ", error code 0x{code:04X}"))
@@ -95,6 +99,7 @@ impl<S: MachineState + fmt::Debug, E: core::error::Error> core::error::Error for
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
             Self::Access(error) => error.source(),
+            Self::Wait(error) => error.source(),
             _ => None,
         }
     }
@@ -161,7 +166,7 @@ macro_rules! walks {
                         (control, is_written) = (walked.control, true);
                     }
                     match remaining.pause() {
-                        Some(pause) => client.wait(pause)$(.$await)??,
+                        Some(pause) => client.wait(pause)$(.$await)?.map_err(WalkError::Wait)?,
                         None => return Err(late(status.bits())),
                     }
                 }

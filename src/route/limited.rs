@@ -2,6 +2,7 @@
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};
+use crate::bus_address::BusAddress;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::pdo::{from_bytes, sign_extend};
@@ -70,6 +71,11 @@ impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Limited<R> {
 }
 
 impl<B: Bus, R: WriteRoute<B>> WriteRoute<B> for Limited<R> {
+    #[inline]
+    fn write_address(&self) -> Option<BusAddress> {
+        self.at.write_address()
+    }
+
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         self.check(data)?;
         self.at.write(client, data)

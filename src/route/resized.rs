@@ -2,6 +2,7 @@
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};
+use crate::bus_address::BusAddress;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::pdo::{from_bytes, mask, sign_extend};
@@ -49,7 +50,7 @@ use crate::value_error::{LengthError, OutOfRange};
 /// # let mut node = Node(0);
 /// MODE.at(&mut node).write(-50)?; // one byte, 0xCE
 /// assert_eq!(MODE.at(&mut node).read()?, -50);
-/// assert_eq!(MODE.at(&mut node).write(200), Err(Error::OutOfRange(OutOfRange)));
+/// assert_eq!(MODE.at(&mut node).write(200).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
 /// # Ok::<(), Error<core::convert::Infallible>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -135,6 +136,11 @@ impl<R: Route> Route for Resized<R> {
 }
 
 impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Resized<R> {
+    #[inline]
+    fn read_address(&self) -> Option<BusAddress> {
+        self.at.read_address()
+    }
+
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
         let (mut raw, bits) = ([0; 8], self.bits.into());
         let raw = truncated(&mut raw, bits);
@@ -155,6 +161,11 @@ impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Resized<R> {
 }
 
 impl<B: Bus, R: WriteRoute<B>> WriteRoute<B> for Resized<R> {
+    #[inline]
+    fn write_address(&self) -> Option<BusAddress> {
+        self.at.write_address()
+    }
+
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         let bits = self.bits.into();
         let mut raw = written(data, bits, self.is_signed)?;

@@ -5,6 +5,7 @@ use core::time::Duration;
 
 use super::{resized, ReadRoute, Route, WriteRoute};
 use crate::bus::Bus;
+use crate::bus_address::BusAddress;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::value_error::OutOfRange;
@@ -194,6 +195,11 @@ settle! { settle_async AsyncClient async await }
 impl<W> Route for Through<W> {}
 
 impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {
+    #[inline]
+    fn read_address(&self) -> Option<BusAddress> {
+        Some(BusAddress::Number(self.number))
+    }
+
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
         let window = self.window;
         client.write(window.number, resized::truncated(&mut self.number(), window.number_bits.into()))?;
@@ -234,6 +240,11 @@ impl<A: Copy> Through<WriteWindow<A>> {
 }
 
 impl<B: Bus> WriteRoute<B> for Through<WriteWindow<B::Address>> {
+    #[inline]
+    fn write_address(&self) -> Option<BusAddress> {
+        Some(BusAddress::Number(self.number))
+    }
+
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
         let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
         let writes =

@@ -33,7 +33,7 @@ fn each_model_has_its_own_range_and_initial_value() {
     // this range.
     assert_eq!([one.range(), other.range()].map(is_allowed), [false, true]);
     assert!(objects::PIMIN_VEL.at(&mut Anything).write(low).is_ok());
-    assert!(matches!(one.at(&mut Anything).write(low), Err(Error::OutOfRange(_))));
+    assert!(matches!(one.at(&mut Anything).write(low).map_err(Error::from), Err(Error::OutOfRange(_))));
     assert!(other.at(&mut Anything).write(low).is_ok());
     assert_ne!(one.initial(), other.initial());
     assert!(matches!(sm140::objects::KP_I.initial(), Initial::Value(_)));

@@ -142,7 +142,7 @@ macro_rules! parts_and_meanings {
         assert_eq!($way!($device.temperature(), read_scaled)?, 21.5);
         $way!($device.temperature(), write_scaled -12.3)?;
         assert_eq!($script.at("temperature"), -123);
-        assert!(matches!($way!($device.temperature(), write 1251), Err(Error::OutOfRange(_))));
+        assert!(matches!($way!($device.temperature(), write 1251).map_err(Error::from), Err(Error::OutOfRange(_))));
         $way!($device.mode(), write Mode::ByHand)?;
         assert_eq!($script.at("mode"), 2);
         $script.put("mode", json!(7));
@@ -193,7 +193,7 @@ macro_rules! other_tables {
 /// Checks that the client reports the Modbus exceptions that the server returns.
 macro_rules! refusals {
     ($way:ident, $script:ident, $device:ident) => {
-        let refused: [Result<(), Error>; 5] = [
+        let refused = [
             $way!($device.missing(), read).map(|_| ()),
             $way!($device.missing(), write 1),
             $way!($device.half_missing(), read).map(|_| ()),
@@ -201,6 +201,7 @@ macro_rules! refusals {
             $way!($device.protected(), write 1),
         ];
         for refused in refused {
+            let refused = refused.map_err(Error::from);
             let is_exception = matches!(
                 refused,
                 Err(Error::Client(ModbusError::Exception(ExceptionCode::IllegalDataAddress)))

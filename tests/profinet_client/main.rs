@@ -86,8 +86,8 @@ fn items_are_parts_of_records() {
     assert_eq!((GAIN.at(&mut records).read(), LAST.at(&mut records).read()), (Ok(10.0), Ok(0xEE07)));
     GAIN.at(&mut records).write(1.5).unwrap();
     let beyond = Err(Error::Length(LengthError::new(10, 9)));
-    assert_eq!(BEHIND.at(&mut records).read(), beyond);
-    assert_eq!(BEHIND.at(&mut records).write(1), beyond.map(drop));
+    assert_eq!(BEHIND.at(&mut records).read().map_err(Error::from), beyond);
+    assert_eq!(BEHIND.at(&mut records).write(1).map_err(Error::from), beyond.map(drop));
     NAME.at(&mut records).write("ab").unwrap();
     let mut text = [0; 2];
     assert_eq!(NAME.at(&mut records).read_into(&mut text), Ok("ab"));

@@ -111,7 +111,7 @@ mod objects {
 
     pair!(read, frame,
         ours (drive: &mut DemoDrive<Wire> = &mut DemoDrive::new(Wire::new(frame))) -> Result<i32, Error<u8>> {
-            drive.position_actual_value().read()
+            Ok(drive.position_actual_value().read()?)
         }
         hand (client: &mut Wire = &mut Wire::new(frame)) -> Result<i32, Error<u8>> {
             let mut buffer = [0; 4];
@@ -127,7 +127,7 @@ mod objects {
         ours (call: &mut Writing<DemoDrive<Wire>> = &mut Writing(DemoDrive::new(Wire::new(frame)), value(frame)))
             -> Result<(), Error<u8>>
         {
-            call.0.target_position().write(call.1)
+            Ok(call.0.target_position().write(call.1)?)
         }
         hand (call: &mut Writing<Wire> = &mut Writing(Wire::new(frame), value(frame))) -> Result<(), Error<u8>> {
             if call.1 < -1_000_000 || call.1 > 1_000_000 {
@@ -141,7 +141,7 @@ mod objects {
         ours (call: &mut Writing<DemoDrive<Wire>> = &mut Writing(DemoDrive::new(Wire::new(frame)), value(frame)))
             -> Result<(), Error<u8>>
         {
-            call.0.modes_of_operation().write(ModesOfOperation::from_raw(call.1 as i8))
+            Ok(call.0.modes_of_operation().write(ModesOfOperation::from_raw(call.1 as i8))?)
         }
         hand (call: &mut Writing<Wire> = &mut Writing(Wire::new(frame), value(frame))) -> Result<(), Error<u8>> {
             let mode = call.1 as i8;

@@ -121,17 +121,17 @@ fn segmented() {
     let program: Vec<u8> = (0..=255).cycle().take(1000).collect();
     PROGRAM.at(&mut node).write(&program).unwrap();
     assert_eq!(node.port().objects.0[&Object::new(0x2003, 1)], program);
-    assert_eq!(PROGRAM.at(&mut node).write(&[]), Err(Error::Length(LengthError::new(1, 0))));
+    assert_eq!(PROGRAM.at(&mut node).write(&[]).map_err(Error::from), Err(Error::Length(LengthError::new(1, 0))));
 }
 
 #[test]
 fn aborts_have_their_codes() {
     let mut node = node();
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Abort(AbortCode::NO_OBJECT)));
-    assert_eq!(SPEED.at(&mut node).write(3001), Err(Error::Abort(AbortCode::TOO_HIGH)));
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Abort(AbortCode::NO_OBJECT)));
+    assert_eq!(SPEED.at(&mut node).write(3001).map_err(Error::from), Err(Error::Abort(AbortCode::TOO_HIGH)));
     assert_eq!(node.write(Object::new(0x2001, 0), &[0, 0]), Err(Error::Abort(AbortCode::READ_ONLY)));
     node.port().is_silent = true;
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Timeout));
     node.port().is_silent = false;
     // The aborted transfer doesn't affect the next one.
     assert_eq!(SPEED.at(&mut node).write(1), Ok(()));
@@ -142,7 +142,7 @@ fn late_answers_are_not_those_of_the_next_transfer() {
     let mut node = node();
     SPEED.at(&mut node).write(7).unwrap();
     node.port().is_silent = true;
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Timeout));
     node.port().is_silent = false;
     // The reply arrives late.
     node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x00, 0x20, 0, 9, 9, 0, 0]));
@@ -223,7 +223,7 @@ fn reads_are_in_step_again_after_a_late_answer() {
     let (one, two, three) = (number(0x2000, 1), number(0x2000, 2), number(0x2000, 3));
     // The node replies neither to the request nor to the abort. Later, it sends both replies at once.
     let mut node = scripted([&[], &[], &[&one, &two], &[&three]]);
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Timeout));
     assert_eq!(SPEED.at(&mut node).read(), Ok(1), "a late reply cannot be distinguished from this reply");
     assert_eq!(SPEED.at(&mut node).read(), Ok(3));
 }
@@ -237,7 +237,7 @@ fn answers_to_others_dont_go_on_for_ever() {
     assert_eq!(SPEED.at(&mut scripted([&few])).read(), Ok(7));
     let many = std::vec![&other[..]; 1000];
     let mut node = scripted([&many]);
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Timeout));
     assert_eq!(node.port().sent[1][0], 0x80, "it is aborted");
     // The node sends segments without data.
     let begin = [0x41, 0x02, 0x20, 0, 0, 0, 0, 0];
@@ -259,7 +259,7 @@ fn values_without_a_length_have_the_length_of_their_type() {
 #[test]
 fn messages_of_less_than_eight_bytes_are_none() {
     let mut node = scripted([&[&[0x4B, 0x00, 0x20, 0]]]);
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout), "not the value 0");
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Timeout), "not the value 0");
     let mut node = scripted([&[&[0x4B, 0x00, 0x20, 0], &number(0x2000, 7)]]);
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
 }
@@ -268,7 +268,7 @@ fn messages_of_less_than_eight_bytes_are_none() {
 fn a_transfer_is_aborted_where_the_interface_fails() {
     let mut node = scripted([]);
     node.port().is_broken = true;
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Client("the bus is off")));
+    assert_eq!(SPEED.at(&mut node).read().map_err(Error::from), Err(Error::Client("the bus is off")));
     assert_eq!(node.port().sent[1], [0x80, 0x00, 0x20, 0, 0, 0, 0, 8]);
 }
 
@@ -356,7 +356,10 @@ async fn without_blocking() {
     let mut node = Node::new(Buffered::<_, 16>::new(NoWait(Bus::new())), NodeId::new(NODE).expect("a node-ID"));
     assert_eq!(SPEED.at(&mut node).write_async(1500).await, Ok(()));
     assert_eq!(SPEED.at(&mut node).read_async().await, Ok(1500));
-    assert_eq!(SPEED.at(&mut node).write_async(3001).await, Err(Error::Abort(AbortCode::TOO_HIGH)));
+    assert_eq!(
+        SPEED.at(&mut node).write_async(3001).await.map_err(Error::from),
+        Err(Error::Abort(AbortCode::TOO_HIGH))
+    );
     let label = "a name of more than seven letters";
     AsyncClient::write(&mut node, Object::new(0x2002, 0), label.as_bytes()).await.unwrap();
     let mut buffer = [0; 64];

@@ -49,10 +49,10 @@ impl sync::Client for Late {
 fn a_late_answer_to_a_write_is_none_to_another() {
     const OTHER: RegisterItem<i16, Rw> = RegisterItem::register(Register::holding(14), "Other", Flags::NONE);
     let mut device = ModbusClient::new(Late::default());
-    assert!(matches!(TORQUE.at(&mut device).write(5), Err(Error::Timeout)));
-    assert!(matches!(OTHER.at(&mut device).write(5), Err(Error::UnexpectedReply)));
-    assert!(matches!(SPEED.at(&mut device).write(5), Err(Error::UnexpectedReply)));
-    assert!(matches!(VALVE.at(&mut device).write(true), Err(Error::UnexpectedReply)));
+    assert!(matches!(TORQUE.at(&mut device).write(5).map_err(Error::from), Err(Error::Timeout)));
+    assert!(matches!(OTHER.at(&mut device).write(5).map_err(Error::from), Err(Error::UnexpectedReply)));
+    assert!(matches!(SPEED.at(&mut device).write(5).map_err(Error::from), Err(Error::UnexpectedReply)));
+    assert!(matches!(VALVE.at(&mut device).write(true).map_err(Error::from), Err(Error::UnexpectedReply)));
 }
 
 #[test]
@@ -64,6 +64,7 @@ fn what_no_table_has_isnt_asked_for() {
     let refused =
         [LAST.at(&mut device).write(1), LAST.at(&mut device).read().map(|_| ()), NONE.at(&mut device).write(true)];
     for refused in refused {
+        let refused = refused.map_err(Error::from);
         assert!(matches!(refused, Err(Error::Client(ModbusError::NoSuchAddress { .. }))), "{refused:?}");
     }
     assert_eq!(device.context().functions, []);
@@ -77,6 +78,7 @@ fn what_bits_dont_hold_isnt_written() {
         RegisterItem::register(Register::new(RegisterTable::Coil, 3, 1), "Byte", Flags::NONE);
     let mut device = ModbusClient::new(Device::default());
     for refused in [NIBBLE.at(&mut device).write(0x1F), BYTE.at(&mut device).write(2)] {
+        let refused = refused.map_err(Error::from);
         assert!(matches!(refused, Err(Error::OutOfRange(_))), "{refused:?}");
     }
     NIBBLE.at(&mut device).write(0x0F).unwrap();
@@ -209,7 +211,9 @@ fn bits_and_inputs() {
 #[test]
 fn exceptions() {
     let mut device = ModbusClient::new(Device::default());
-    let Err(Error::Client(error)) = MISSING.at(&mut device).read() else { panic!("it doesn't exist") };
+    let Err(Error::Client(error)) = MISSING.at(&mut device).read().map_err(Error::from) else {
+        panic!("it doesn't exist")
+    };
     assert!(matches!(error, ModbusError::Exception(ExceptionCode::IllegalDataAddress)));
     assert!(std::format!("{error}").starts_with("the device refused: "));
 }
@@ -241,13 +245,13 @@ fn what_the_device_takes() {
     // The device supports only function 6, which writes one register although the caller prefers function 16.
     let mut device = limited(TableLimits { functions: &[3, 6], ..TableLimits::HOLDING }).with_single_writes(false);
     TORQUE.at(&mut device).write(-5).unwrap();
-    let refused = SPEED.at(&mut device).write(70_000);
+    let refused = SPEED.at(&mut device).write(70_000).map_err(Error::from);
     assert!(matches!(refused, Err(Error::Client(ModbusError::Function { function: 16, .. }))));
     assert_eq!(device.context().functions, [6]);
     // The device cannot read the registers, so a part of a register cannot be written either.
     let mut device = limited(TableLimits { functions: &[6, 16], ..TableLimits::HOLDING });
     for refused in [TORQUE.at(&mut device).read().map(|_| ()), UPPER.at(&mut device).write(1)] {
-        let Err(Error::Client(error)) = refused else { panic!("it isn't readable") };
+        let Err(Error::Client(error)) = refused.map_err(Error::from) else { panic!("it isn't readable") };
         assert_eq!(std::format!("{error}"), "the device doesn't support function 3 for holding registers");
     }
     assert_eq!(device.context().functions, []);
@@ -259,8 +263,11 @@ fn widths() {
     let narrow = TableLimits { max_read: 2, max_write: 3, ..TableLimits::HOLDING };
     let mut device = limited(narrow);
     SPEED.at(&mut device).write(70_000).unwrap();
-    assert!(matches!(LONG.at(&mut device).write(1), Err(Error::Client(ModbusError::TooLong { count: 4, max: 3 }))));
-    let Err(Error::Client(error)) = LONG.at(&mut device).read() else { panic!("it is too long") };
+    assert!(matches!(
+        LONG.at(&mut device).write(1).map_err(Error::from),
+        Err(Error::Client(ModbusError::TooLong { count: 4, max: 3 }))
+    ));
+    let Err(Error::Client(error)) = LONG.at(&mut device).read().map_err(Error::from) else { panic!("it is too long") };
     assert_eq!(std::format!("{error}"), "the value has 4 registers or bits, but the maximum per request is 2");
     assert_eq!(device.context().functions, [16]);
 
@@ -317,7 +324,7 @@ fn several_coils() {
     let coil = TableLimits { functions: &[1, 5], ..TableLimits::COIL };
     let mut device = ModbusClient::new(Device::default()).with_limits(Limits { coil, ..Limits::STANDARD });
     VALVE.at(&mut device).write(true).unwrap();
-    let refused = VALVES.at(&mut device).write(1);
+    let refused = VALVES.at(&mut device).write(1).map_err(Error::from);
     assert!(matches!(refused, Err(Error::Client(ModbusError::Function { function: 15, .. }))));
     let coil = TableLimits { split: true, ..coil };
     let mut device = ModbusClient::new(Device::default()).with_limits(Limits { coil, ..Limits::STANDARD });

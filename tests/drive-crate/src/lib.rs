@@ -48,7 +48,10 @@ mod tests {
         let mut drive = Pump::new(Memory::default());
         drive.speed().write(1500).unwrap();
         assert_eq!(drive.speed().read().unwrap(), 1500);
-        assert!(matches!(drive.speed().write(9000), Err(Error::OutOfRange(_))), "the limit is 3000");
+        assert!(
+            matches!(drive.speed().write(9000).map_err(Error::from), Err(Error::OutOfRange(_))),
+            "the limit is 3000"
+        );
         drive.label().write("P1").unwrap();
         let mut buffer = [0; 16];
         assert_eq!(drive.label().read_into(&mut buffer).unwrap(), "P1");

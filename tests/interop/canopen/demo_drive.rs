@@ -47,7 +47,7 @@ fn limits_of_the_drive() -> Result<(), Error> {
     let mut drive = DemoDrive::new(node);
     drive.target_position().write(-1_000_000)?;
     assert_eq!(script.get(0x607A, 0), -1_000_000);
-    assert!(matches!(drive.target_position().write(1_000_001), Err(Error::OutOfRange(_))));
+    assert!(matches!(drive.target_position().write(1_000_001).map_err(Error::from), Err(Error::OutOfRange(_))));
     assert_aborted(NAIVE.at(drive.client()).write(1_000_001), AbortCode::TOO_HIGH);
     assert_aborted(NAIVE.at(drive.client()).write(-1_000_001), AbortCode::TOO_LOW);
     assert_aborted(MEASURED.at(drive.client()).write(0), AbortCode::READ_ONLY);

@@ -30,7 +30,10 @@ fn transfers() -> Result<(), Error> {
         let mut scratch = [0; 64];
         device.unicode_string().write_async("日本語のテキスト", &mut scratch).await?;
         assert_eq!(script.get(0x200B, 0), "日本語のテキスト");
-        assert!(matches!(device.limited_signed().write_async(201).await, Err(Error::OutOfRange(_))));
+        assert!(matches!(
+            device.limited_signed().write_async(201).await.map_err(Error::from),
+            Err(Error::OutOfRange(_))
+        ));
         let refused = naive::<i16>(0x2203, 0).at(device.client()).write_async(201).await;
         assert_aborted(refused, AbortCode::TOO_HIGH);
         assert_aborted(device.never_set().read_async().await, AbortCode::NO_RESOURCE);

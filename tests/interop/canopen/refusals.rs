@@ -20,7 +20,8 @@ pub const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
 }
 
 #[track_caller]
-pub fn assert_aborted<T: std::fmt::Debug>(result: Result<T, Error>, code: AbortCode) {
+pub fn assert_aborted<T: std::fmt::Debug>(result: Result<T, impl Into<Error>>, code: AbortCode) {
+    let result = result.map_err(Into::into);
     assert!(matches!(result, Err(Error::Abort(got)) if got == code), "{result:?} instead of {code}");
 }
 
@@ -40,8 +41,8 @@ fn values_out_of_range() -> Result<(), Error> {
         assert_eq!(script.get(0x2204, 0), value);
     }
     // The accessor rejects values outside the limits without sending a request.
-    assert!(matches!(device.limited_signed().write(-101), Err(Error::OutOfRange(_))));
-    assert!(matches!(device.limited_unsigned().write(9), Err(Error::OutOfRange(_))));
+    assert!(matches!(device.limited_signed().write(-101).map_err(Error::from), Err(Error::OutOfRange(_))));
+    assert!(matches!(device.limited_unsigned().write(9).map_err(Error::from), Err(Error::OutOfRange(_))));
     // The device rejects values outside the limits if a request contains them.
     let signed: Naive<i16> = naive(0x2203, 0);
     let unsigned: Naive<u32> = naive(0x2204, 0);
@@ -96,11 +97,11 @@ fn lengths() -> Result<(), Error> {
     assert_aborted(naive::<u16>(0x2007, 0).at(device.client()).write(1), AbortCode::LENGTH);
     assert_aborted(naive::<u64>(0x2007, 0).at(device.client()).write(1), AbortCode::LENGTH);
     script.set(0x2007, 0, json!(0x1234_5678));
-    let short = naive::<u16>(0x2007, 0).at(device.client()).read();
+    let short = naive::<u16>(0x2007, 0).at(device.client()).read().map_err(Error::from);
     assert!(matches!(short, Err(Error::Length(error)) if (error.expected, error.actual) == (2, 4)), "{short:?}");
     // The text is longer than the buffer. The next transfer must succeed.
     script.set(0x2009, 0, json!("a text of thirty letters, say."));
-    let long = device.visible_string().read_into(&mut [0; 10]).map(str::len);
+    let long = device.visible_string().read_into(&mut [0; 10]).map(str::len).map_err(Error::from);
     assert!(matches!(long, Err(Error::Length(error)) if (error.expected, error.actual) == (10, 30)), "{long:?}");
     assert_eq!(device.unsigned32().read()?, 0x1234_5678);
     Ok(())
