@@ -118,6 +118,11 @@ struct Rig {
     /// Bits of the statusword that are always 1 and always 0.
     set: u16,
     cleared: u16,
+    /// Number of the next reads of the statusword that fail.
+    broken: u32,
+    /// Controlword that the drive shows instead of the written one.
+    shown: Option<u16>,
+    has_clock: bool,
     /// All written values.
     writes: Vec<(u16, i32)>,
 }
@@ -126,8 +131,17 @@ impl Rig {
     /// Creates a drive that is enabled in this mode.
     fn enabled(mode: i8) -> Self {
         let device = Device::new(&ENTRIES).with_cia402();
-        let mut rig =
-            Self { drive: device.into_client(), time: 0, events: Vec::new(), set: 0, cleared: 0, writes: Vec::new() };
+        let mut rig = Self {
+            drive: device.into_client(),
+            time: 0,
+            events: Vec::new(),
+            set: 0,
+            cleared: 0,
+            broken: 0,
+            shown: None,
+            has_clock: true,
+            writes: Vec::new(),
+        };
         rig.write(0x6060, &mode.to_le_bytes());
         rig.write(0x6081, &1000_u32.to_le_bytes());
         rig.write(0x6083, &10_000_u32.to_le_bytes());
@@ -178,7 +192,14 @@ impl Client for Rig {
     type Error = Fault;
 
     fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+        if object.index == 0x6041 && self.broken > 0 {
+            self.broken -= 1;
+            return Err(Error::Timeout);
+        }
         let length = Client::read(&mut self.drive, object, buffer)?;
+        if let (0x6040, Some(control)) = (object.index, self.shown) {
+            buffer.copy_from_slice(&control.to_le_bytes());
+        }
         if let (0x6041, [low, high]) = (object.index, buffer) {
             let status = u16::from_le_bytes([*low, *high]) & !self.cleared | self.set;
             [*low, *high] = status.to_le_bytes();
@@ -193,6 +214,9 @@ impl Client for Rig {
     }
 
     fn wait(&mut self, time: Duration) -> Result<(), Error<Fault>> {
+        if !self.has_clock {
+            return Err(Error::NoClock);
+        }
         self.time += time.as_millis() as u64;
         while self.events.first().is_some_and(|(at, _)| *at <= self.time) {
             let (_, mut event) = self.events.remove(0);
@@ -328,8 +352,50 @@ fn a_fault_during_homing() {
     let mut rig = Rig::enabled(6).at(50, |rig| rig.fail(0x7305));
     let fault = MotionError::Fault { state: State::Fault, code: Some(0x7305) };
     assert_eq!(rig.motion().home(DEADLINE), Err(fault));
-    // After a fault, the controlword isn't written any more.
-    assert_eq!(rig.controls(), [0x1F]);
+    // Bit 4 is cleared, so that a drive that is enabled again doesn't continue homing.
+    assert_eq!(rig.controls(), [0x1F, 0x0F]);
+}
+
+#[test]
+fn the_start_bit_after_an_error_of_the_bus() {
+    let mut rig = Rig::enabled(6).at(50, |rig| rig.broken = 1);
+    assert_eq!(rig.motion().home(DEADLINE), Err(MotionError::Access(Error::Timeout)));
+    assert_eq!(rig.controls(), [0x1F, 0x0F]);
+    let mut rig = Rig::enabled(1).at(20, |rig| rig.broken = 1);
+    rig.cleared = 1 << 12;
+    assert_eq!(rig.motion().move_to(Target::absolute(5), DEADLINE), Err(MotionError::Access(Error::Timeout)));
+    assert_eq!(rig.controls(), [0x1F, 0x0F]);
+}
+
+#[test]
+fn a_client_that_cannot_wait_starts_nothing() {
+    for mode in [1, 6] {
+        let mut rig = Rig::enabled(mode);
+        rig.has_clock = false;
+        let moved =
+            if mode == 1 { rig.motion().move_to(Target::absolute(5), DEADLINE) } else { rig.motion().home(DEADLINE) };
+        assert_eq!(moved, Err(MotionError::Access(Error::NoClock)));
+        assert_eq!(rig.controls(), [0; 0]);
+    }
+}
+
+#[test]
+fn a_drive_that_another_source_commands() {
+    let mut rig = Rig::enabled(6);
+    rig.shown = Some(0);
+    assert_eq!(rig.motion().home(DEADLINE), Err(MotionError::OtherSource { control: 0 }));
+    assert_eq!(rig.writes, []);
+}
+
+#[test]
+fn a_halt_during_the_wait_for_a_free_place() {
+    let mut rig = Rig::enabled(1).at(20, |rig| {
+        rig.set = 0;
+        rig.write(0x6040, &[0x0F, 0x01]);
+    });
+    rig.set = 1 << 12;
+    assert_eq!(rig.motion().move_to(Target::absolute(5), DEADLINE), Err(MotionError::Halted));
+    assert_eq!(rig.controls(), [0x10F]);
 }
 
 #[test]

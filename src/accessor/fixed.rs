@@ -116,6 +116,9 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// # run().unwrap();
     /// ```
     ///
+    /// If the item is read at another address than it is written at (see [`Split`](crate::Split)), `change` receives the
+    /// value that the device shows, and not the last written value.
+    ///
     /// # Errors
     ///
     /// Returns the errors of [`read`](Self::read) and [`write`](Self::write). A result of `change` that is out of range

@@ -6,6 +6,10 @@ pub(super) const START: u16 = 1 << 4;
 pub(super) const IMMEDIATELY: u16 = 1 << 5;
 /// Controlword: "relative".
 pub(super) const RELATIVE: u16 = 1 << 6;
+/// Controlword: the bits 0 to 3 and 7, which command the state machine.
+pub(super) const OF_STATE: u16 = 0x8F;
+/// Controlword: the bits 0 to 3 and 7 of the command "enable operation".
+pub(super) const ENABLE_OPERATION: u16 = 0x0F;
 /// Controlword: "halt".
 pub(super) const HALT: u16 = 1 << 8;
 /// Controlword: the bits whose meaning depends on the mode.

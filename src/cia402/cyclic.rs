@@ -44,8 +44,10 @@ use crate::machine::StateWord;
 pub struct Cyclic {
     mode: Mode,
     limit: Option<u32>,
-    /// True if the drive has followed the command values.
+    /// Whether the drive has followed the command values since the last error.
     has_followed: bool,
+    /// Whether the drive followed the command values in the last cycle.
+    is_following: bool,
 }
 
 /// Process data from the drive, in one cycle of a [`Cyclic`].
@@ -102,7 +104,7 @@ pub enum CycleError {
 
 impl Cyclic {
     const fn new(mode: Mode) -> Self {
-        Self { mode, limit: None, has_followed: false }
+        Self { mode, limit: None, has_followed: false, is_following: false }
     }
 
     /// Creates a watch over the mode 8, cyclic synchronous position (CSP).
@@ -147,12 +149,13 @@ impl Cyclic {
     }
 
     /// Returns the outputs of a cycle. `control` is the controlword that the program would send, for example from a
-    /// [`Walker`](crate::Walker), and `target` is the set-point of the program.
+    /// [`Walker`](crate::Walker), and `target` is the set-point of the program. In the first cycle in which the drive
+    /// follows again, the set-point is still the one that doesn't move the axis: start the trajectory there.
     ///
     /// # Errors
     ///
-    /// Returns an error if the drive has followed the command values and leaves "Operation enabled" or the mode. Returns
-    /// an error in each cycle in which the operation is enabled and the following error is too large.
+    /// Returns an error once if the drive has followed the command values and leaves "Operation enabled" or the mode.
+    /// Returns an error in each cycle in which the operation is enabled and the following error is too large.
     pub fn cycle<S: StateWord, W: StateWord>(
         &mut self,
         inputs: Inputs<S>,
@@ -163,22 +166,26 @@ impl Cyclic {
         let state = State::of_status(status);
         let control = W::from_bits(control.bits() & !u32::from(OF_MODE));
         let held = Cycle { control, target: self.hold(&inputs), is_following: false };
+        let has_followed = core::mem::take(&mut self.has_followed);
+        let was_following = core::mem::take(&mut self.is_following);
         if state != Some(State::OperationEnabled) {
             return match state {
-                _ if !self.has_followed => Ok(held),
+                _ if !has_followed => Ok(held),
                 Some(state) if state.is_fault() => Err(CycleError::Fault(state)),
                 state => Err(CycleError::NotEnabled { state }),
             };
         }
         let active = inputs.mode.map_or(self.mode, Mode::from_native);
         if active != self.mode {
-            return if self.has_followed { Err(CycleError::WrongMode(active)) } else { Ok(held) };
+            return if has_followed { Err(CycleError::WrongMode(active)) } else { Ok(held) };
         }
         self.check_following(status, inputs.following_error)?;
         if status & CONFIRMED == 0 {
+            self.has_followed = has_followed;
             return Ok(held);
         }
-        self.has_followed = true;
+        (self.has_followed, self.is_following) = (true, true);
+        let target = if was_following { target } else { held.target };
         Ok(Cycle { target, is_following: true, ..held })
     }
 
@@ -235,14 +242,23 @@ mod tests {
     fn set_points_before_the_drive_follows() {
         let mut position = Cyclic::position();
         assert_eq!(
-            [0, 0x40, 0x08, ENABLED, FOLLOWING].map(|status| target(&mut position, status)),
-            [7, 7, 7, 7, 50].map(Ok)
+            [0, 0x40, 0x08, ENABLED, FOLLOWING, FOLLOWING].map(|status| target(&mut position, status)),
+            [7, 7, 7, 7, 7, 50].map(Ok)
         );
         for mut cyclic in [Cyclic::velocity(), Cyclic::torque()] {
-            assert_eq!([0x40, ENABLED, FOLLOWING].map(|status| target(&mut cyclic, status)), [0, 0, 50].map(Ok));
+            let statuses = [0x40, ENABLED, FOLLOWING, FOLLOWING];
+            assert_eq!(statuses.map(|status| target(&mut cyclic, status)), [0, 0, 0, 50].map(Ok));
         }
         // A drive that no longer follows, for example because of a local limit, holds its position.
         assert_eq!(target(&mut position, ENABLED), Ok(7));
+        assert_eq!([FOLLOWING, FOLLOWING].map(|status| target(&mut position, status)), [7, 50].map(Ok));
+    }
+
+    #[test]
+    fn set_points_after_an_error() {
+        let mut cyclic = Cyclic::position();
+        let targets = [FOLLOWING, FOLLOWING, 0x0218, 0x0218, FOLLOWING].map(|status| target(&mut cyclic, status).ok());
+        assert_eq!(targets, [Some(7), Some(50), None, Some(7), Some(7)]);
     }
 
     #[test]
@@ -263,6 +279,7 @@ mod tests {
         let other = Inputs { mode: Some(1), ..inputs(FOLLOWING) };
         assert_eq!(cyclic.cycle(other, 0_u16, 50), Ok(Cycle { control: 0, target: 0, is_following: false }));
         let this = Inputs { mode: Some(9), ..other };
+        assert_eq!(cyclic.cycle(this, 0_u16, 50), Ok(Cycle { control: 0, target: 0, is_following: true }));
         assert_eq!(cyclic.cycle(this, 0_u16, 50), Ok(Cycle { control: 0, target: 50, is_following: true }));
         assert_eq!(cyclic.cycle(other, 0_u16, 50), Err(CycleError::WrongMode(Mode::ProfilePosition)));
     }
@@ -270,14 +287,14 @@ mod tests {
     #[test]
     fn following_errors() {
         // Bit 13 is reserved in CSV.
-        assert_eq!(target(&mut Cyclic::velocity(), FOLLOWING | FAILED), Ok(50));
+        assert_eq!(target(&mut Cyclic::velocity(), FOLLOWING | FAILED), Ok(0));
         let error = Err(CycleError::FollowingError { error: None });
         assert_eq!(target(&mut Cyclic::position(), ENABLED | FAILED), error);
         let with = |error, limit| {
             let inputs = Inputs { following_error: Some(error), ..inputs(FOLLOWING) };
             Cyclic::position().with_limit(limit).cycle(inputs, 0_u16, 50).map(|cycle| cycle.target)
         };
-        assert_eq!((with(-10, 10), with(10, 10)), (Ok(50), Ok(50)));
+        assert_eq!((with(-10, 10), with(10, 10)), (Ok(7), Ok(7)));
         assert_eq!(with(i32::MIN, 10), Err(CycleError::LimitExceeded { error: i32::MIN, limit: 10 }));
         assert_eq!(with(1, 0), Err(CycleError::LimitExceeded { error: 1, limit: 0 }));
     }

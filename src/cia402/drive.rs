@@ -4,7 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::time::Duration;
 
-use super::bits::{CONFIRMED, FAILED, HALT, OF_MODE, REACHED, START};
+use super::bits::{CONFIRMED, ENABLE_OPERATION, FAILED, HALT, OF_MODE, OF_STATE, REACHED, START};
 use super::error::MotionError;
 use super::homing::{Outcome, SETTLING};
 use super::integer::{ReadInteger, WriteInteger};
@@ -50,7 +50,7 @@ macro_rules! operations {
         $Client:ident $read:ident $write:ident
         $set_mode:ident $mode:ident $wait_reached:ident $home:ident $home_with:ident $move_to:ident $set_velocity:ident
         private $enabled:ident $watched:ident $unhalted:ident $control:ident $command:ident $is_late:ident $change:ident
-            $run_homing:ident $homed:ident $ready:ident $acknowledged:ident
+            $clear:ident $run_homing:ident $homed:ident $ready:ident $acknowledged:ident
         $($async:ident $await:ident)?
     ) => {
         impl<C: $Client, O: Objects<C::Bus>> Drive<'_, C, O> {
@@ -66,8 +66,9 @@ macro_rules! operations {
 
             /// Changes the mode of operation: writes the mode (0x6060) and waits until the drive confirms it (0x6061).
             ///
-            /// If the operation is enabled and the mode changes, the method first clears the bits 4, 5, 6 and 9 of the
-            /// controlword, because the meaning of these bits depends on the mode. This method works in all states. Stop
+            /// If the mode changes, the method first clears the bits 4, 5, 6 and 9 of the controlword, because the meaning
+            /// of these bits depends on the mode. In the state "Quick stop active", the method writes only the mode,
+            /// because a write of the controlword could end the quick stop. This method works in all states. Stop
             /// the axis before you change the mode, unless the drive supports the change in motion. If the operation is
             /// enabled, write the target of the new mode before you activate a velocity, torque or cyclic mode: in these
             /// modes, the axis follows an old target at once.
@@ -88,14 +89,15 @@ macro_rules! operations {
             }
 
             /// Waits until the axis has reached its target: bit 10 of the statusword. The method is for the modes 1
-            /// (profile position), 3 (profile velocity) and 4 (profile torque).
+            /// (profile position), 3 (profile velocity) and 4 (profile torque). If bit 10 is 1 at the first poll, it must
+            /// stay 1 for 100 ms, because it can still show the previous target.
             ///
             /// # Errors
             ///
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or
             ///   leaves this state.
             /// - [`MotionError::FollowingError`] or [`MotionError::Slippage`] if the drive reports it (bit 13).
-            /// - [`MotionError::WrongMode`], [`MotionError::Halted`], [`MotionError::Access`].
+            /// - [`MotionError::WrongMode`], [`MotionError::Halted`], [`MotionError::OtherSource`], [`MotionError::Access`].
             /// - [`MotionError::Deadline`] if the axis hasn't reached the target. The axis continues to move.
             pub $($async)? fn $wait_reached(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(deadline);
@@ -105,9 +107,11 @@ macro_rules! operations {
                     return Err(MotionError::WrongMode { active: mode });
                 }
                 self.$unhalted()$(.$await)??;
+                let (mut is_stale, mut settling) = (true, Remaining::new(SETTLING));
                 loop {
                     let status = self.$watched(mode)$(.$await)??;
-                    if status & REACHED != 0 {
+                    is_stale &= status & REACHED != 0 && settling.pause().is_some();
+                    if status & REACHED != 0 && !is_stale {
                         return Ok(());
                     }
                     if self.$is_late(&mut remaining)$(.$await)?? {
@@ -146,10 +150,24 @@ macro_rules! operations {
                 Ok(O::controlword().$read(self.client)$(.$await)?? as u16)
             }
 
-            /// Returns the controlword, or an error if its bit "halt" is 1.
+            /// Returns the controlword. Returns an error if its bit "halt" is 1, or if it doesn't enable the operation.
             $($async)? fn $unhalted(&mut self) -> Result<u16, MotionError<C::Error>> {
-                let control = self.$control()$(.$await)??;
+                let control = enables(self.$control()$(.$await)??)?;
                 if control & HALT == 0 { Ok(control) } else { Err(MotionError::Halted) }
+            }
+
+            /// Clears bit 4 of the controlword that the drive has now, in every state but "Quick stop active": a write of
+            /// the controlword could end a quick stop that the drive started itself.
+            $($async)? fn $clear(&mut self) -> Result<(), MotionError<C::Error>> {
+                let status = O::statusword().$read(self.client)$(.$await)?? as u16;
+                if State::of_status(status) == Some(State::QuickStopActive) {
+                    return Ok(());
+                }
+                let control = self.$control()$(.$await)??;
+                if control & START != 0 {
+                    self.$command(control & !START)$(.$await)??;
+                }
+                Ok(())
             }
 
             $($async)? fn $command(&mut self, control: u16) -> Result<(), MotionError<C::Error>> {
@@ -169,9 +187,13 @@ macro_rules! operations {
                 remaining: &mut Remaining,
             ) -> Result<(), MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
-                if State::of_status(status) == Some(State::OperationEnabled) && self.$mode()$(.$await)?? != mode {
+                let state = State::of_status(status);
+                if state != Some(State::QuickStopActive) && self.$mode()$(.$await)?? != mode {
                     let control = self.$control()$(.$await)??;
                     if control & OF_MODE != 0 {
+                        if state == Some(State::OperationEnabled) {
+                            enables(control)?;
+                        }
                         self.$command(control & !OF_MODE)$(.$await)??;
                     }
                 }
@@ -194,8 +216,8 @@ macro_rules! operations {
             ///
             /// The method activates the mode 6, sets bit 4 of the controlword ("homing operation start"), waits for bit
             /// 12 ("homing attained") with bit 10 ("target reached") of the statusword, and clears bit 4 (CiA 402-2 13).
-            /// It also clears bit 4 after a homing error or the deadline, so that the drive aborts homing. A statusword
-            /// that shows the result of an earlier homing procedure is ignored for 100 ms.
+            /// It also tries to clear bit 4 after each error, so that the drive aborts homing and doesn't start it again
+            /// when it is enabled. A statusword that shows the result of an earlier homing procedure is ignored for 100 ms.
             ///
             /// # Errors
             ///
@@ -204,7 +226,7 @@ macro_rules! operations {
             /// - [`MotionError::ModeNotConfirmed`] if the drive doesn't activate the mode.
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or
             ///   leaves this state.
-            /// - [`MotionError::Halted`], [`MotionError::Access`].
+            /// - [`MotionError::Halted`], [`MotionError::OtherSource`], [`MotionError::Access`].
             pub $($async)? fn $home(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(deadline);
                 self.$enabled()$(.$await)??;
@@ -233,20 +255,24 @@ macro_rules! operations {
 
             $($async)? fn $run_homing(&mut self, remaining: &mut Remaining) -> Result<(), MotionError<C::Error>> {
                 self.$change(Mode::Homing, remaining)$(.$await)??;
-                let mut control = self.$unhalted()$(.$await)??;
+                let control = self.$unhalted()$(.$await)??;
                 if control & START != 0 {
                     // The start needs a rising edge.
-                    control &= !START;
-                    self.$command(control)$(.$await)??;
-                    self.$is_late(remaining)$(.$await)??;
+                    self.$command(control & !START)$(.$await)??;
                 }
+                // The drive needs time for the edge and the mode. A client that cannot wait fails before the start.
+                let is_late = self.$is_late(remaining)$(.$await)??;
                 let before = self.$enabled()$(.$await)??;
-                self.$command(control | START)$(.$await)??;
-                let homed = self.$homed(before, remaining)$(.$await)?;
-                if homed.as_ref().err().map_or(true, MotionError::allows_commands) {
-                    self.$command(control)$(.$await)??;
+                if is_late {
+                    return Err(MotionError::Deadline { status: before });
                 }
-                homed
+                let control = self.$unhalted()$(.$await)??;
+                let homed = match self.$command(control | START)$(.$await)? {
+                    Ok(()) => self.$homed(before, remaining)$(.$await)?,
+                    Err(error) => Err(error),
+                };
+                let cleared = self.$clear()$(.$await)?;
+                homed.and(cleared)
             }
 
             $($async)? fn $homed(
@@ -273,17 +299,18 @@ macro_rules! operations {
             ///
             /// The method waits until the drive can accept a set-point, writes the target position (0x607A), sets bit 4
             /// of the controlword ("new set-point") together with the bits 5 and 6, waits for bit 12 of the statusword
-            /// ("set-point acknowledge"), and clears bit 4. Write the profile velocity and the ramps before.
+            /// ("set-point acknowledge"), and clears bit 4. It also tries to clear bit 4 after each error. Write the profile
+            /// velocity and the ramps before.
             ///
             /// # Errors
             ///
             /// - [`MotionError::WrongMode`] if the mode 1 isn't active: use `set_mode`.
-            /// - [`MotionError::Deadline`] if the drive hasn't accepted the set-point before the deadline. Bit 4 is
-            ///   cleared.
+            /// - [`MotionError::Deadline`] if the drive hasn't acknowledged the set-point before the deadline. The drive
+            ///   can still have accepted it.
             /// - [`MotionError::FollowingError`] if the drive reports a following error (bit 13).
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or
             ///   leaves this state.
-            /// - [`MotionError::Halted`].
+            /// - [`MotionError::Halted`], [`MotionError::OtherSource`].
             /// - [`MotionError::Access`] if an access fails, or if the position is outside the range that the device
             ///   description declares.
             pub $($async)? fn $move_to(
@@ -301,29 +328,36 @@ macro_rules! operations {
                 if control & START != 0 {
                     self.$command(control & !START)$(.$await)??;
                 }
-                self.$ready(target, &mut remaining)$(.$await)??;
+                let is_confirmed = self.$ready(target, &mut remaining)$(.$await)??;
                 O::target_position().$write(self.client, target.position)$(.$await)??;
-                let control = control & !(START | Target::BITS) | target.bits;
-                self.$command(control | START)$(.$await)??;
-                let acknowledged = self.$acknowledged(&mut remaining)$(.$await)?;
-                if acknowledged.as_ref().err().map_or(true, MotionError::allows_commands) {
-                    self.$command(control)$(.$await)??;
+                // The drive needs time for the edge. A client that cannot wait fails before the start.
+                let is_late = self.$is_late(&mut remaining)$(.$await)??;
+                let status = self.$watched(Mode::ProfilePosition)$(.$await)??;
+                if is_late {
+                    return Err(MotionError::Deadline { status });
                 }
-                acknowledged
+                let control = self.$unhalted()$(.$await)?? & !Target::BITS | target.bits;
+                let acknowledged = match self.$command(control | START)$(.$await)? {
+                    Ok(()) => self.$acknowledged(is_confirmed, &mut remaining)$(.$await)?,
+                    Err(error) => Err(error),
+                };
+                let cleared = self.$clear()$(.$await)?;
+                acknowledged.and(cleared)
             }
 
             /// Waits until the drive can accept a set-point. A set-point that replaces the active one can be accepted
-            /// even if another one waits, and bit 12 then stays 1.
+            /// even if another one waits, and bit 12 then stays 1. Returns whether bit 12 is 1.
             $($async)? fn $ready(
                 &mut self,
                 target: Target,
                 remaining: &mut Remaining,
-            ) -> Result<(), MotionError<C::Error>> {
+            ) -> Result<bool, MotionError<C::Error>> {
                 let mut settling = Remaining::new(SETTLING);
                 loop {
                     let status = self.$watched(Mode::ProfilePosition)$(.$await)??;
-                    if status & CONFIRMED == 0 || (target.is_immediate() && settling.pause().is_none()) {
-                        return Ok(());
+                    let is_confirmed = status & CONFIRMED != 0;
+                    if !is_confirmed || (target.is_immediate() && settling.pause().is_none()) {
+                        return Ok(is_confirmed);
                     }
                     if self.$is_late(remaining)$(.$await)?? {
                         return Err(MotionError::Deadline { status });
@@ -331,10 +365,17 @@ macro_rules! operations {
                 }
             }
 
-            $($async)? fn $acknowledged(&mut self, remaining: &mut Remaining) -> Result<(), MotionError<C::Error>> {
+            /// Waits until the drive acknowledges a set-point. If bit 12 was 1 before the start, the method waits until the
+            /// drive must have seen the edge of bit 4.
+            $($async)? fn $acknowledged(
+                &mut self,
+                is_confirmed: bool,
+                remaining: &mut Remaining,
+            ) -> Result<(), MotionError<C::Error>> {
+                let mut settling = Remaining::new(if is_confirmed { SETTLING } else { Duration::ZERO });
                 loop {
                     let status = self.$watched(Mode::ProfilePosition)$(.$await)??;
-                    if status & CONFIRMED != 0 {
+                    if status & CONFIRMED != 0 && settling.pause().is_none() {
                         return Ok(());
                     }
                     if self.$is_late(remaining)$(.$await)?? {
@@ -354,7 +395,7 @@ macro_rules! operations {
             ///
             /// - [`MotionError::WrongMode`] if another mode is active: use `set_mode`.
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled".
-            /// - [`MotionError::Halted`].
+            /// - [`MotionError::Halted`], [`MotionError::OtherSource`].
             /// - [`MotionError::Access`] if an access fails, or if the velocity is outside the range that the device
             ///   description declares.
             pub $($async)? fn $set_velocity(&mut self, velocity: i32) -> Result<(), MotionError<C::Error>> {
@@ -370,15 +411,23 @@ macro_rules! operations {
     };
 }
 
+/// Returns the controlword if it enables the operation.
+fn enables<E>(control: u16) -> Result<u16, MotionError<E>> {
+    match control & OF_STATE {
+        ENABLE_OPERATION => Ok(control),
+        _ => Err(MotionError::OtherSource { control }),
+    }
+}
+
 operations! {
     Client read write
     set_mode mode wait_reached home home_with move_to set_velocity
-    private enabled watched unhalted control command is_late change run_homing homed ready acknowledged
+    private enabled watched unhalted control command is_late change clear run_homing homed ready acknowledged
 }
 operations! {
     AsyncClient read_async write_async
     set_mode_async mode_async wait_reached_async home_async home_with_async move_to_async set_velocity_async
     private enabled_async watched_async unhalted_async control_async command_async is_late_async change_async
-        run_homing_async homed_async ready_async acknowledged_async
+        clear_async run_homing_async homed_async ready_async acknowledged_async
     async await
 }

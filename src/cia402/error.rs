@@ -28,6 +28,12 @@ pub enum MotionError<E> {
     },
     /// The bit "halt" of the controlword is 1, so the axis wouldn't move.
     Halted,
+    /// The operation is enabled, but the controlword isn't "enable operation": the drive takes its commands from another
+    /// source, such as terminals or process data. A write of the controlword would disable the drive.
+    OtherSource {
+        /// Controlword (0x6040).
+        control: u16,
+    },
     /// The operation isn't possible in the active mode.
     WrongMode {
         /// Active mode (0x6061).
@@ -63,11 +69,6 @@ impl<E> MotionError<E> {
     pub const fn is_fault(&self) -> bool {
         matches!(self, Self::Fault { .. })
     }
-
-    /// Returns whether the operation may still write the controlword: the drive replies and its operation is enabled.
-    pub(super) const fn allows_commands(&self) -> bool {
-        !matches!(self, Self::Access(_) | Self::Fault { .. } | Self::NotEnabled { .. })
-    }
 }
 
 impl<E> From<Error<E>> for MotionError<E> {
@@ -91,6 +92,12 @@ impl<E: fmt::Display> fmt::Display for MotionError<E> {
                 write!(f, "the operation is not enabled: the statusword 0x{status:04X} encodes no state")
             }
             Self::Halted => f.write_str("the bit \"halt\" of the controlword is 1"),
+            Self::OtherSource { control } => {
+                write!(
+                    f,
+                    "the controlword 0x{control:04X} doesn't enable the operation: another source commands the drive"
+                )
+            }
             Self::WrongMode { active } => write!(f, "the operation is not possible in the active mode {active}"),
             Self::ModeNotConfirmed { requested, active } => {
                 write!(f, "timeout: the drive has not activated the mode {requested}; the active mode is {active}")
@@ -127,7 +134,7 @@ mod tests {
         type Motion = MotionError<crate::TextError>;
         let text = |error: Motion| error.to_string();
         let fault = Motion::Fault { state: State::Fault, code: Some(0x8611) };
-        assert!(fault.is_fault() && !fault.allows_commands());
+        assert!(fault.is_fault());
         assert_eq!(text(fault), "the drive has a fault: state \"fault\", error code 0x8611");
         let disabled = Motion::NotEnabled { state: Some(State::SwitchedOn), status: 0x33 };
         assert_eq!(text(disabled), "the operation is not enabled: the drive is in the state \"switched on\"");

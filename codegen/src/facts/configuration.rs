@@ -55,7 +55,8 @@ pub enum LeftOut {
     ReadOnly,
     /// The object refuses writes during a download (bit 0 of ObjFlags, CiA 306).
     RefusesDownload,
-    /// Writing to the object starts an action: the error history and the commands that store and restore parameters.
+    /// Writing to the object starts an action: the error history, the commands that store and restore parameters, and the
+    /// controlword and targets of a CiA 402 drive.
     Command,
     /// The entry is not part of the PDO mapping, because its sub-index is greater than the number of entries.
     NotMapped,
@@ -69,7 +70,7 @@ impl LeftOut {
         match self {
             LeftOut::ReadOnly => "read-only objects",
             LeftOut::RefusesDownload => "objects that refuse writes on download (ObjFlags)",
-            LeftOut::Command => "commands and the error history",
+            LeftOut::Command => "commands, targets of a drive, and the error history",
             LeftOut::NotMapped => "mapping entries above the number of mapped objects",
             LeftOut::NoValue => "objects whose value does not fit the type",
         }
@@ -91,6 +92,11 @@ impl Configuration {
                 }
                 Some(index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF)) => {
                     pdos.entry(index - 0x200).or_default().mapping = Some(group);
+                }
+                Some(index) if is_cia402(device) && is_motion_command(index) => {
+                    let objects =
+                        group.items.iter().filter(|item| item.configured_value().is_some()).filter_map(Item::object);
+                    configuration.left_out.extend(objects.map(|object| (object, LeftOut::Command)));
                 }
                 Some(index) => configuration.add_object(index, group, &device.types),
                 None => {}
@@ -136,6 +142,20 @@ impl Configuration {
         let is_enabled = |value: &&Value| matches!(value, Value::Int(id) | Value::NodeId(id) if id & DISABLED == 0);
         self.enable_pdos.extend(write(cob_id.filter(is_enabled).cloned()));
     }
+}
+
+/// Returns whether the device type (0x1000) states the profile CiA 402.
+fn is_cia402(device: &Device) -> bool {
+    let device_type = device.groups.iter().find(|group| group.index() == Some(0x1000)).and_then(|group| group.sub(0));
+    matches!(device_type.and_then(Item::initial), Some(Value::Int(number)) if number & 0xFFFF == 402)
+}
+
+/// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. A file that a tool
+/// saved from a running drive contains such values. The objects of each further axis are 0x800 higher (CiA 402-2).
+fn is_motion_command(index: u16) -> bool {
+    const AXIS: u16 = 0x800;
+    (0x6000..0xA000).contains(&index)
+        && matches!(0x6000 + (index - 0x6000) % AXIS, 0x6040 | 0x6042 | 0x6071 | 0x607A | 0x60FF)
 }
 
 /// The objects of a PDO.
@@ -284,6 +304,19 @@ mod tests {
 
     fn mapping_of(rows: &[Row]) -> Configuration {
         configuration(vec![object(0x1600, Type::Unsigned(32), rows)])
+    }
+
+    #[test]
+    fn commands_of_a_drive_are_left_out() {
+        let objects = |profile| {
+            let value = |index| object(index, Type::Unsigned(16), &[(0, RW, Some(0), Some(15))]);
+            let device_type = object(0x1000, Type::Unsigned(32), &[(0, RO, Some(profile), None)]);
+            configuration(vec![device_type, value(0x6040), value(0x6060), value(0x687A)])
+        };
+        let drive = objects(0x0002_0192);
+        assert_eq!(drive.left_out, [((0x6040, 0), LeftOut::Command), ((0x687A, 0), LeftOut::Command)]);
+        assert_eq!(drive.parameters.iter().map(|setting| setting.object.0).collect::<Vec<_>>(), [0x6060]);
+        assert_eq!(objects(0x0002_0191).parameters.len(), 3);
     }
 
     #[test]

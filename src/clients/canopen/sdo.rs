@@ -117,8 +117,9 @@ macro_rules! transfers {
                         let patience = transfer.patience(self.port().now(), timeout);
                         let is_sent = self.port().send(&frame, patience)$(.$await)?;
                         if let Err(error) = is_sent.map_err(Error::Client).and_then(sent) {
-                            // A node that did not receive the first request of a transfer does not reply.
-                            self.owed = self.owed.filter(|owed| owed.reply.is_continued());
+                            // A node that did not receive the first request of a transfer does not reply. If the unsent
+                            // message is an abort, the node can still reply to the request before it.
+                            self.owed = self.owed.filter(|owed| owed.is_aborted || owed.reply.is_continued());
                             return Err(error);
                         }
                     }
