@@ -67,8 +67,8 @@ macro_rules! operations {
             /// Changes the mode of operation: writes the mode (0x6060) and waits until the drive confirms it (0x6061).
             ///
             /// If the mode changes, the method first clears the bits 4, 5, 6 and 9 of the controlword, because the meaning
-            /// of these bits depends on the mode. In the state "Quick stop active", the method writes only the mode,
-            /// because a write of the controlword could end the quick stop. This method works in all states. Stop
+            /// of these bits depends on the mode. The controlword isn't written if the write could enable the drive or end a
+            /// quick stop. This method works in all states. Stop
             /// the axis before you change the mode, unless the drive supports the change in motion. If the operation is
             /// enabled, write the target of the new mode before you activate a velocity, torque or cyclic mode: in these
             /// modes, the axis follows an old target at once.
@@ -156,15 +156,11 @@ macro_rules! operations {
                 if control & HALT == 0 { Ok(control) } else { Err(MotionError::Halted) }
             }
 
-            /// Clears bit 4 of the controlword that the drive has now, in every state but "Quick stop active": a write of
-            /// the controlword could end a quick stop that the drive started itself.
+            /// Clears bit 4 of the controlword that the drive has now, unless the write could change the state.
             $($async)? fn $clear(&mut self) -> Result<(), MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
-                if State::of_status(status) == Some(State::QuickStopActive) {
-                    return Ok(());
-                }
                 let control = self.$control()$(.$await)??;
-                if control & START != 0 {
+                if control & START != 0 && keeps_state(State::of_status(status), control) {
                     self.$command(control & !START)$(.$await)??;
                 }
                 Ok(())
@@ -188,12 +184,12 @@ macro_rules! operations {
             ) -> Result<(), MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
                 let state = State::of_status(status);
-                if state != Some(State::QuickStopActive) && self.$mode()$(.$await)?? != mode {
+                if self.$mode()$(.$await)?? != mode {
                     let control = self.$control()$(.$await)??;
-                    if control & OF_MODE != 0 {
-                        if state == Some(State::OperationEnabled) {
-                            enables(control)?;
-                        }
+                    if state == Some(State::OperationEnabled) {
+                        enables(control)?;
+                    }
+                    if control & OF_MODE != 0 && keeps_state(state, control) {
                         self.$command(control & !OF_MODE)$(.$await)??;
                     }
                 }
@@ -409,6 +405,16 @@ macro_rules! operations {
             }
         }
     };
+}
+
+/// Returns whether a write of the same command cannot change the state. A drive that has left "Operation enabled" by
+/// itself would execute "enable operation" again.
+fn keeps_state(state: Option<State>, control: u16) -> bool {
+    match state {
+        Some(State::OperationEnabled | State::FaultReactionActive | State::Fault) => true,
+        Some(State::QuickStopActive) | None => false,
+        Some(_) => control & OF_STATE != ENABLE_OPERATION,
+    }
 }
 
 /// Returns the controlword if it enables the operation.
