@@ -37,7 +37,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("B6", &["According to the text, some"], &[]),
     ("B7", &["According to the text, some"], &[]),
     ("B8", &["The example computes 40001"], &[]),
-    ("B9", &["The CRC is labeled"], &[]),
+    ("B9", &["The frames show the high byte of the CRC"], &[]),
     ("B10", &["Value 9 of"], &[]),
     ("B11", &["According to one section,"], &[]),
     ("B12", &["No table lists"], &[]),

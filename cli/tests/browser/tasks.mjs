@@ -132,7 +132,7 @@ const TASKS = {
     await reader.page.waitForFunction(() => document.querySelector("#KIQDLIMAX.open"));
   }],
   "How does the Vector Step store its registers?": [16, async (reader) => {
-    await reader.search("save_registers", "save_registers");
+    await reader.search("save_registers", "save registers");
     assert.match(await reader.page.locator(":target").innerText(), /Rloadsav/);
   }],
   "Which line of Python reads 0x6064 of the Vector Step?": [14, async (reader) => {

@@ -6,7 +6,7 @@ pub const NODE_ID: Option<rt::NodeId> = rt::NodeId::new(5);
 ///
 /// Left out: objects that refuse writes on download (ObjFlags) (0x2007:00).
 ///
-/// Left out: commands and the error history (0x1010:01).
+/// Left out: commands, targets of a drive, and the error history (0x1010:01).
 ///
 /// Left out: mapping entries above the number of mapped objects (0x1600:03).
 ///
