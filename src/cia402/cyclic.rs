@@ -12,8 +12,8 @@ use crate::machine::StateWord;
 /// the process data. It therefore works with every bus library.
 ///
 /// - Until the drive follows the command values (bit 12 of the statusword in "Operation enabled" and in this mode), the
-///   set-point is the actual position, or 0 for a velocity and a torque. The axis therefore doesn't jump when the
-///   operation is enabled.
+///   set-point is the actual position, or 0 for a velocity and a torque. This also applies to the first cycle in which
+///   the drive follows, so that the axis doesn't jump: the program starts its trajectory there.
 /// - Once the drive has followed, the cycle in which the drive leaves "Operation enabled" or the mode is an error.
 /// - A following error is an error: bit 13 of the statusword in CSP, or an actual following error (0x60F4) above the
 ///   limit of the program.
@@ -32,8 +32,10 @@ use crate::machine::StateWord;
 /// // The drive doesn't follow yet: the target is the actual position.
 /// let cycle = cyclic.cycle(inputs, 0x000F_u16, 9000)?;
 /// assert_eq!((cycle.control, cycle.target, cycle.is_following), (0x000F, 5000, false));
-/// // Bit 12: the drive follows.
+/// // Bit 12: the drive follows. The trajectory starts at the set-point of this cycle.
 /// inputs.status = 0x1237;
+/// let cycle = cyclic.cycle(inputs, 0x000F_u16, 9000)?;
+/// assert_eq!((cycle.target, cycle.is_following), (5000, true));
 /// assert_eq!(cyclic.cycle(inputs, 0x000F_u16, 5010)?.target, 5010);
 /// inputs.following_error = Some(-101);
 /// let error = CycleError::LimitExceeded { error: -101, limit: 100 };
