@@ -153,7 +153,7 @@ pub enum ModbusError {
     /// Input registers and discrete inputs are read-only. Nothing was sent.
     ReadOnly,
     /// Devices don't reply to a broadcast, so a broadcast cannot read. The read was not sent. If the device has no
-    /// function 23, the write of [`RegisterClient::exchange`](crate::modbus::RegisterClient::exchange) was sent before.
+    /// function 23, the write of [`RegisterClient::exchange`] was sent before.
     Broadcast,
     /// The device doesn't support the function for this access. Nothing was sent.
     Function {
