@@ -5,7 +5,7 @@ use core::fmt;
 use crate::bus::{EscMemory, Object, Parameter, Record};
 use crate::from::from;
 use crate::image_field::ImageField;
-use crate::register::{Register, RegisterTable};
+use crate::register::Register;
 
 /// Address of an item on one of its buses. `Display` writes the address for error messages, for example `0x6040:00` or
 /// `holding register 8`.
@@ -65,13 +65,7 @@ impl fmt::Display for BusAddress {
 }
 
 fn write_register(register: &Register, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    let table = match register.table {
-        RegisterTable::Holding => "holding register",
-        RegisterTable::Input => "input register",
-        RegisterTable::Coil => "coil",
-        RegisterTable::DiscreteInput => "discrete input",
-    };
-    write!(f, "{table} {}", register.address)?;
+    write!(f, "{} {}", register.table.name(), register.address)?;
     match register.part {
         Some(part) => write!(f, ", bit {}", part.first),
         None => Ok(()),
@@ -81,6 +75,7 @@ fn write_register(register: &Register, f: &mut fmt::Formatter<'_>) -> fmt::Resul
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::RegisterTable;
     use std::string::ToString;
 
     fn text(address: impl Into<BusAddress>) -> std::string::String {

@@ -66,6 +66,21 @@ pub enum DataType {
 }
 
 impl DataType {
+    /// Returns whether the type is a signed integer.
+    pub(crate) const fn is_signed(self) -> bool {
+        matches!(
+            self,
+            Self::Integer8
+                | Self::Integer16
+                | Self::Integer24
+                | Self::Integer32
+                | Self::Integer40
+                | Self::Integer48
+                | Self::Integer56
+                | Self::Integer64
+        )
+    }
+
     /// Returns the size in bits, or `None` if the type has no fixed size.
     #[must_use]
     pub const fn bits(self) -> Option<u32> {

@@ -14,7 +14,7 @@ use crate::value_error::{LengthError, OutOfRange, TextError};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Error<E> {
-    /// The client returned an error of its own, for example a failure of the bus.
+    /// The client returned an error, for example because the bus failed.
     Client(E),
     /// The device refused the access, with an SDO abort code (CiA 301 7.2.4.3.17) or the equivalent of another bus.
     Abort(AbortCode),

@@ -104,6 +104,7 @@ mod clock;
 pub mod codes;
 mod composite;
 pub mod configuration;
+mod crc;
 mod data_type;
 mod emergency;
 mod enumeration;

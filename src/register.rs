@@ -18,6 +18,18 @@ pub enum RegisterTable {
     DiscreteInput,
 }
 
+impl RegisterTable {
+    /// Returns the name of an entry of the table.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Holding => "holding register",
+            Self::Input => "input register",
+            Self::Coil => "coil",
+            Self::DiscreteInput => "discrete input",
+        }
+    }
+}
+
 /// Order of the registers of one value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum WordOrder {

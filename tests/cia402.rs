@@ -6,9 +6,13 @@ use std::time::Duration;
 
 use lexibus::cia402::{self, CycleError, Cyclic, Inputs, Mode, MotionError, ReadInteger, State, Target, WriteInteger};
 use lexibus::sim::{Connection, Device, Fault};
-use lexibus::table::{AccessRights, Bound, Entry, RawInitial};
-use lexibus::{AbortCode, AsyncClient, CanOpen, Client, CoE, DataType, Error, Flags, Item, Object, OnCanOpen, Ro, Rw};
+use lexibus::table::Entry;
+use lexibus::{AbortCode, AsyncClient, CanOpen, Client, CoE, DataType, Error, Item, Object, OnCanOpen, Ro, Rw};
 use lexibus_drives::{demo_drive, eco, vector_step};
+
+#[path = "support/entry.rs"]
+mod entry;
+use entry::entry;
 
 const DEADLINE: Duration = Duration::from_secs(2);
 const ENABLED: u16 = 0x0237;
@@ -67,21 +71,6 @@ impl cia402::Velocity<CanOpen> for Full {
 impl cia402::Homing<CanOpen> for Full {
     fn homing_method() -> impl WriteInteger<CanOpen> {
         HOMING_METHOD
-    }
-}
-
-const fn entry(index: u16, data_type: DataType) -> Entry {
-    Entry {
-        object: Some(Object::new(index, 0)),
-        register: None,
-        name: "",
-        data_type,
-        access: AccessRights::ReadWrite,
-        flags: Flags::PDO,
-        initial: RawInitial::Unknown,
-        low: Bound::Unlimited,
-        high: Bound::Unlimited,
-        unit: "",
     }
 }
 

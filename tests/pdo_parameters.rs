@@ -5,11 +5,11 @@ use std::time::Duration;
 use lexibus::clients::canopen::{self, NmtCommand, Node};
 use lexibus::pdo::{PdoParameterError, PdoParameters, TransmissionType};
 use lexibus::sim::{CanNode, Device};
-use lexibus::{
-    AbortCode, AccessRights, Bound, Client, DataType, Entry, Error, Flags, NodeId, Object, RawInitial, SdoWrite,
-};
+use lexibus::{AbortCode, Client, DataType, Entry, Error, NodeId, Object, RawInitial, SdoWrite};
 use lexibus_drives::vector_step::{pdo, ENTRIES};
 
+#[path = "support/entry.rs"]
+mod entry;
 #[path = "support/now.rs"]
 mod now;
 use now::now;
@@ -211,15 +211,8 @@ fn without_blocking() {
 const fn entry(index: u16, sub_index: u8, data_type: DataType, initial: &'static [u8]) -> Entry {
     Entry {
         object: Some(Object::new(index, sub_index)),
-        register: None,
-        name: "",
-        data_type,
-        access: AccessRights::ReadWrite,
-        flags: Flags::PDO,
         initial: RawInitial::Bytes(initial),
-        low: Bound::Unlimited,
-        high: Bound::Unlimited,
-        unit: "",
+        ..entry::entry(index, data_type)
     }
 }
 

@@ -5,11 +5,15 @@
 use std::time::Duration;
 
 use lexibus::sim::{Device, Fault};
-use lexibus::table::{AccessRights, Bound, Entry, RawInitial};
-use lexibus::{AbortCode, CanOpen, Client, CoE, DataType, Flags, NodeId, Object, Pdo, WalkError};
+use lexibus::table::{Bound, Entry};
+use lexibus::{AbortCode, CanOpen, Client, CoE, DataType, NodeId, Object, Pdo, WalkError};
 use lexibus_drives::demo_drive::types::{Controlword, ModesOfOperation, State};
 use lexibus_drives::demo_drive::{self, objects, pdo, DemoDrive};
 use lexibus_drives::vector_step;
+
+#[path = "support/entry.rs"]
+mod entry;
+use entry::entry;
 
 const DEADLINE: Duration = Duration::from_secs(2);
 const NODE: NodeId = match NodeId::new(5) {
@@ -19,21 +23,6 @@ const NODE: NodeId = match NodeId::new(5) {
 
 const fn ms(time: u64) -> Duration {
     Duration::from_millis(time)
-}
-
-const fn entry(index: u16, data_type: DataType) -> Entry {
-    Entry {
-        object: Some(Object::new(index, 0)),
-        register: None,
-        name: "",
-        data_type,
-        access: AccessRights::ReadWrite,
-        flags: Flags::PDO,
-        initial: RawInitial::Unknown,
-        low: Bound::Unlimited,
-        high: Bound::Unlimited,
-        unit: "",
-    }
 }
 
 /// Objects that the demo drive lacks.

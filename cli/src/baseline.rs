@@ -15,6 +15,7 @@ use lexibus_codegen::source::Source;
 use lexibus_codegen::text::printable;
 use serde::{Deserialize, Serialize};
 
+use super::report::json_line;
 use super::Failure;
 
 /// First line of a baseline.
@@ -140,7 +141,7 @@ impl Baseline {
         let found = self.counts.iter().filter(|(_, count)| count.found > 0);
         for (key, count) in found.clone() {
             let entry = Entry { key: key.clone(), count: count.found };
-            text += &(serde_json::to_string(&entry).map_err(std::io::Error::other)? + "\n");
+            text += &json_line(&entry)?;
         }
         write_if_changed(&self.path, &text)
             .map_err(|error| Failure::Usage(format!("cannot write {}: {error}", self.path.display())))?;

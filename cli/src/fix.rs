@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use lexibus_codegen::compile::{self, Compilation, Options};
-use lexibus_codegen::diagnostics::{render, Severity};
+use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
 use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 
@@ -85,13 +85,9 @@ impl Fixed {
                 return Ok(fixed);
             }
             let old = &fixed.compilation.sources[0];
-            let bytes = old.replaced(&replacements).ok_or_else(|| {
+            let new = old.replaced(&replacements).ok_or_else(|| {
                 format!("the fixes cannot be written in the encoding of the file ({})", old.encoding().name())
             })?;
-            let mut new = Source::new(old.name(), bytes);
-            if let Some(folder) = old.folder() {
-                new = new.in_folder(folder);
-            }
             fixed = Fixed { count: fixed.count + replacements.len(), compilation: compile::check(new, options) };
         }
         Err(format!("fixes are left after {MAX_ROUNDS} rounds"))
@@ -100,12 +96,10 @@ impl Fixed {
     /// Returns the number of fixes in other files, such as an overlay, by file name.
     fn elsewhere(&self) -> BTreeMap<&str, usize> {
         let mut counts = BTreeMap::new();
-        for diagnostic in self.compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.fix.is_some()) {
-            if let Some(source) = self.compilation.sources.get(diagnostic.span.file.0 as usize) {
-                if diagnostic.span.file.0 > 0 {
-                    *counts.entry(source.name()).or_default() += 1;
-                }
-            }
+        let is_elsewhere = |diagnostic: &&Diagnostic| diagnostic.fix.is_some() && diagnostic.span.file.0 > 0;
+        for diagnostic in self.compilation.diagnostics.list().iter().filter(is_elsewhere) {
+            let Some(source) = self.compilation.sources.get(diagnostic.span.file.0 as usize) else { continue };
+            *counts.entry(source.name()).or_default() += 1;
         }
         counts
     }

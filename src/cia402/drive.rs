@@ -102,14 +102,13 @@ macro_rules! operations {
             pub $($async)? fn $wait_reached(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(deadline);
                 let mode = self.$mode()$(.$await)??;
-                self.$watched(mode)$(.$await)??;
+                let mut status = self.$watched(mode)$(.$await)??;
                 if !matches!(mode, Mode::ProfilePosition | Mode::ProfileVelocity | Mode::ProfileTorque) {
                     return Err(MotionError::WrongMode { active: mode });
                 }
                 self.$unhalted()$(.$await)??;
                 let (mut is_stale, mut settling) = (true, Remaining::new(SETTLING));
                 loop {
-                    let status = self.$watched(mode)$(.$await)??;
                     is_stale &= status & REACHED != 0 && settling.pause().is_some();
                     if status & REACHED != 0 && !is_stale {
                         return Ok(());
@@ -117,6 +116,7 @@ macro_rules! operations {
                     if self.$is_late(&mut remaining)$(.$await)?? {
                         return Err(MotionError::Deadline { status });
                     }
+                    status = self.$watched(mode)$(.$await)??;
                 }
             }
 

@@ -4,7 +4,6 @@ use crate::abort::AbortCode;
 use crate::access::{Readable, Writable};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
-use crate::data_type::DataType;
 use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
@@ -99,11 +98,10 @@ where
 /// Returns the integer of a value. The sign depends on the data type.
 fn integer<V: Fixed<Native: StateWord>>(native: V::Native) -> i64 {
     let bits = native.bits();
-    match V::DATA_TYPE {
-        DataType::Integer8 | DataType::Integer16 | DataType::Integer24 | DataType::Integer32 => {
-            sign_extend(bits.into(), V::BITS)
-        }
-        _ => bits.into(),
+    if V::DATA_TYPE.is_signed() {
+        sign_extend(bits.into(), V::BITS)
+    } else {
+        bits.into()
     }
 }
 

@@ -187,13 +187,7 @@ impl fmt::Display for ModbusError {
             Self::ReadOnly => f.write_str("Modbus inputs are read-only"),
             Self::Broadcast => f.write_str("a broadcast cannot read, because devices don't reply to it"),
             Self::Function { table, function } => {
-                let table = match table {
-                    RegisterTable::Holding => "holding registers",
-                    RegisterTable::Input => "input registers",
-                    RegisterTable::Coil => "coils",
-                    RegisterTable::DiscreteInput => "discrete inputs",
-                };
-                write!(f, "the device doesn't support function {function} for {table}")
+                write!(f, "the device doesn't support function {function} for {}s", table.name())
             }
             Self::TooLong { count, max } => {
                 write!(f, "the value has {count} registers or bits, but the maximum per request is {max}")

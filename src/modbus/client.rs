@@ -12,6 +12,39 @@ use crate::client::{AsyncClient, Client, Timed};
 use crate::error::Error;
 use crate::register::{Register, RegisterTable};
 
+/// Sends the requests of a [`Reading`], blocking or async.
+macro_rules! read_all {
+    ($client:ident, $reading:ident $(, $await:ident)?) => {
+        while let Some((request, length)) = $reading.request() {
+            let mut answer = [0; MAX_BYTES];
+            let received = $client.read(request, &mut answer[..length])$(.$await)??;
+            $reading.answered(&answer[..length], received)?;
+        }
+    };
+}
+
+/// Writes a block and reads another one, blocking or async. The last write and the first read are one request if possible.
+macro_rules! exchange {
+    ($client:ident, $write:ident, $values:ident, $read:ident $(, $await:ident)?) => {{
+        let writing = Writing::new(&$write, $values, $client.limits())?;
+        let mut reading = Reading::new(&$read, $client.limits())?;
+        let last = writing.len().saturating_sub(1);
+        for at in 0..writing.len() {
+            let Some((register, data)) = writing.write(at) else { break };
+            let combined = reading.request().filter(|(request, _)| at == last && is_combined(&register, request));
+            let Some((request, length)) = combined else {
+                $client.write(register, data)$(.$await)??;
+                continue;
+            };
+            let mut answer = [0; MAX_BYTES];
+            let received = $client.write_and_read(register, data, request, &mut answer[..length])$(.$await)??;
+            reading.answered(&answer[..length], received)?;
+        }
+        read_all!($client, reading $(, $await)?);
+        Ok($read.values(reading.values())?)
+    }};
+}
+
 /// A client that reads and writes several items with one call.
 ///
 /// The provided methods use [`Client::read`] and [`Client::write`]. Implement [`limits`](Self::limits) if you know the [`Limits`] of the
@@ -91,11 +124,7 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         Self: Sized,
     {
         let mut reading = Reading::new(&block, self.limits())?;
-        while let Some((request, length)) = reading.request() {
-            let mut answer = [0; MAX_BYTES];
-            let received = self.read(request, &mut answer[..length])?;
-            reading.answered(&answer[..length], received)?;
-        }
+        read_all!(self, reading);
         Ok(block.values(reading.values())?)
     }
 
@@ -167,26 +196,7 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     where
         Self: Sized,
     {
-        let writing = Writing::new(&write, values, self.limits())?;
-        let mut reading = Reading::new(&read, self.limits())?;
-        let last = writing.len().saturating_sub(1);
-        for at in 0..writing.len() {
-            let Some((register, data)) = writing.write(at) else { break };
-            let combined = reading.request().filter(|(request, _)| at == last && is_combined(&register, request));
-            let Some((request, length)) = combined else {
-                self.write(register, data)?;
-                continue;
-            };
-            let mut answer = [0; MAX_BYTES];
-            let received = self.write_and_read(register, data, request, &mut answer[..length])?;
-            reading.answered(&answer[..length], received)?;
-        }
-        while let Some((request, length)) = reading.request() {
-            let mut answer = [0; MAX_BYTES];
-            let received = self.read(request, &mut answer[..length])?;
-            reading.answered(&answer[..length], received)?;
-        }
-        Ok(read.values(reading.values())?)
+        exchange!(self, write, values, read)
     }
 }
 
@@ -244,11 +254,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         Self: Sized,
     {
         let mut reading = Reading::new(&block, self.limits())?;
-        while let Some((request, length)) = reading.request() {
-            let mut answer = [0; MAX_BYTES];
-            let received = self.read(request, &mut answer[..length]).await?;
-            reading.answered(&answer[..length], received)?;
-        }
+        read_all!(self, reading, await);
         Ok(block.values(reading.values())?)
     }
 
@@ -320,26 +326,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     where
         Self: Sized,
     {
-        let writing = Writing::new(&write, values, self.limits())?;
-        let mut reading = Reading::new(&read, self.limits())?;
-        let last = writing.len().saturating_sub(1);
-        for at in 0..writing.len() {
-            let Some((register, data)) = writing.write(at) else { break };
-            let combined = reading.request().filter(|(request, _)| at == last && is_combined(&register, request));
-            let Some((request, length)) = combined else {
-                self.write(register, data).await?;
-                continue;
-            };
-            let mut answer = [0; MAX_BYTES];
-            let received = self.write_and_read(register, data, request, &mut answer[..length]).await?;
-            reading.answered(&answer[..length], received)?;
-        }
-        while let Some((request, length)) = reading.request() {
-            let mut answer = [0; MAX_BYTES];
-            let received = self.read(request, &mut answer[..length]).await?;
-            reading.answered(&answer[..length], received)?;
-        }
-        Ok(read.values(reading.values())?)
+        exchange!(self, write, values, read, await)
     }
 }
 

@@ -226,17 +226,7 @@ impl FParameters {
 
 /// Updates a 16-bit CRC with the polynomial 0x4EAB.
 const fn crc16(crc: u16, data: &[u8]) -> u16 {
-    let (mut crc, mut at) = (crc, 0);
-    while at < data.len() {
-        crc ^= (data[at] as u16) << 8;
-        let mut bit = 0;
-        while bit < 8 {
-            crc = if crc & 0x8000 != 0 { crc << 1 ^ 0x4EAB } else { crc << 1 };
-            bit += 1;
-        }
-        at += 1;
-    }
-    crc
+    crate::crc::crc16(0x4EAB, crc, data)
 }
 
 #[cfg(test)]

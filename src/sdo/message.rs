@@ -2,6 +2,7 @@
 
 use crate::abort::AbortCode;
 use crate::bus::Object;
+use crate::pdo::{from_bytes, to_bytes};
 
 /// Content of an SDO message. An SDO message always has eight bytes.
 pub type Message = [u8; 8];
@@ -103,18 +104,16 @@ pub(super) const fn block(command: u8, first: u8, second: u8) -> Message {
 
 /// Copies at most seven bytes to bytes 1 to 7 of a message.
 pub(super) fn with_data(command: u8, data: &[u8]) -> Message {
-    let mut message = [command, 0, 0, 0, 0, 0, 0, 0];
-    message[1..].iter_mut().zip(data).for_each(|(to, from)| *to = *from);
-    message
+    let [a, b, c, d, e, f, g] = to_bytes(from_bytes(data));
+    [command, a, b, c, d, e, f, g]
 }
 
 /// Creates the initiate message of an expedited or segmented transfer: a download request or an upload reply. Values of
 /// 1 to 4 bytes are in the message.
 pub(super) fn initiate_value(specifier: u8, object: Object, value: &[u8]) -> Message {
     if let 1..=4 = value.len() {
-        let mut data = [0; 4];
-        data.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
-        return initiate(specifier << 5 | (4 - value.len() as u8) << 2 | 3, object, data);
+        let command = specifier << 5 | (4 - value.len() as u8) << 2 | 3;
+        return initiate(command, object, to_bytes(from_bytes(value)));
     }
     initiate(specifier << 5 | 1, object, length_field(value.len()))
 }

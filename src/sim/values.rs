@@ -14,24 +14,10 @@ pub(super) fn byte_length(data_type: DataType) -> Option<usize> {
     data_type.bits().map(|bits| bits.div_ceil(8) as usize)
 }
 
-pub(super) fn is_signed(data_type: DataType) -> bool {
-    matches!(
-        data_type,
-        DataType::Integer8
-            | DataType::Integer16
-            | DataType::Integer24
-            | DataType::Integer32
-            | DataType::Integer40
-            | DataType::Integer48
-            | DataType::Integer56
-            | DataType::Integer64
-    )
-}
-
 /// Extends a value to the length of its type. A value of a signed type is sign-extended.
 pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
     if let Some(length) = byte_length(data_type) {
-        let is_negative = is_signed(data_type) && bytes.last().is_some_and(|last| last >> 7 == 1);
+        let is_negative = data_type.is_signed() && bytes.last().is_some_and(|last| last >> 7 == 1);
         bytes.resize(length, if is_negative { 0xFF } else { 0 });
     }
     bytes
@@ -40,7 +26,7 @@ pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
 /// Converts an integer from type `from` to type `to`. Returns an error if the integer does not fit.
 pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<u8>, AbortCode> {
     let (Some(length), Some(other)) = (byte_length(from), byte_length(to)) else { return Err(AbortCode::LENGTH) };
-    let (narrow, sign) = if length < other { (length, is_signed(from)) } else { (other, is_signed(to)) };
+    let (narrow, sign) = if length < other { (length, from.is_signed()) } else { (other, to.is_signed()) };
     let is_negative = sign && narrow.checked_sub(1).and_then(|last| bytes.get(last)).is_some_and(|last| last >> 7 == 1);
     let fill = if is_negative { 0xFF } else { 0 };
     if bytes.get(narrow..).unwrap_or_default().iter().any(|byte| *byte != fill) {
@@ -70,7 +56,7 @@ pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         DataType::TimeOfDay | DataType::TimeDifference => Ok(()),
         data_type => {
             let raw = from_bytes(data);
-            if is_signed(data_type) {
+            if data_type.is_signed() {
                 return check_limits(integer(entry.low), integer(entry.high), sign_extend(raw, bits).into());
             }
             // For example, a 3-bit number is sent in a whole byte.

@@ -151,11 +151,10 @@ impl CanPort for Bus {
     }
 }
 
-/// An asynchronous port of the bus. While `is_pending` is true, the port receives no frame.
+/// An asynchronous port of the bus.
 struct AsyncBus {
     bus: Bus,
-    is_pending: bool,
-    /// Number of frames that the port still receives, if it is limited.
+    /// Number of frames that the port still receives; `None` if it is unlimited.
     pending_after: Option<usize>,
 }
 
@@ -171,7 +170,7 @@ impl AsyncCanPort for AsyncBus {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Infallible> {
-        if (self.is_pending || self.pending_after == Some(0)) && !patience.is_zero() {
+        if self.pending_after == Some(0) && !patience.is_zero() {
             std::future::pending::<()>().await;
         }
         if let Some(left) = &mut self.pending_after {
@@ -317,7 +316,7 @@ fn async_transfers_have_the_same_limit() {
     let mut bus = Bus::new();
     bus.objects.0.insert(TEXT, vec![7; LONG]);
     bus.fault = Fault::Slow;
-    let bus = AsyncBus { bus, is_pending: false, pending_after: None };
+    let bus = AsyncBus { bus, pending_after: None };
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut [0; LONG])), Err(Error::Timeout));
     assert_eq!((node.port().bus.now, node.port().bus.aborts), (LIMIT, 1));
@@ -335,7 +334,7 @@ fn slow_segments_within_the_limit_are_right() {
 
 #[test]
 fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
-    let bus = AsyncBus { bus: Bus::new(), is_pending: true, pending_after: None };
+    let bus = AsyncBus { bus: Bus::new(), pending_after: Some(0) };
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     node.port().bus.count(7);
     let mut buffer = [0; 20];
@@ -344,7 +343,7 @@ fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
         assert_eq!(poll_once(dropped.as_mut()), Poll::Pending);
     }
     assert_eq!(node.port().bus.aborts, 1, "the second transfer aborts the first one");
-    node.port().is_pending = false;
+    node.port().pending_after = None;
     node.port().bus.count(8);
     assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut buffer)), Ok(20));
     assert_eq!((&buffer[..], node.port().bus.aborts), (&text(8)[..], 1));
@@ -395,13 +394,10 @@ fn late_segments_are_discarded() {
     let mut buffer = vec![0; BLOCK];
     let limited = Client::read(&mut node, TEXT, &mut buffer);
     assert_eq!(limited, Ok(BLOCK));
-    node.port().fault = Fault::Nothing;
-    let mut bus = AsyncBus { bus: node.into_port(), is_pending: true, pending_after: None };
-    bus.bus.fault = Fault::Late(TIMEOUT / 2);
-    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    node.port().fault = Fault::Late(TIMEOUT / 2);
     // The transfer is dropped after its first segment has been requested.
-    node.port().is_pending = false;
-    node.port().pending_after = Some(1);
+    let bus = AsyncBus { bus: node.into_port(), pending_after: Some(1) };
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     assert_eq!(poll_once(pin!(AsyncClient::read(&mut node, TEXT, &mut buffer)).as_mut()), Poll::Pending);
     (node.port().pending_after, node.port().bus.fault) = (None, Fault::Nothing);
     node.port().bus.count(0x0403_0201);
@@ -420,7 +416,7 @@ fn behind() -> Node<Buffered<AsyncBus, 16>> {
     }
     bus.now = Duration::from_secs(1);
     bus.count(7);
-    let bus = AsyncBus { bus, is_pending: false, pending_after: None };
+    let bus = AsyncBus { bus, pending_after: None };
     Node::new(Buffered::new(bus), NodeId::new(NODE).expect("a node-ID"))
 }
 
@@ -497,7 +493,7 @@ pub fn rows() -> Vec<Row> {
     for (fault_name, fault) in faults {
         for is_async in [false, true] {
             let mut blocking = node();
-            let bus = AsyncBus { bus: Bus::new(), is_pending: false, pending_after: None };
+            let bus = AsyncBus { bus: Bus::new(), pending_after: None };
             let mut asynchronous = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
             let mut read = |count: u32, fault| {
                 let bus = if is_async { &mut asynchronous.port().bus } else { blocking.port() };

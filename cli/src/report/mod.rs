@@ -159,7 +159,7 @@ impl Reporter {
                         count: note.count,
                         first: &note.first,
                     };
-                    self.print(&(serde_json::to_string(&line).map_err(std::io::Error::other)? + "\n"))?;
+                    self.print(&json_line(&line)?)?;
                 }
                 _ => {
                     let whose = if device.is_empty() { String::new() } else { format!("{}: ", printable(device)) };
@@ -237,4 +237,9 @@ impl Reporter {
             self.kept.push(diagnostic);
         }
     }
+}
+
+/// Returns a value as one line of JSON.
+pub(crate) fn json_line(value: &impl serde::Serialize) -> Result<String, Failure> {
+    Ok(serde_json::to_string(value).map_err(std::io::Error::other)? + "\n")
 }

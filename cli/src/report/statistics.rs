@@ -9,6 +9,7 @@ use lexibus_codegen::source::{FileId, Source};
 use lexibus_codegen::text::printable;
 use serde::Serialize;
 
+use super::json_line;
 use crate::Failure;
 
 /// Numbers of diagnostics by code, with the first position of each code.
@@ -101,7 +102,7 @@ impl Statistics {
         for Row { code, severity, count, files, first } in self.rows() {
             let line =
                 Line { code: code.id, name: code.name, severity: *severity, count: *count, files: *files, first };
-            text += &(serde_json::to_string(&line).map_err(std::io::Error::other)? + "\n");
+            text += &json_line(&line)?;
         }
         Ok(text)
     }

@@ -58,9 +58,8 @@ impl Addresses {
             return folder;
         }
         let name = folder_name(&key.0);
-        // Descriptions whose names differ only in punctuation have a checksum.
         let is_ambiguous = keys.iter().any(|other| other.0 != key.0 && folder_name(&other.0) == name);
-        let name = if is_ambiguous { format!("{name}-{:08x}", checksum(&key.0)) } else { name };
+        let name = distinct(name, &key.0, is_ambiguous);
         match keys.iter().filter(|other| other.0 == key.0).position(|other| other == key) {
             None | Some(0) => format!("{folder}-{name}"),
             Some(number) => format!("{folder}-{name}-{}", number + 1),
@@ -69,7 +68,9 @@ impl Addresses {
 
     /// Returns the folder of the pages that the devices of a description share.
     pub fn shared(&self, name: &str) -> String {
-        self.shared.get(name).cloned().unwrap_or_default()
+        let folder = self.shared.get(name).cloned().unwrap_or_default();
+        let is_ambiguous = self.shared.iter().any(|(other, path)| other != name && *path == folder);
+        distinct(folder, name, is_ambiguous)
     }
 
     /// Returns the previous revision of a device. If several descriptions contain it, returns the first by name.
@@ -137,6 +138,16 @@ fn checksum(text: &str) -> u32 {
     text.bytes().fold(0x811C_9DC5, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 
+/// Returns a folder, with a checksum of the description's name if another description has the same folder: names can differ
+/// only in punctuation.
+fn distinct(folder: String, name: &str, is_ambiguous: bool) -> String {
+    if is_ambiguous {
+        format!("{folder}-{:08x}", checksum(name))
+    } else {
+        folder
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,6 +208,7 @@ mod tests {
         addresses.add("drive_v1", &one);
         addresses.add("drive-v1", &one);
         assert_ne!(folders(&addresses, "drive_v1", &one), folders(&addresses, "drive-v1", &one));
+        assert_ne!(addresses.shared("drive_v1"), addresses.shared("drive-v1"));
     }
 
     #[test]

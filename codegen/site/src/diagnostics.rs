@@ -145,11 +145,10 @@ fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic 
     let message = [diagnostic.message.as_str(), &diagnostic.label].map(one_line);
     let message: Vec<&str> = message.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
     // The note of a span names only what is there.
-    let notes = diagnostic.notes.iter().map(|note| match note.span.and_then(|span| source(span).zip(Some(span))) {
-        Some((source, span)) if !span.is_empty() => {
-            format!("Line {}: {}", source.position(span.start).line, one_line(&note.message))
-        }
-        _ => one_line(&note.message),
+    let line = |span: Span| Some(source(span)?.position(span.start).line);
+    let notes = diagnostic.notes.iter().map(|note| match note.span.filter(|span| !span.is_empty()).and_then(line) {
+        Some(line) => format!("Line {line}: {}", one_line(&note.message)),
+        None => one_line(&note.message),
     });
     let parts = std::iter::once(message.join(": ")).chain(notes).chain(diagnostic.help.as_deref().map(one_line));
     let text: Vec<String> = parts.filter(|part| !part.is_empty()).map(|part| sentence(&capital(&part))).collect();

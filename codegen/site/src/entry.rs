@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
-use super::link::Relation;
+use super::link::{self, Relation};
 use super::requests;
 use super::tools;
 use super::words::{self, PLAIN};
@@ -171,13 +171,8 @@ impl Rows<'_> {
         let lookups: Vec<String> =
             addresses.iter().map(|address| address.lookup.clone()).filter(|lookup| !lookup.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|address| address.text != number);
-        let mut elsewhere: Vec<String> = Vec::new();
         // Several windows can have the same address.
-        for address in addresses.map(|address| format!("{}: {}", address.bus, address.text)) {
-            if !elsewhere.contains(&address) {
-                elsewhere.push(address);
-            }
-        }
+        let elsewhere = link::unique(addresses.map(|address| format!("{}: {}", address.bus, address.text)));
         let description = PLAIN.description(item.documentation.as_deref());
         Row {
             id,

@@ -12,6 +12,17 @@ pub(super) struct Link {
 }
 
 /// The elements that have the same relation to an item, such as the PDOs that map it.
+/// Returns the elements without repetitions, in the order of their first occurrence.
+pub(super) fn unique<T: PartialEq>(list: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut unique = Vec::new();
+    for element in list {
+        if !unique.contains(&element) {
+            unique.push(element);
+        }
+    }
+    unique
+}
+
 #[derive(Debug)]
 pub(super) struct Relation {
     pub title: &'static str,
@@ -23,12 +34,7 @@ pub(super) struct Relation {
 impl Relation {
     /// Creates a relation without repeated links. Returns `None` if there are no links.
     pub fn new(title: &'static str, links: Vec<Link>) -> Option<Self> {
-        let mut unique: Vec<Link> = Vec::new();
-        links.into_iter().for_each(|link| {
-            if !unique.contains(&link) {
-                unique.push(link);
-            }
-        });
+        let mut unique = unique(links);
         let others = unique.len().saturating_sub(MOST);
         unique.truncate(MOST);
         (!unique.is_empty()).then_some(Relation { title, links: unique, others })

@@ -22,7 +22,8 @@ const SEPARATOR: &str = ", ";
 /// Languages with the same text share one entry.
 pub(super) fn names(name: &str, translations: &Texts) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = Vec::new();
-    for translation in translations.iter().filter(|translation| compared(&translation.text) != compared(name)) {
+    let original = compared(name);
+    for translation in translations.iter().filter(|translation| compared(&translation.text) != original) {
         match all.iter_mut().find(|(_, text)| *text == translation.text) {
             Some((languages, _)) => {
                 languages.push_str(SEPARATOR);

@@ -57,6 +57,12 @@ pub fn of(item: &Item) -> Option<CobId> {
     }
 }
 
+/// Returns whether a COB-ID contains a CAN identifier. The identifier is often missing if the PDO is disabled by default.
+pub fn has_identifier(value: &Value) -> bool {
+    const IDENTIFIER: i128 = 0x1FFF_FFFF;
+    matches!(value, Value::Int(id) | Value::NodeId(id) if id & IDENTIFIER != 0)
+}
+
 /// Returns identifier and flags: `0x182, disabled`, `$NODEID+0x180, no RTR`. Returns `None` if the value is not a COB-ID.
 pub fn text(value: &Value, kind: CobId) -> Option<String> {
     let (number, is_of_node) = match value {

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::cob_id::has_identifier;
 use super::{encoding, types};
 use crate::ir::{Device, Group, Item, ObjectCode, Type, TypeDef, Value};
+use crate::profiles;
+use crate::resolve::announced_count;
 
 /// Bit of a COB-ID that disables the PDO (CiA 301 7.5.2.35 and 7.5.2.37).
 const DISABLED: i128 = 1 << 31;
-
-/// Bits of a COB-ID with the CAN identifier.
-const IDENTIFIER: i128 = 0x1FFF_FFFF;
 
 /// Maximum number of entries of a PDO mapping. Greater values of sub-index 0 select a multiplexed PDO (CiA 301 7.5.2.36).
 const MAX_ENTRIES: u8 = 64;
@@ -85,6 +85,7 @@ impl Configuration {
         let is_object = |group: &&Group| {
             !matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null))
         };
+        let is_drive = profiles::is_device_of_number(device, 402);
         for group in device.groups.iter().filter(is_object) {
             match group.index() {
                 Some(index @ (0x1400..=0x15FF | 0x1800..=0x19FF)) => {
@@ -93,12 +94,10 @@ impl Configuration {
                 Some(index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF)) => {
                     pdos.entry(index - 0x200).or_default().mapping = Some(group);
                 }
-                Some(index) if is_cia402(device) && is_motion_command(index) => {
-                    let objects =
-                        group.items.iter().filter(|item| item.configured_value().is_some()).filter_map(Item::object);
-                    configuration.left_out.extend(objects.map(|object| (object, LeftOut::Command)));
+                Some(index) => {
+                    let is_command = is_drive && is_motion_command(index);
+                    configuration.add_object(index, group, &device.types, is_command.then_some(LeftOut::Command));
                 }
-                Some(index) => configuration.add_object(index, group, &device.types),
                 None => {}
             }
         }
@@ -114,8 +113,9 @@ impl Configuration {
         phases.into_iter().chain([&self.disable_pdos, &self.enable_pdos]).all(Vec::is_empty)
     }
 
-    fn add_object(&mut self, index: u16, group: &Group, types: &[TypeDef]) {
-        let settings = configured(group, types, &mut self.left_out);
+    /// Adds the configured values of an object, or leaves them out for the reason `left_out`.
+    fn add_object(&mut self, index: u16, group: &Group, types: &[TypeDef], left_out: Option<LeftOut>) {
+        let settings = configured(group, types, left_out, &mut self.left_out);
         match index {
             0x1000..=0x1FFF => self.communication.extend(settings),
             _ => self.parameters.extend(settings),
@@ -124,7 +124,7 @@ impl Configuration {
 
     fn add_pdo(&mut self, pdo: &Pdo<'_>, types: &[TypeDef]) {
         let left_out = &mut self.left_out;
-        let communication = pdo.communication.map_or_else(Vec::new, |group| configured(group, types, left_out));
+        let communication = pdo.communication.map_or_else(Vec::new, |group| configured(group, types, None, left_out));
         let mapping = pdo.mapping.map_or_else(Vec::new, |group| mapping(group, types, left_out));
         let is_unchanged = communication.iter().chain(&mapping).all(|setting| setting.is_default);
         if communication.is_empty() && mapping.is_empty() {
@@ -142,12 +142,6 @@ impl Configuration {
         let is_enabled = |value: &&Value| matches!(value, Value::Int(id) | Value::NodeId(id) if id & DISABLED == 0);
         self.enable_pdos.extend(write(cob_id.filter(is_enabled).cloned()));
     }
-}
-
-/// Returns whether the device type (0x1000) states the profile CiA 402.
-fn is_cia402(device: &Device) -> bool {
-    let device_type = device.groups.iter().find(|group| group.index() == Some(0x1000)).and_then(|group| group.sub(0));
-    matches!(device_type.and_then(Item::initial), Some(Value::Int(number)) if number & 0xFFFF == 402)
 }
 
 /// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. A file that a tool
@@ -168,8 +162,7 @@ struct Pdo<'d> {
 /// Returns the COB-ID of a PDO, if it is writable: the configured value, or the default value if it contains a CAN identifier.
 fn cob_id(communication: &Group) -> Option<&Value> {
     let item = communication.sub(1).filter(|item| reason(communication, item).is_none())?;
-    let has_identifier = |value: &&Value| matches!(value, Value::Int(id) | Value::NodeId(id) if id & IDENTIFIER != 0);
-    item.configured_value().or_else(|| item.default.as_ref().filter(has_identifier))
+    item.configured_value().or_else(|| item.default.as_ref().filter(|value| has_identifier(value)))
 }
 
 fn with_flags(cob_id: &Value, flags: i128) -> Value {
@@ -180,12 +173,17 @@ fn with_flags(cob_id: &Value, flags: i128) -> Value {
     }
 }
 
-/// Returns the settings of the configured items of an object.
-fn configured(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), LeftOut)>) -> Vec<Setting> {
+/// Returns the settings of the configured items of an object, unless there is a reason to leave out the object.
+fn configured(
+    group: &Group,
+    types: &[TypeDef],
+    of_object: Option<LeftOut>,
+    left_out: &mut Vec<((u16, u8), LeftOut)>,
+) -> Vec<Setting> {
     let mut settings = Vec::new();
     for item in &group.items {
         let (Some(value), Some(object)) = (item.configured_value(), item.object()) else { continue };
-        match (reason(group, item), setting(item, value, types)) {
+        match (of_object.or_else(|| reason(group, item)), setting(item, value, types)) {
             (Some(reason), _) => left_out.push((object, reason)),
             (None, None) => left_out.push((object, LeftOut::NoValue)),
             (None, Some(setting)) => settings.push(setting),
@@ -197,10 +195,9 @@ fn configured(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), L
 /// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings clear the mapping first,
 /// and contain all entries, because some devices lose entries that are not written again.
 fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), LeftOut)>) -> Vec<Setting> {
-    let mut settings = configured(group, types, left_out);
+    let mut settings = configured(group, types, None, left_out);
     let count = group.sub(0).filter(|item| reason(group, item).is_none());
-    let number =
-        group.sub(0).and_then(Item::initial).and_then(Value::as_int).and_then(|number| u8::try_from(number).ok());
+    let number = announced_count(group).and_then(|number| u8::try_from(number).ok());
     let highest = || settings.iter().map(|setting| setting.object.1).max();
     let Some(number) = number.or_else(highest) else { return settings };
     let is_multiplexed = number > MAX_ENTRIES;
@@ -259,7 +256,8 @@ fn setting(item: &Item, value: &Value, types: &[TypeDef]) -> Option<Setting> {
 
 /// Returns the sort key of a communication parameter. Devices refuse a new SYNC counter overflow value (0x1019) while the SYNC
 /// period (0x1006) is not 0 (CiA 301 7.5.2.22). The COB-ID (0x1005), which starts the SYNC producer, comes last.
-fn communication_order((index, sub_index): (u16, u8)) -> (u16, u16, u8) {
+fn communication_order(object: (u16, u8)) -> (u16, u16, u8) {
+    let (index, sub_index) = object;
     let rank = match index {
         0x1005 => 0x101B,
         0x1006 | 0x1007 => 0x101A,

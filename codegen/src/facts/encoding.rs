@@ -6,14 +6,17 @@ use crate::ir::{Type, Value};
 /// a number without a known length.
 pub fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     match (value, ty) {
-        (_, Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
-        (_, Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
-        (Value::Bool(value), _) => Some(vec![u8::from(*value)]),
-        (Value::Int(value), _) => number(*value, ty),
+        (Value::Bytes(bytes), _) => Some(bytes.clone()),
         (Value::Text(text), Type::UnicodeString(_)) => Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect()),
         (Value::Text(text), _) => Some(text.as_bytes().to_vec()),
-        (Value::Bytes(bytes), _) => Some(bytes.clone()),
-        (Value::Time { milliseconds, days }, _) => number(i128::from(*milliseconds) | i128::from(*days) << 32, ty),
+        (Value::Int(_) | Value::Real(_), Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
+        (Value::Int(_) | Value::Real(_), Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
+        (Value::Int(_) | Value::Bool(_), Type::Boolean | Type::Integer(_) | Type::Unsigned(_)) => {
+            number(value.as_int()?, ty)
+        }
+        (Value::Time { milliseconds, days }, _) => {
+            Some([milliseconds.to_le_bytes().as_slice(), days.to_le_bytes().as_slice()].concat())
+        }
         _ => None,
     }
 }

@@ -161,7 +161,7 @@ pub fn fact_name(fact: Fact) -> &'static str {
 }
 
 /// Joins names: `type, access rights and range`.
-fn enumerated(names: &[&str]) -> String {
+pub(crate) fn enumerated(names: &[&str]) -> String {
     match names {
         [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
         _ => names.concat(),

@@ -53,6 +53,11 @@ fn is_on(device: &Device, profile: &Profile) -> bool {
     has_object && (is_on_canopen || (profile.on_ethercat && (is_ethercat || device.canopen.is_none())))
 }
 
+/// Returns whether a device follows the profile with this number.
+pub(crate) fn is_device_of_number(device: &Device, number: u32) -> bool {
+    all().iter().any(|profile| profile.number == Some(number) && is_device_of(device, profile))
+}
+
 fn is_device_of(device: &Device, profile: &Profile) -> bool {
     let declared = device.entry(0x1000, 0).and_then(|item| item.default.as_ref()).and_then(Value::as_int);
     let declared = declared.map(|number| (number & 0xFFFF) as u32).filter(|&number| number != 0 && number != 0xFFFF);

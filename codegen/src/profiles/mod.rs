@@ -16,7 +16,7 @@ mod complete;
 mod profile;
 mod stored;
 
-pub(crate) use apply::apply;
+pub(crate) use apply::{apply, is_device_of_number};
 #[cfg(test)]
 pub(crate) use complete::Completion;
 #[cfg(test)]

@@ -18,7 +18,7 @@ impl Source {
     ///
     /// Returns `None` if the ranges violate this rule, if the encoding of the file lacks a character of a replacement, or if the
     /// new bytes would not be decoded to the new text.
-    pub fn replaced(&self, replacements: &[(Range<usize>, &str)]) -> Option<Vec<u8>> {
+    pub fn replaced(&self, replacements: &[(Range<usize>, &str)]) -> Option<Source> {
         let bytes = self.bytes();
         let form = Form::of(self, &bytes)?;
         let offsets: Vec<usize> = replacements.iter().flat_map(|(range, _)| [range.start, range.end]).collect();
@@ -35,8 +35,8 @@ impl Source {
         new.extend_from_slice(bytes.get(byte..)?);
         text += self.text().get(character..)?;
         // A replacement can change the encoding that a reader detects, as in an XML declaration.
-        let is_same = Source::new("", new.clone()).text() == text;
-        is_same.then_some(new)
+        let new = Source { folder: self.folder.clone(), ..Source::new(self.name(), new) };
+        (new.text() == text).then_some(new)
     }
 }
 
@@ -138,7 +138,7 @@ mod tests {
     fn fixed(bytes: &[u8], new: &str) -> Option<Vec<u8>> {
         let source = Source::new("x", bytes.to_vec());
         let start = source.text().find("12").unwrap();
-        source.replaced(&[(0..0, ""), (start..start + 2, new)])
+        Some(source.replaced(&[(0..0, ""), (start..start + 2, new)])?.bytes().into_owned())
     }
 
     #[test]
@@ -164,10 +164,10 @@ mod tests {
         assert_eq!(fixed(b"\xe4=12", "\u{65e5}"), None);
         let source = Source::new("x", "äb".into());
         for ranges in [&[(1..2, "")][..], &[(0..9, "")], &[(2..3, ""), (0..2, "")], &[(0..3, ""), (2..3, "")]] {
-            assert_eq!(source.replaced(ranges), None, "{ranges:?}");
+            assert!(source.replaced(ranges).is_none(), "{ranges:?}");
         }
         // Without its first byte, the rest of the file is valid UTF-8, and would be read as other text.
         let source = Source::new("x", b"\xe4\xc3\xa4".to_vec());
-        assert_eq!((source.text(), source.replaced(&[(0..2, "")])), ("äÃ¤", None));
+        assert_eq!((source.text(), source.replaced(&[(0..2, "")]).is_none()), ("äÃ¤", true));
     }
 }

@@ -128,17 +128,13 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         self.line.lock().is_broadcast = true;
         let sent = timeout(self.timeout, self.context.call(request)).await;
         self.line.lock().is_broadcast = false;
-        match sent {
-            // The context has sent the whole request and starts to read.
-            Ok(Err(tokio_modbus::Error::Transport(error))) if NoReply::is(&error) => {}
-            Ok(other) => {
-                self.context = attach(self.line.clone(), self.device, self.is_rtu);
-                return other;
-            }
-            Err(_) => return Err(late().into()),
-        }
+        let Ok(sent) = sent else { return Err(late().into()) };
         // After an error, a context reports the end of the stream.
         self.context = attach(self.line.clone(), self.device, self.is_rtu);
+        // The error `NoReply` means that the context has sent the whole request and starts to read.
+        if !matches!(&sent, Err(tokio_modbus::Error::Transport(error)) if NoReply::is(error)) {
+            return sent;
+        }
         self.resume = after(Instant::now(), delay);
         self.is_unsettled = false;
         self.turn_around().await?;
@@ -148,13 +144,18 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
     /// Waits for the end of the turnaround delay. Discards all received bytes.
     async fn turn_around(&self) -> io::Result<()> {
         while Instant::now() < self.resume {
-            match timeout_at(self.resume, self.line.discard(&mut Vec::new())).await {
-                Ok(Ok(0)) => return Err(io::ErrorKind::UnexpectedEof.into()),
-                Ok(Ok(_)) | Err(_) => {}
-                Ok(Err(error)) => return Err(error),
-            }
+            self.discard_until(self.resume, &mut Vec::new()).await?;
         }
         Ok(())
+    }
+
+    /// Discards bytes and appends them to `discarded`. Returns false if none arrived until `end`.
+    async fn discard_until(&self, end: Instant, discarded: &mut Vec<u8>) -> io::Result<bool> {
+        match timeout_at(end, self.line.discard(discarded)).await {
+            Ok(Ok(0)) => Err(io::ErrorKind::UnexpectedEof.into()),
+            Ok(result) => result.map(|_| true),
+            Err(_) => Ok(false),
+        }
     }
 
     async fn request(&mut self, request: Request<'_>) -> Reply {
@@ -192,13 +193,12 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
             // A complete frame is the missing reply.
             let pause = if self.is_unsettled && self.is_frame(&discarded) { GAP } else { pause };
             let silent = after(self.line.lock().last, pause).max(Instant::now() + TURN);
-            match timeout_at(silent.min(end), self.line.discard(&mut discarded)).await {
-                Ok(Ok(0)) => return Err(io::ErrorKind::UnexpectedEof.into()),
-                Ok(Ok(_)) => {}
-                Ok(Err(error)) => return Err(error),
+            if !self.discard_until(silent.min(end), &mut discarded).await? {
                 // The line carries noise without a pause.
-                Err(_) if Instant::now() < silent => return Err(late()),
-                Err(_) => break,
+                if Instant::now() < silent {
+                    return Err(late());
+                }
+                break;
             }
         }
         if self.is_unsettled && self.is_rtu {

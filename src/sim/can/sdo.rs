@@ -85,9 +85,8 @@ impl Servers {
         let mut aborts = Vec::new();
         for (source, server) in &mut self.list {
             server.time_out(now);
-            let reply = source.identifiers(device).map(|(_, reply)| reply);
             while let Some(message) = server.next() {
-                aborts.extend(reply.and_then(|reply| CanFrame::new(reply, &message)));
+                aborts.extend(source.identifiers(device).and_then(|(_, reply)| CanFrame::new(reply, &message)));
             }
         }
         aborts

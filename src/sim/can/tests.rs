@@ -235,7 +235,7 @@ fn further_channels() {
     let (object, mut buffer) = (Object::new(0x2000, 0), [0; 2]);
     assert_eq!(client.write(object, &[1, 2]), Ok(()));
     assert_eq!((client.read(object, &mut buffer), buffer), (Ok(2), [1, 2]));
-    // Both channels have transfers of their own.
+    // The channels have separate transfers.
     let node = client.port();
     frames(node);
     send(node, 0x605, &[0x21, 0x01, 0x20, 0, 9, 0, 0, 0]);

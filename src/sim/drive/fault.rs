@@ -23,7 +23,7 @@ impl Drive {
         // Stores the controlword, so that a reset bit that is already set isn't a rising edge.
         self.control(objects);
         self.has_cause |= persists;
-        if !matches!(self.state, State::FaultReactionActive | State::Fault) {
+        if !self.state.is_fault() {
             self.enter(State::FaultReactionActive, objects);
         }
         objects.put(0x603F, code.into());

@@ -48,7 +48,7 @@ impl Objects<'_> {
         let slot = self.device.slots.get(self.slot(index, sub_index)?);
         let raw = from_bytes(&slot.value);
         let bits = slot.entry.data_type.bits()?;
-        Some(if values::is_signed(slot.entry.data_type) { sign_extend(raw, bits) } else { raw as i64 })
+        Some(if slot.entry.data_type.is_signed() { sign_extend(raw, bits) } else { raw as i64 })
     }
 
     /// Returns the low 16 bits of an object, or 0 if the axis doesn't have the object.
@@ -116,7 +116,7 @@ impl Objects<'_> {
 /// Returns the bytes of a value that is limited to the range of an integer type.
 fn encoded(data_type: DataType, value: i64) -> std::vec::Vec<u8> {
     let bits = data_type.bits().unwrap_or(0).clamp(1, 64);
-    let value = match values::is_signed(data_type) {
+    let value = match data_type.is_signed() {
         _ if bits == 64 => value,
         true => value.clamp(-1 << (bits - 1), (1 << (bits - 1)) - 1),
         false if bits == 63 => value.max(0),

@@ -3,24 +3,13 @@
 use super::motion::Motion;
 use super::objects::{Objects, Profile};
 
-/// State of the drive state machine (CiA 402-2 10.1.1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
-    NotReadyToSwitchOn,
-    SwitchOnDisabled,
-    ReadyToSwitchOn,
-    SwitchedOn,
-    OperationEnabled,
-    QuickStopActive,
-    FaultReactionActive,
-    Fault,
-}
+pub(super) use crate::cia402::State;
 
 impl State {
     /// Returns the state that a controlword commands, or `None` if the state doesn't change. `may_resume` allows the
     /// transition from "Quick stop active" to "Operation enabled". The fault reset isn't included, because it needs a
     /// rising edge.
-    pub fn after(self, word: u16, may_resume: bool) -> Option<Self> {
+    pub(super) fn after(self, word: u16, may_resume: bool) -> Option<Self> {
         let is = |mask: u16, value: u16| word & mask == value;
         let (shutdown, switch_on, enable) = (is(0x87, 0x06), is(0x8F, 0x07), is(0x8F, 0x0F));
         let (disable_voltage, quick_stop) = (is(0x82, 0x00), is(0x86, 0x02));
@@ -42,7 +31,7 @@ impl State {
     }
 
     /// Returns the bits of the statusword for the state, including the bits "voltage enabled" and "remote".
-    pub const fn bits(self) -> u16 {
+    pub(super) const fn bits(self) -> u16 {
         match self {
             Self::NotReadyToSwitchOn => 0x0000,
             Self::SwitchOnDisabled => 0x0240,

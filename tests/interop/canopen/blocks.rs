@@ -11,6 +11,7 @@ use lexibus::sim::{CanNode, Device};
 use lexibus::{AbortCode, AccessRights, Bound, DataType, Entry, Flags, Object, RawInitial};
 use serde_json::{json, Value};
 
+use super::types::hex;
 use super::{node_id, NODE};
 use crate::pty::Pty;
 use crate::python::{python, Script};
@@ -99,10 +100,6 @@ fn start(loses: Loses) -> Option<(Script, Served)> {
 
 fn value(length: usize) -> Vec<u8> {
     (0..length).map(|at| (at * 7 + at / 256) as u8).collect()
-}
-
-fn hex(data: &[u8]) -> String {
-    data.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Writes a value with the Python client and reads it back.

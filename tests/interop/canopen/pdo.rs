@@ -220,9 +220,8 @@ fn communication_parameters() -> Result<(), Error> {
     let cyclic = PdoParameters::new().transmission(TransmissionType::EverySync(240)).remote_requests(true);
     cyclic.configure(TxPdo1::configuration(node_id())).expect("valid parameters").send(&mut node)?;
     assert_eq!(timing(&mut script), json!([true, true, 240]));
-    for write in configuration.skip(1).take(1) {
-        assert_aborted(write.send(&mut node), AbortCode::DEVICE_STATE);
-    }
+    let write = { configuration }.nth(1).expect("the transmission type");
+    assert_aborted(write.send(&mut node), AbortCode::DEVICE_STATE);
     let inhibited = event.inhibit_time(Duration::from_micros(1500)).configure(TxPdo1::configuration(node_id()));
     assert_aborted(inhibited.expect("valid parameters").send(&mut node), AbortCode::NO_SUB_INDEX);
     assert_eq!(timing(&mut script)[0], json!(false), "the PDO stays disabled");

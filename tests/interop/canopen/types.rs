@@ -148,7 +148,7 @@ fn unicode_strings_in_segments() -> Result<(), Error> {
 }
 
 /// Formats `data` in the notation of the script.
-fn hex(data: &[u8]) -> Value {
+pub fn hex(data: &[u8]) -> Value {
     data.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into()
 }
 

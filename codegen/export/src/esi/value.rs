@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use crate::note::NoteKind;
+use lexibus_codegen::facts::encoding;
 use lexibus_codegen::ir::{Item, Type, Value};
 
 /// Child elements of an Info element, and notes on values that the element cannot contain.
@@ -47,30 +48,14 @@ fn number(value: &Value) -> Option<String> {
     value.as_int().map(|value| value.to_string())
 }
 
-/// Returns a value of type `ty` as little-endian bytes.
+/// Returns a value of type `ty` as little-endian bytes. Readers interpret an element without digits as no value, so an empty
+/// text is a NUL.
 fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
-    Some(match (value, ty) {
-        (Value::Bytes(bytes), _) => bytes.clone(),
-        (Value::Real(value), Type::Real32) => (*value as f32).to_le_bytes().to_vec(),
-        (Value::Real(value), Type::Real64) => value.to_le_bytes().to_vec(),
-        (Value::Int(value), Type::Real32) => (*value as f32).to_le_bytes().to_vec(),
-        (Value::Int(value), Type::Real64) => (*value as f64).to_le_bytes().to_vec(),
-        (Value::Int(_) | Value::Bool(_), Type::Boolean | Type::Integer(_) | Type::Unsigned(_)) => {
-            let length = ty.bits()?.div_ceil(8) as usize;
-            value.as_int()?.to_le_bytes().get(..length)?.to_vec()
-        }
-        (Value::Text(text), Type::UnicodeString(_)) => match text.as_str() {
-            "" => vec![0, 0],
-            text => text.encode_utf16().flat_map(u16::to_le_bytes).collect(),
-        },
-        // Readers interpret an element without digits as no value.
-        (Value::Text(text), _) if text.is_empty() => vec![0],
-        (Value::Text(text), _) => text.as_bytes().to_vec(),
-        (Value::Time { milliseconds, days }, _) => {
-            [milliseconds.to_le_bytes().as_slice(), days.to_le_bytes().as_slice()].concat()
-        }
-        _ => return None,
-    })
+    match (value, ty) {
+        (Value::Text(text), Type::UnicodeString(_)) if text.is_empty() => Some(vec![0, 0]),
+        (Value::Text(text), _) if text.is_empty() => Some(vec![0]),
+        _ => encoding::bytes(value, ty),
+    }
 }
 
 /// Formats bytes as pairs of hexadecimal digits.

@@ -32,8 +32,8 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
 }
 
 /// Returns the product code and revision of a device that the device hides.
-fn hidden((product, revision): &(Option<u32>, Option<u32>)) -> String {
-    [product, revision].into_iter().flatten().copied().map(hex32).collect::<Vec<_>>().join(" ")
+fn hidden(identity: &(Option<u32>, Option<u32>)) -> String {
+    [identity.0, identity.1].into_iter().flatten().map(hex32).collect::<Vec<_>>().join(" ")
 }
 
 /// Joins the elements of a list. `show` formats each element.

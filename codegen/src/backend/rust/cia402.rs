@@ -1,14 +1,10 @@
 //! The objects of CiA 402 that a device has, for the operations of the runtime.
 
-use std::collections::BTreeMap;
-
 use super::code::Doc;
-use super::constants::{bound, Constant, Constants};
-use super::context::Context;
-use super::locations::Locations;
+use super::constants::{accesses, bound, Constant, Constants};
 use super::method_names::{unused_name, RESERVED};
-use super::objects::ObjectModel;
-use super::walk::{WalkModel, ERROR_CODES};
+use super::walk::WalkModel;
+use crate::facts::words::enumerated;
 
 /// The objects of CiA 402, ready to be printed.
 pub(super) struct Cia402Model {
@@ -51,6 +47,8 @@ const CONTROLWORD: Role = Role { object: (0x6040, 0), function: "controlword", a
 const STATUSWORD: Role = Role { object: (0x6041, 0), function: "statusword", access: READ };
 const MODE: Role = Role { object: (0x6060, 0), function: "modes_of_operation", access: WRITE };
 const ACTIVE_MODE: Role = Role { object: (0x6061, 0), function: "modes_of_operation_display", access: READ };
+/// The object can also be another one with the error code.
+const ERROR_CODE: Role = Role { object: (0x603F, 0), function: "error_code", access: READ };
 const FOLLOWING_ERROR: Role = Role { object: (0x60F4, 0), function: "following_error", access: READ };
 
 /// Traits for objects that not every drive has: path of the trait, object, and text for the documentation.
@@ -69,13 +67,7 @@ type Played<'r, 'c> = (&'r Role, Constant<'c>);
 
 impl Cia402Model {
     /// Returns the model of a device whose state machine is that of CiA 402, and which also has the objects of the mode.
-    pub(super) fn new(
-        context: &Context<'_>,
-        locations: &Locations,
-        objects: &[ObjectModel],
-        walks: &[WalkModel],
-    ) -> Option<Self> {
-        let constants = Constants { context, locations, objects };
+    pub(super) fn new(constants: &Constants<'_, '_>, walks: &[WalkModel]) -> Option<Self> {
         let find = |role: &Role| {
             let (reads, writes) = role.access;
             let is_allowed =
@@ -93,10 +85,10 @@ impl Cia402Model {
             return None;
         }
         // Optional objects must not restrict the buses of the operations.
-        let read = accesses(&core);
-        let is_everywhere = |constant: &Constant<'_>| read.get(&constant.location).is_some_and(|access| access.0);
-        let codes = ERROR_CODES.map(|object| Role { object, function: "error_code", access: READ });
-        let code = codes.iter().find_map(|role| Some((role, find(role)?))).filter(|(_, code)| is_everywhere(code));
+        let read = accesses(core.iter().map(located));
+        let is_everywhere =
+            |constant: &Constant<'_>| read.get(constant.location.as_str()).is_some_and(|access| access.0);
+        let code = constants.error_code().filter(is_everywhere).map(|constant| (&ERROR_CODE, constant));
         let following = find(&FOLLOWING_ERROR).filter(is_everywhere).map(|constant| (&FOLLOWING_ERROR, constant));
         core.extend(code.into_iter().chain(following));
         let mut traits = vec![implementation("rt::cia402::Objects", &core, &[])];
@@ -106,7 +98,7 @@ impl Cia402Model {
             traits.push(implementation(path, &[(role, constant)], &core));
             operations.push(operation);
         }
-        let names = objects.iter().map(|object| object.name.as_str());
+        let names = constants.objects.iter().map(|object| object.name.as_str());
         let walks = walks.iter().map(|walk| walk.method.as_str());
         let used: Vec<&str> = names.chain(walks).chain(RESERVED).collect();
         let method = unused_name(|name| used.contains(&name.as_str()), "cia402".to_owned());
@@ -121,7 +113,7 @@ fn implementation(path: &'static str, objects: &[Played<'_, '_>], core: &[Played
         access: role.access,
         path: constant.path.clone(),
     };
-    let all = accesses(objects.iter().chain(core));
+    let all = accesses(objects.iter().chain(core).map(located));
     TraitModel {
         path,
         functions: objects.iter().map(function).collect(),
@@ -129,25 +121,15 @@ fn implementation(path: &'static str, objects: &[Played<'_, '_>], core: &[Played
     }
 }
 
-/// Returns whether the items at each location are read and written.
-fn accesses<'p, 'r: 'p, 'c: 'p>(
-    objects: impl IntoIterator<Item = &'p Played<'r, 'c>>,
-) -> BTreeMap<String, (bool, bool)> {
-    let mut all: BTreeMap<String, (bool, bool)> = BTreeMap::new();
-    for (role, constant) in objects {
-        let access = all.entry(constant.location.clone()).or_default();
-        *access = (access.0 | role.access.0, access.1 | role.access.1);
-    }
-    all
+/// Returns the location of an object and its access.
+fn located<'p>(played: &'p Played<'_, '_>) -> (&'p str, (bool, bool)) {
+    let (role, constant) = played;
+    (&constant.location, role.access)
 }
 
 fn documentation(operations: &[&str]) -> Vec<String> {
-    let list = match operations {
-        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
-        all => all.concat(),
-    };
     vec![
-        format!("Returns the operations of CiA 402: {list}."),
+        format!("Returns the operations of CiA 402: {}.", enumerated(operations)),
         String::new(),
         "The operations need a drive in the state \"Operation enabled\", except the change of the mode. See \
          [`rt::cia402`]."

@@ -1,5 +1,7 @@
 //! Constants of items to which generated methods refer.
 
+use std::collections::BTreeMap;
+
 use super::code::{generic, seq, Doc};
 use super::context::Context;
 use super::item::ItemModel;
@@ -8,6 +10,10 @@ use super::links::DocModule;
 use super::locations::Locations;
 use super::objects::ObjectModel;
 use super::value_type;
+
+/// Objects that contain the error code of a fault, by preference: the error code of CiA 402, 6.2, and the first entry of the
+/// pre-defined error field of CiA 301, 7.5.2.4.
+const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
 
 /// Access to the constants of items.
 pub(super) struct Constants<'c, 'a> {
@@ -39,6 +45,11 @@ impl Constants<'_, '_> {
         self.integer(&|model| model.object == Some(object))
     }
 
+    /// Returns the constant of the object that contains the error code of a fault.
+    pub fn error_code(&self) -> Option<Constant<'_>> {
+        ERROR_CODES.iter().find_map(|object| self.object(*object).filter(Constant::is_readable))
+    }
+
     /// Returns the constant of the first item that `is_it` accepts, if the item is an integer of up to 32 bits.
     pub fn integer(&self, is_it: &dyn Fn(&ItemModel) -> bool) -> Option<Constant<'_>> {
         let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
@@ -66,6 +77,18 @@ impl Constant<'_> {
     pub fn is_writable(&self) -> bool {
         matches!(self.model.access, "ReadWrite" | "WriteOnly")
     }
+}
+
+/// Returns whether the items at each location are read and written.
+pub(super) fn accesses<'l>(
+    items: impl IntoIterator<Item = (&'l str, (bool, bool))>,
+) -> BTreeMap<&'l str, (bool, bool)> {
+    let mut all: BTreeMap<&str, (bool, bool)> = BTreeMap::new();
+    for (location, (reads, writes)) in items {
+        let access = all.entry(location).or_default();
+        *access = (access.0 | reads, access.1 | writes);
+    }
+    all
 }
 
 /// Returns the bound of a location type whose items a client of `bus` reads, writes or both.

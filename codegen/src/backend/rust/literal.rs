@@ -35,8 +35,8 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
     literal
 }
 
-/// Returns a byte string literal with the characters of a text that has only printable ASCII characters, or else with an escape
-/// sequence for each byte.
+/// Returns a byte string literal. It contains the characters of the text if all are printable ASCII characters. Otherwise, it
+/// contains an escape sequence for each byte.
 pub(super) fn text_bytes(text: &[u8]) -> String {
     match std::str::from_utf8(text) {
         Ok(text) if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) => format!("b{}", string(text)),

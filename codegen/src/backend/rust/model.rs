@@ -7,6 +7,7 @@ use super::code::Doc;
 use super::code_table::{self, CodeTableModel};
 use super::composite;
 use super::configuration::{self, ConfigurationModel};
+use super::constants::Constants;
 use super::context::Context;
 use super::device_models::{self, DeviceModel};
 use super::device_names;
@@ -155,7 +156,9 @@ impl Model {
         let pdos = if options.pdos { pdo::models(context, options) } else { Vec::new() };
         let types = Types::of(context, options);
         let remappable = if options.pdos { remap::models(context, &mut objects) } else { Vec::new() };
-        let walks = walk::models(context, &locations, &objects, &types.machines);
+        let constants = Constants { context, locations: &locations, objects: &objects };
+        let walks = walk::models(&constants, &types.machines);
+        let cia402 = Cia402Model::new(&constants, &walks);
         Model {
             location: locations.name(locations.usual, ""),
             has_locations: locations.several,
@@ -163,7 +166,7 @@ impl Model {
             makers: locations.makers(),
             windows: window_model::models(context),
             handles: context.handles(),
-            cia402: Cia402Model::new(context, &locations, &objects, &walks),
+            cia402,
             walks,
             types,
             accessor_derives: options.derives(false),

@@ -17,6 +17,7 @@ use super::options::RustOptions;
 use super::reachable::addressable;
 use super::scope::ObjectBus;
 use super::slot_dependency::depends_on;
+use crate::facts::cob_id::has_identifier as contains_identifier;
 use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::names;
 use crate::source::Span;
@@ -510,12 +511,10 @@ pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     writable.filter_map(|(sub, ty, value)| Some(write(ty, communication.index, sub, &value?.to_string()))).collect()
 }
 
-/// Returns whether the default COB-ID contains a CAN identifier. The identifier is often missing if the PDO is disabled
-/// by default.
+/// Returns whether the default COB-ID contains a CAN identifier.
 pub(super) fn has_identifier(pdo: &Pdo) -> bool {
-    const IDENTIFIER: i128 = 0x1FFF_FFFF;
     let value = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
-    matches!(value, Some(Value::NodeId(base) | Value::Int(base)) if base & IDENTIFIER != 0)
+    value.is_some_and(contains_identifier)
 }
 
 fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
@@ -537,6 +536,7 @@ fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     writes
 }
 
-fn write(ty: &str, index: u16, sub: u8, value: &str) -> String {
+/// Returns the expression that creates the SDO write of a value.
+pub(in crate::backend::rust) fn write(ty: &str, index: u16, sub: u8, value: &str) -> String {
     format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})")
 }

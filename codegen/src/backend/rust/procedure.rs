@@ -6,6 +6,7 @@ use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::links::DocModule;
+use super::pdo;
 use super::scope::ObjectBus;
 use crate::ir::{Binding, Device, Item, Procedure, Step, SubjectKind, Type, Value};
 use crate::names::{self, Case};
@@ -81,7 +82,7 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
         16 => format!("0x{number:04X}"),
         _ => format!("0x{:04X}_{:04X}", number >> 16, number & 0xFFFF),
     };
-    Some(format!("rt::SdoWrite::new_u{bits}(0x{index:04X}, 0x{sub_index:02X}, {number})"))
+    Some(pdo::write(&format!("u{bits}"), index, sub_index, &number))
 }
 
 /// Returns the object of an item on the bus of the device.

@@ -1,16 +1,11 @@
 //! Methods of the device that lead a state machine to a state.
 
-use std::collections::BTreeMap;
-
 use super::code::Doc;
-use super::constants::{bound, Constant, Constants};
-use super::context::Context;
+use super::constants::{accesses, bound, Constant, Constants};
 use super::docs;
-use super::locations::Locations;
 use super::machine::MachineModel;
 use super::method_names::{unused_name, RESERVED};
 use super::naming::machines::NamedMachine;
-use super::objects::ObjectModel;
 use crate::ir::{ItemRef, StateMachine};
 use crate::names::{self, Case, NameRequest};
 
@@ -33,77 +28,62 @@ pub(super) struct WalkModel {
     pub bounds: Vec<Doc>,
 }
 
-/// Objects that contain the error code of a fault, by preference: the error code of CiA 402, 6.2, and the first entry of the
-/// pre-defined error field of CiA 301, 7.5.2.4.
-pub(super) const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
-
 /// Returns the methods for the machines whose commands are bit patterns of an item. `machines` are the machines of the
 /// context, ready to be printed.
-pub(super) fn models(
-    context: &Context<'_>,
-    locations: &Locations,
-    objects: &[ObjectModel],
-    machines: &[MachineModel],
-) -> Vec<WalkModel> {
-    let machines_of = Machines { constants: Constants { context, locations, objects } };
-    let named = context.names.types.machines.iter().zip(machines).filter(|(_, model)| model.has_transitions());
+pub(super) fn models(constants: &Constants<'_, '_>, machines: &[MachineModel]) -> Vec<WalkModel> {
+    let named =
+        constants.context.names.types.machines.iter().zip(machines).filter(|(_, model)| model.has_transitions());
     let count = named.clone().count();
     let mut used: Vec<String> = RESERVED.map(str::to_owned).to_vec();
-    used.extend(objects.iter().map(|object| object.name.clone()));
+    used.extend(constants.objects.iter().map(|object| object.name.clone()));
     let lower = |(named, model): (&NamedMachine<'_>, &MachineModel)| {
         let name = if count == 1 { "walk".to_owned() } else { format!("walk {}", named.machine.name) };
         let request = NameRequest { name: &name, fallback: "walk".to_owned(), suffix: String::new() };
         let name = names::identifier(&request, Case::Snake);
         let method = unused_name(|name| used.contains(name), name);
         used.extend([method.clone(), format!("{method}_async")]);
-        machines_of.walk(named, model.energized.clone(), method)
+        walk(constants, named, model.energized.clone(), method)
     };
     named.filter_map(lower).collect()
 }
 
-/// Creates the methods of state machines.
-struct Machines<'c, 'a> {
-    constants: Constants<'c, 'a>,
+/// Creates the method of a state machine.
+fn walk(
+    constants: &Constants<'_, '_>,
+    named: &NamedMachine<'_>,
+    energized: Option<String>,
+    method: String,
+) -> Option<WalkModel> {
+    let machine = named.machine;
+    let (status, control) = (word(constants, &machine.status_item)?, word(constants, &machine.control_item)?);
+    if !status.is_readable() || !control.is_writable() {
+        return None;
+    }
+    let reads_control = control.is_readable();
+    let accesses =
+        accesses([(status.location.as_str(), (true, false)), (control.location.as_str(), (reads_control, true))]);
+    // The error code must exist on all buses on which the machine is accessed.
+    let code =
+        constants.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
+    let bounds = accesses.iter().map(|(location, access)| bound(location, "C::Bus", *access)).collect();
+    let error_code = code.as_ref().map(|code| constants.link(code)).unwrap_or_default();
+    let docs = documentation(machine, &constants.link(&status), &constants.link(&control), &error_code);
+    Some(WalkModel {
+        method,
+        docs,
+        states: named.states.clone(),
+        energized,
+        status: status.path,
+        control: control.path,
+        reads_control,
+        code: code.map(|code| code.path),
+        bounds,
+    })
 }
 
-impl Machines<'_, '_> {
-    fn walk(&self, named: &NamedMachine<'_>, energized: Option<String>, method: String) -> Option<WalkModel> {
-        let machine = named.machine;
-        let (status, control) = (self.word(&machine.status_item)?, self.word(&machine.control_item)?);
-        if !status.is_readable() || !control.is_writable() {
-            return None;
-        }
-        let reads_control = control.is_readable();
-        let mut accesses: BTreeMap<&str, (bool, bool)> = BTreeMap::new();
-        accesses.entry(&status.location).or_default().0 = true;
-        let of_control = accesses.entry(&control.location).or_default();
-        *of_control = (of_control.0 | reads_control, true);
-        // The error code must exist on all buses on which the machine is accessed.
-        let code = self.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
-        let bounds = accesses.iter().map(|(location, access)| bound(location, "C::Bus", *access)).collect();
-        let error_code = code.as_ref().map(|code| self.constants.link(code)).unwrap_or_default();
-        let docs = documentation(machine, &self.constants.link(&status), &self.constants.link(&control), &error_code);
-        Some(WalkModel {
-            method,
-            docs,
-            states: named.states.clone(),
-            energized,
-            status: status.path,
-            control: control.path,
-            reads_control,
-            code: code.map(|code| code.path),
-            bounds,
-        })
-    }
-
-    /// Returns the constant of a status item or control item.
-    fn word(&self, reference: &ItemRef) -> Option<Constant<'_>> {
-        self.constants.integer(&|model| Some(model.id) == reference.id).filter(|constant| !constant.is_quantity)
-    }
-
-    fn error_code(&self) -> Option<Constant<'_>> {
-        ERROR_CODES.iter().find_map(|object| self.constants.object(*object)).filter(Constant::is_readable)
-    }
+/// Returns the constant of a status item or control item.
+fn word<'c>(constants: &'c Constants<'_, '_>, reference: &ItemRef) -> Option<Constant<'c>> {
+    constants.integer(&|model| Some(model.id) == reference.id).filter(|constant| !constant.is_quantity)
 }
 
 /// Returns the documentation of the method. It links to the status item, the control item and the item that contains the

@@ -3,6 +3,7 @@
 
 use super::Assigned;
 use crate::backend::rust::code::Doc;
+use crate::backend::rust::pdo;
 use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
 
 /// Index of the object that assigns PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
@@ -55,5 +56,5 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
 }
 
 fn write(ty: &str, index: u16, sub: u8, value: &str) -> Doc {
-    Doc::from(format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})"))
+    Doc::from(pdo::write(ty, index, sub, value))
 }

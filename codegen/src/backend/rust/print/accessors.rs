@@ -106,7 +106,7 @@ fn methods(code: &mut Code, model: &Model) {
 fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
     let (suffix, keyword, client, done) =
         if is_async { ("_async", "async ", "rt::AsyncClient", ".await") } else { ("", "", "rt::Client", "") };
-    // The handle has a line of its own, because the lines of a long method chain would be broken.
+    // The handle is on a separate line, because the lines of a long method chain would be broken.
     let handle = |code: &mut Code, path: &str| line!(code, "let item = ", path, ";");
     let read = seq!["item.at(&mut self.client).read", suffix, "()", done];
     match is_async {

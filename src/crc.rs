@@ -1,0 +1,16 @@
+//! CRC of 16 bits whose most significant bit comes first.
+
+/// Updates a CRC with `data`. The polynomial has no bit 16, and the result is not inverted.
+pub(crate) const fn crc16(polynomial: u16, crc: u16, data: &[u8]) -> u16 {
+    let (mut crc, mut at) = (crc, 0);
+    while at < data.len() {
+        crc ^= (data[at] as u16) << 8;
+        let mut bit = 0;
+        while bit < 8 {
+            crc = if crc & 0x8000 != 0 { crc << 1 ^ polynomial } else { crc << 1 };
+            bit += 1;
+        }
+        at += 1;
+    }
+    crc
+}
