@@ -50,7 +50,7 @@ impl<'g> Target<'g> {
         self.is_folder
     }
 
-    /// Writes or compares an output. In a folder, the file name is `name` with the extension `ending`. A number makes
+    /// Writes an output, or compares it with the existing file. In a folder, the file name is `name` with the extension `ending`. A number makes
     /// repeated names unique.
     pub(super) fn put(
         &mut self,

@@ -126,6 +126,27 @@ fn findings_show_the_line_and_decide_the_exit_code() {
 }
 
 #[test]
+fn only_the_first_warning_of_a_code_is_in_full() {
+    let folder = folder("limited");
+    let objects = |count: u32| {
+        (0..count).map(|index| {
+            format!("[{:X}]\nParameterName=Gain\nDataType=0x0006\nDefaultValue=01{index}\n", 0x2000 + index)
+        })
+    };
+    let text = format!("[DeviceInfo]\nProductName=Octal\n{}", objects(5).collect::<String>());
+    let path = file(&folder, "octal.eds", &text);
+    let marked = |text: &str| text.matches("^^^ read as").count();
+
+    let some = err(&lexibus(&["check", &path]));
+    assert_eq!(some.matches("warning[EDS020]").count(), 3, "{some}");
+    assert_eq!((marked(&some), some.matches("= note: read as").count()), (1, 2), "{some}");
+    assert!(some.contains("and 2 more of EDS020 (--all)"), "{some}");
+
+    let all = err(&lexibus(&["check", "--all", &path]));
+    assert_eq!((all.matches("warning[EDS020]").count(), marked(&all)), (5, 5), "{all}");
+}
+
+#[test]
 fn findings_for_machines() {
     let folder = folder("machines");
     let path = file(&folder, "quirky.eds", QUIRKY);

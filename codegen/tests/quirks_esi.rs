@@ -1,5 +1,5 @@
 //! Tests the ESI front end: limits, large files, and files that a description refers to. The cases in
-//! `tests/ui/quirks-esi` test the forms of real files.
+//! `tests/ui/quirks-esi` test variants of ESI that occur in real files.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -52,7 +52,7 @@ pub struct Cyclic {
     is_following: bool,
 }
 
-/// Process data from the drive, in one cycle of a [`Cyclic`].
+/// The process data that a [`Cyclic`] reads from the drive in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Inputs<S> {
     /// Statusword (0x6041).
@@ -66,7 +66,7 @@ pub struct Inputs<S> {
     pub following_error: Option<i32>,
 }
 
-/// Process data for the drive, in one cycle of a [`Cyclic`].
+/// The process data that a [`Cyclic`] sends to the drive in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cycle<W> {
     /// Controlword (0x6040).

@@ -179,7 +179,7 @@ pub mod check {
         !contains(mapping, 0)
     }
 
-    /// Returns whether the mapping has no more entries than the mapping object can hold.
+    /// Returns whether the mapping object can hold all entries of the mapping.
     #[must_use]
     pub const fn fits_entries<P: Remappable>(mapping: &[MappedEntry]) -> bool {
         mapping.len() <= P::ENTRIES && mapping.len() <= u8::MAX as usize

@@ -70,7 +70,8 @@ pub(crate) struct Inputs {
 /// Selection and form of the printed diagnostics.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Printing {
-    /// Print all diagnostics. By default, at most three diagnostics of a code are printed for each file.
+    /// Print all diagnostics in full. By default, at most three diagnostics of a code are printed for each file, the second and
+    /// third warning without the marked lines.
     #[arg(long, help_heading = DIAGNOSTICS)]
     pub all: bool,
     /// Print the number of diagnostics of each code, and the first position, instead of the diagnostics.

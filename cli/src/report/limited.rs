@@ -3,14 +3,17 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use lexibus_codegen::diagnostics::Diagnostic;
+use lexibus_codegen::diagnostics::{Diagnostic, Severity};
 
 /// Maximum number of printed diagnostics of a code in a file, unless the user wants all of them.
 const LIMIT: usize = 3;
 
 /// A part of the printed diagnostics.
 pub(super) enum Shown<'d> {
-    Diagnostic(&'d Diagnostic),
+    /// A diagnostic in full.
+    Full(&'d Diagnostic),
+    /// A warning without its marked lines, because the file already has a warning of this code.
+    Brief(&'d Diagnostic),
     /// A line with the number of diagnostics that are left out.
     More(String),
 }
@@ -25,8 +28,8 @@ struct Count {
     covered: usize,
 }
 
-/// Returns the diagnostics to print in their order. After the third diagnostic of a code in a file, a line states the number of
-/// further ones. `all` returns every diagnostic.
+/// Returns the diagnostics to print in their order. Only the first warning of a code in a file is printed in full. After the third
+/// diagnostic of the code, a line states the number of further ones. `all` returns every diagnostic in full.
 pub(super) fn limited<'d>(diagnostics: &'d [Cow<Diagnostic>], all: bool) -> impl Iterator<Item = Shown<'d>> {
     let mut counts: HashMap<_, Count> = HashMap::new();
     for diagnostic in diagnostics {
@@ -44,7 +47,9 @@ pub(super) fn limited<'d>(diagnostics: &'d [Cow<Diagnostic>], all: bool) -> impl
             let left = count.total - count.covered;
             let more = (count.shown == LIMIT && left > 0 && !all)
                 .then(|| Shown::More(format!("and {left} more of {} (--all)", diagnostic.code.id)));
-            [Some(Shown::Diagnostic(diagnostic)), more]
+            let is_brief = count.shown > 1 && diagnostic.severity == Severity::Warning && !all;
+            let shown = if is_brief { Shown::Brief(diagnostic) } else { Shown::Full(diagnostic) };
+            [Some(shown), more]
         })
         .flatten()
 }
@@ -59,7 +64,7 @@ mod tests {
     fn lines(diagnostics: &Diagnostics, all: bool) -> Vec<String> {
         let list: Vec<_> = diagnostics.list().iter().map(Cow::Borrowed).collect();
         let line = |shown| match shown {
-            Shown::Diagnostic(diagnostic) => diagnostic.message.clone(),
+            Shown::Full(diagnostic) | Shown::Brief(diagnostic) => diagnostic.message.clone(),
             Shown::More(more) => more,
         };
         limited(&list, all).map(line).collect()
@@ -84,6 +89,24 @@ mod tests {
         expected.extend(["EDS0031", "and 1 more of EDS003 (--all)"]);
         assert_eq!(shown, expected);
         assert_eq!(lines(&diagnostics, true).len(), 12);
+    }
+
+    #[test]
+    fn only_the_first_warning_of_a_code_is_full() {
+        let mut diagnostics = Diagnostics::default();
+        push(&mut diagnostics, &codes::JUNK_LINE, 0, 4);
+        push(&mut diagnostics, &codes::INPUT_TOO_LARGE, 0, 2);
+        diagnostics.sort();
+        let list: Vec<_> = diagnostics.list().iter().map(Cow::Borrowed).collect();
+        let brief = |all| {
+            let is_brief = |shown| match shown {
+                Shown::Brief(diagnostic) => Some(diagnostic.code.id),
+                _ => None,
+            };
+            limited(&list, all).filter_map(is_brief).collect::<Vec<_>>()
+        };
+        assert_eq!(brief(false), ["EDS003"; 2]);
+        assert_eq!(brief(true), [""; 0]);
     }
 
     #[test]

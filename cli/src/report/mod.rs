@@ -121,7 +121,9 @@ impl Reporter {
             }
             MessageFormat::Github => {
                 let line = |shown| match shown {
-                    Shown::Diagnostic(diagnostic) => github::line(diagnostic, &compilation.sources) + "\n",
+                    Shown::Full(diagnostic) | Shown::Brief(diagnostic) => {
+                        github::line(diagnostic, &compilation.sources) + "\n"
+                    }
                     Shown::More(more) => more + "\n",
                 };
                 self.print(&limited(&diagnostics, self.all).map(line).collect::<String>())
@@ -137,7 +139,8 @@ impl Reporter {
         let mut out = std::io::stderr().lock();
         for shown in limited(diagnostics, self.all) {
             let text = match shown {
-                Shown::Diagnostic(diagnostic) => render::terminal::render(diagnostic, sources, self.color),
+                Shown::Full(diagnostic) => render::terminal::render(diagnostic, sources, self.color),
+                Shown::Brief(diagnostic) => render::terminal::brief(diagnostic, sources, self.color),
                 Shown::More(more) => more,
             };
             writeln!(out, "{text}\n")?;

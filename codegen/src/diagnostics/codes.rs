@@ -712,7 +712,7 @@ codes! {
         "The number sets a bit that is reserved or has no name, or clears a reserved bit that must be 1. Limits are \
         only checked for reserved bits that they set. A limit is exempt if it has a single bit, or all bits up to the \
         end of the type or the last named bit. Correct the number, or name the bits if the manual does."
-    TAB020 LENGTH_MISMATCH Lint Warn "a length does not match the type or the entries of a PDO"
+    TAB020 LENGTH_MISMATCH Lint Warn "the length of an entry differs from its type, or the length of a PDO from its entries"
         "A default text is longer than its type. Or a printed `length` differs from the length of the item's type or \
         of the PDO's entries. Or an item has more or fewer bytes of ESC memory than its type needs. Compare the \
         lengths with the manual, and correct the wrong length."
@@ -833,7 +833,7 @@ codes! {
         "The escape byte must differ from the start byte and the end byte. All three must be escaped in data, and no \
         escaped byte may be sent as one of them. Otherwise, receivers find the end of a frame at the wrong byte. \
         Compare `[framing]` with the manual, and correct the wrong byte."
-    MSG002 MESSAGE_LENGTH Lint Warn "a message has incomplete bytes or is too long for a frame"
+    MSG002 MESSAGE_LENGTH Lint Warn "the fields of a message do not fill whole bytes, or the message is too long for a frame"
         "Adjacent fields shorter than a byte must fill whole bytes. The data of a message with all its repetitions \
         must not exceed the maximum number of data bytes in the framing. Correct a length, or the `max` of repeated \
         fields."

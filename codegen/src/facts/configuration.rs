@@ -226,7 +226,7 @@ fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), Left
 
 /// Returns the reason why an item cannot be written.
 fn reason(group: &Group, item: &Item) -> Option<LeftOut> {
-    /// Bit of ObjFlags: the object refuses writes during a download.
+    /// Bit of ObjFlags: the object must not be written when a configuration is downloaded.
     const REFUSES_WRITE: u32 = 1;
     match group.index() {
         _ if !item.access.writable() => Some(LeftOut::ReadOnly),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Element, Group, Level, Origin, Patch, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Element, Group, Level, Message, Origin, Patch, Renderer, Snippet};
 
 use super::super::{Diagnostic, Severity};
 use super::marked::{self, Mark, MarkedSource};
@@ -46,21 +46,48 @@ pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> Strin
     let mut groups = vec![primary(diagnostic, location).elements(facts)];
     groups.extend(located_notes);
     groups.extend(suggestion);
+    print(&groups, color)
+}
+
+/// Renders the message, position and label of a diagnostic, without the marked lines, notes, help and fix.
+///
+/// Use this form for a diagnostic that follows a similar one in full. [`render`] describes the other properties.
+pub fn brief(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
+    let origin = MarkedSource::of(diagnostic.span, sources).map(|MarkedSource { source, mark }| {
+        let name = visible(source.name());
+        Origin::path(match mark {
+            Some(mark) => format!("{name}:{}:{}", mark.from.line, mark.from.column),
+            None => name,
+        })
+    });
+    print(&[title(diagnostic).elements(origin).elements(label_note(diagnostic))], color)
+}
+
+fn print(groups: &[Group], color: bool) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
-    without_counted_origins(&renderer.term_width(WIDTH).render(&groups))
+    without_counted_origins(&renderer.term_width(WIDTH).render(groups))
 }
 
 /// Returns the message and the marked lines.
 fn primary(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Group<'static> {
+    let has_mark = location.is_some_and(|location| location.mark.is_some());
+    let label_alone = (!has_mark).then(|| label_note(diagnostic)).flatten();
+    let quoted = location.map(|location| quote(location, &diagnostic.label));
+    title(diagnostic).elements(quoted).elements(label_alone)
+}
+
+fn title(diagnostic: &Diagnostic) -> Group<'static> {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
+    Group::with_title(level.primary_title(visible(&diagnostic.message)).id(diagnostic.code.id))
+}
+
+/// Returns the label as a note, or `None` if the label is empty.
+fn label_note(diagnostic: &Diagnostic) -> Option<Message<'static>> {
     let label = diagnostic.label.as_str();
-    let has_mark = location.is_some_and(|location| location.mark.is_some());
-    let label_alone = (!has_mark && !label.is_empty()).then(|| Level::NOTE.message(paragraph(label)));
-    let title = level.primary_title(visible(&diagnostic.message)).id(diagnostic.code.id);
-    title.elements(location.map(|location| quote(location, label))).elements(label_alone)
+    (!label.is_empty()).then(|| Level::NOTE.message(paragraph(label)))
 }
 
 /// Returns the suggested replacement within the marked lines, or `None` if the lines are not shown in full.
@@ -357,6 +384,20 @@ mod tests {
         --> drive.eds
          = note: read as 10
         note: this one
+        --> drive.eds
+        ");
+    }
+
+    #[test]
+    fn the_brief_form_has_message_position_and_label() {
+        let diagnostic = on(OCTAL, "012").note("a fact").help("write the number in decimal").fix("10");
+        insta::assert_snapshot!(brief(&diagnostic, &file(OCTAL), false), @r"
+        warning[EDS020]: `012` is octal
+        --> drive.eds:3:11
+         = note: read as 10
+        ");
+        insta::assert_snapshot!(brief(&at(0, 0).label(""), &file(OCTAL), false), @r"
+        warning[EDS020]: `012` is octal
         --> drive.eds
         ");
     }

@@ -99,7 +99,7 @@ pub(super) fn settle(
         manager.purpose = by_text.or(by_pdos).unwrap_or(by_position);
         if by_text.is_none() {
             let message = match given.text.as_ref() {
-                "" => "this sync manager has no purpose".to_owned(),
+                "" => "this sync manager does not state its purpose".to_owned(),
                 text => format!("`{}` is not a valid purpose of a sync manager", brief(text)),
             };
             let reason = if by_pdos.is_some() {

@@ -65,7 +65,7 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
     let found = found
         .help("write the correct fact in the row, record the other fact in a `doubt`, and allow this code on the row");
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("citation of `summary` in the manual: {}", cited(cite))),
+        Some(cite) => found.note(format!("`summary` cites the manual with `cite = {}`", cited(cite))),
         None => found,
     });
 }

@@ -104,7 +104,7 @@ pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &
     }
     object.items.iter().for_each(|item| handle(code, item, "super::"));
     if model.has_accessors {
-        code.doc(&format!("Accessors for the entries of {}", object.heading));
+        code.doc(&format!("Accessors for the entries of the object. {}", object.heading));
         open!(code, "pub struct ", object.accessors, "<'c, C> {");
         // Methods of the device create the accessors, so the field must be visible in the device's module. If the file
         // has several devices, methods of any device may create the accessors.

@@ -93,7 +93,7 @@ pub(super) struct Field<'v> {
 }
 
 impl<'v> Field<'v> {
-    /// Creates a field of type `ty`. `bits` contains its bit offset and its number of bits. Returns `None` if the field
+    /// Creates a field of type `ty`. `bits` contains the bit offset of the field and its number of bits. Returns `None` if the field
     /// exceeds `length` bytes or has no Rust type.
     pub(super) fn new(values: &'v Values<'_>, ty: Type, bits: (u32, u32), length: u32, usage: Use) -> Option<Self> {
         let position = FieldPosition::within(length, bits.0, bits.1)?;
