@@ -99,9 +99,17 @@ fn the_macro_warns_and_refuses_unknown_options() {
     assert!(output.status.success(), "{warnings}");
     assert!(warnings.contains("warning") && warnings.contains("valve.eds:7:14: 012"), "{warnings}");
 
-    let folder = macro_crate("macro-option", VALVE, "colour: true");
-    let errors = text(&cargo(&folder, &["check", "--quiet"]).stderr);
-    assert!(errors.contains("unknown option `colour`"), "{errors}");
+    let calls = [
+        ("{ acessors: true }", "unknown option `acessors`; did you mean `accessors`?", "src/lib.rs:2:35"),
+        ("{ table: \"yes\" }", "write `true` without quotes", "src/lib.rs:2:42"),
+        ("", "expected `;` or options in braces", "src/lib.rs:2:21"),
+    ];
+    for (options, message, position) in calls {
+        let code = format!("lexibus::dictionary! {{\n    pub mod valve = \"valve.eds\" {options}\n}}\n");
+        let folder = crate_of("macro-option", &[("valve.eds", VALVE), ("src/lib.rs", &code)]);
+        let errors = text(&cargo(&folder, &["check", "--quiet"]).stderr);
+        assert!(errors.contains(message) && errors.contains(position), "{errors}");
+    }
 }
 
 /// A TPDO with an INTEGER24, three single bits and a time. The runtime defines the types of these fields.

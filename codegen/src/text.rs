@@ -28,7 +28,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// Returns the Levenshtein distance: the number of characters to insert, delete or replace to get from `a` to `b`.
-pub fn edit_distance(a: &str, b: &str) -> usize {
+pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
     // One row of the usual table: `row[j]` is the distance between the first `i` characters of `a` and the first `j` of `b`.
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, from) in a.chars().enumerate() {
@@ -41,6 +41,13 @@ pub fn edit_distance(a: &str, b: &str) -> usize {
         }
     }
     row[row.len() - 1]
+}
+
+/// Returns the most similar known name, or `None` if no name is similar.
+pub fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let lower = brief(name).to_lowercase();
+    let best = known.map(|other| (edit_distance(&lower, &other.to_lowercase()), other)).min()?;
+    (best.0 * 3 <= lower.chars().count().max(3)).then_some(best.1)
 }
 
 /// Returns a count with its noun, in the plural unless the count is 1: `1 byte`, `2 bytes`.

@@ -2,9 +2,34 @@
 
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::Levels;
+use lexibus_codegen::text::similar;
 use lexibus_codegen::{Level, Presence};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
+
+/// Names of the options.
+pub const OPTIONS: [&str; 20] = [
+    "device",
+    "module",
+    "objects",
+    "option",
+    "overlay",
+    "profiles",
+    "device_name",
+    "runtime",
+    "accessors",
+    "pdos",
+    "table",
+    "debug",
+    "partial_eq",
+    "defmt",
+    "serde",
+    "strict",
+    "node_id_alias",
+    "allow",
+    "warn",
+    "deny",
+];
 
 /// Arguments of the macro: `#[…] pub mod name = "path" { option: value, … };`
 pub struct Call {
@@ -24,13 +49,16 @@ impl Parse for Call {
         input.parse::<Token![mod]>()?;
         let name = input.parse()?;
         input.parse::<Token![=]>()?;
-        let path = input.parse()?;
+        let path: LitStr = input.parse()?;
         let (mut options, mut overlays) = (Options::default(), Vec::new());
         if input.peek(syn::token::Brace) {
             let content;
             syn::braced!(content in input);
             parse_options(&content, &mut options, &mut overlays)?;
             input.parse::<Option<Token![;]>>()?;
+        } else if input.is_empty() {
+            // The end of the input has no position of its own.
+            return Err(syn::Error::new(path.span(), "expected `;` or options in braces after this path"));
         } else {
             input.parse::<Token![;]>()?;
         }
@@ -78,13 +106,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
             "allow" => levels.push((input.parse::<LitStr>()?, Level::Allow)),
             "warn" => levels.push((input.parse::<LitStr>()?, Level::Warn)),
             "deny" => levels.push((input.parse::<LitStr>()?, Level::Deny)),
-            other => {
-                let message = format!(
-                    "unknown option `{other}`; expected one of device, module, objects, option, overlay, profiles, device_name, runtime, accessors, pdos, table, debug, \
-                     partial_eq, defmt, serde, strict, allow, warn, deny or node_id_alias"
-                );
-                return Err(syn::Error::new(key.span(), message));
-            }
+            other => return Err(syn::Error::new(key.span(), unknown(other))),
         }
         if !input.is_empty() {
             input.parse::<Token![,]>()?;
@@ -97,11 +119,36 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
     Ok(())
 }
 
+/// Returns the error for an unknown option.
+fn unknown(option: &str) -> String {
+    match similar(option, OPTIONS.into_iter()) {
+        Some(known) => format!("unknown option `{option}`; did you mean `{known}`?"),
+        None => format!("unknown option `{option}`; the options are {}", OPTIONS.join(", ")),
+    }
+}
+
 /// Parses the value of an option: `true`, `false`, or the name of the cargo feature that enables the code.
 fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
     if input.peek(LitBool) {
         let always = input.parse::<LitBool>()?.value;
         return Ok(if always { Presence::Always } else { Presence::Never });
     }
-    Ok(Presence::Feature(input.parse::<LitStr>()?.value()))
+    if !input.peek(LitStr) {
+        return Err(input.error("expected `true`, `false`, or the name of a cargo feature as a string"));
+    }
+    let feature = input.parse::<LitStr>()?;
+    let help = match feature.value().to_ascii_lowercase().as_str() {
+        "true" | "yes" | "on" | "always" => "write `true` without quotes",
+        "false" | "no" | "off" | "never" => "write `false` without quotes",
+        name if is_feature_name(name) => return Ok(Presence::Feature(feature.value())),
+        _ => "expected `true`, `false`, or the name of a cargo feature",
+    };
+    Err(syn::Error::new(feature.span(), format!("`{}` is not the name of a cargo feature: {help}", feature.value())))
+}
+
+/// Returns whether cargo accepts a feature with this name. Names in cargo also may have letters other than ASCII, but crates.io
+/// rejects these.
+fn is_feature_name(name: &str) -> bool {
+    let is_first = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    name.starts_with(is_first) && name.chars().all(|c| is_first(c) || matches!(c, '-' | '+' | '.'))
 }

@@ -218,11 +218,25 @@ mod tests {
     }
 
     #[test]
+    fn every_option_is_known() {
+        for option in call::OPTIONS {
+            let values = ["true", "\"feature\"", "\"a=b\"", "\"0x6000\"", "\"EDS020\""];
+            let call = |value| syn::parse_str::<Call>(&format!("mod drive = \"a.eds\" {{ {option}: {value} }}"));
+            assert!(values.iter().any(|value| call(value).is_ok()), "{option}");
+        }
+    }
+
+    #[test]
     fn wrong_calls_are_errors() {
         for (text, expected) in [
             ("mod drive = 5;", "expected string literal"),
-            ("mod drive = \"a.eds\"", "expected `;`"),
-            ("mod drive = \"a.eds\" { table: 1 }", "expected string literal"),
+            ("mod drive = \"a.eds\"", "expected `;` or options in braces after this path"),
+            ("mod drive = \"a.eds\" { table: 1 }", "expected `true`, `false`, or the name of a cargo feature"),
+            ("mod drive = \"a.eds\" { table: \"yes\" }", "write `true` without quotes"),
+            ("mod drive = \"a.eds\" { debug: \"never\" }", "write `false` without quotes"),
+            ("mod drive = \"a.eds\" { serde: \"a feature\" }", "`a feature` is not the name of a cargo feature"),
+            ("mod drive = \"a.eds\" { acessors: true }", "unknown option `acessors`; did you mean `accessors`?"),
+            ("mod drive = \"a.eds\" { colour: true }", "unknown option `colour`; the options are device, module"),
             ("mod drive = \"a.eds\" { objects: \"6000..\" }", "6000.."),
             ("mod drive = \"a.eds\" { deny: \"EDS999999\" }", "EDS999999"),
             ("mod drive = \"a.eds\" { strict: true strict: true }", "expected `,`"),

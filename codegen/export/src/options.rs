@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use lexibus_codegen::text::similar;
+
 use super::note::Note;
 
 /// A fact that the format requires and that neither the source nor the options contain.
@@ -117,6 +119,14 @@ pub(super) fn parsed<T: OptionValue>(key: &str, text: &str) -> Result<Option<T>,
     T::parse(text).map(Some).ok_or_else(|| format!("`{key}` must be {}, not `{text}`", T::WHAT))
 }
 
+/// Returns the error for an unknown key.
+pub(super) fn unknown(key: &str, known: &[(&str, &str)]) -> String {
+    let keys: Vec<&str> = known.iter().map(|(key, _)| *key).collect();
+    let suggestion = similar(key, keys.iter().copied());
+    let suggestion = suggestion.map(|known| format!("did you mean `{known}`? ")).unwrap_or_default();
+    format!("unknown option `{key}` of this format; {suggestion}the options are {}", keys.join(", "))
+}
+
 /// Declares options with their keys, and a type that records the options that an export reads.
 macro_rules! options {
     ($(#[$attribute:meta])* pub struct $name:ident, $tracked:ident {
@@ -137,8 +147,7 @@ macro_rules! options {
                 match key {
                     $($key => self.$field = $crate::options::parsed(key, value)?,)+
                     _ => {
-                        let keys: Vec<&str> = Self::KEYS.iter().map(|(key, _)| *key).collect();
-                        return Err(format!("unknown option `{key}` of this format; the options are {}", keys.join(", ")));
+                        return Err($crate::options::unknown(key, Self::KEYS));
                     }
                 }
                 Ok(())

@@ -51,15 +51,7 @@ pub fn find(name: &str) -> Option<&'static Code> {
 
 /// Returns the most similar identifier or name, if one is similar enough to `name` for a suggestion.
 pub fn similar(name: &str) -> Option<&'static str> {
-    let name = name.to_ascii_lowercase();
-    let distance = |known: &str| crate::text::edit_distance(&name, &known.to_ascii_lowercase());
-    CODES
-        .iter()
-        .flat_map(|code| [code.id, code.name])
-        .map(|known| (distance(known), known))
-        .min()
-        .filter(|&(distance, known)| distance * 3 <= known.len())
-        .map(|(_, known)| known)
+    crate::text::similar(name, CODES.iter().flat_map(|code| [code.id, code.name]))
 }
 
 /// Returns the name of a code, derived from its constant: `octal-number` for `OCTAL_NUMBER`.

@@ -290,7 +290,7 @@ impl Rows {
             if unit_table.is_none() && !unit.value.is_empty() && !super::units::is_known(&unit.value) {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let names = names.take_while(|_| reader.helps());
-                let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
+                let similar = crate::text::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
                 let message = format!("`{}` is neither defined in `[units]` nor a known unit", brief(&unit.value));
                 let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
                 reader.diagnostics.push(match similar {

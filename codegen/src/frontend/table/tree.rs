@@ -18,7 +18,7 @@ use crate::ir::{
 };
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
-use crate::text::{brief, edit_distance, standard_and_clause};
+use crate::text::{brief, similar, standard_and_clause};
 
 /// Maximum number of names that a message lists if no name is similar.
 const MAX_LISTED: usize = 12;
@@ -328,13 +328,6 @@ pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str
 /// Returns the cited pages or lines as one text.
 pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
     list.0.iter().map(NumberOrText::to_string).collect::<Vec<_>>().join(", ")
-}
-
-/// Returns the most similar known name, or `None` if no name is similar.
-pub(super) fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
-    let lower = brief(name).to_lowercase();
-    let best = known.map(|other| (edit_distance(&lower, &other.to_lowercase()), other)).min()?;
-    (best.0 * 3 <= lower.chars().count().max(3)).then_some(best.1)
 }
 
 /// Returns the entries of a table in the order of the file. The parser sorts them by name.

@@ -67,7 +67,7 @@ pub(super) fn suggestion(text: &str) -> Option<&'static str> {
         ("string" | "text" | "ascii" | "char", _) => Some("str"),
         _ => None,
     };
-    usual.or_else(|| super::tree::similar(text, NAMES.into_iter()))
+    usual.or_else(|| crate::text::similar(text, NAMES.into_iter()))
 }
 
 /// Type names that suggestions and editors offer.

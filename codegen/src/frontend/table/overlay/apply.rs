@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::super::definitions::DefinitionKind;
 use super::super::format::AppliesTable;
 use super::super::machine_budget::MachineBudget;
-use super::super::tree::{similar, Reader};
+use super::super::tree::Reader;
 use super::super::{code_tables, device, machines, resolve};
 use super::change::{ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
@@ -16,8 +16,8 @@ use crate::ir::{
     ObjectBuses, Submodule, SubmoduleId, SubmoduleUse, TypeDef,
 };
 use crate::source::{FileId, Source, Span};
-use crate::text::brief;
 use crate::text::glob;
+use crate::text::{brief, similar};
 
 /// Applies the overlay `source` to the devices or modules in `catalog` that it selects.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
