@@ -2,6 +2,72 @@
 
 use core::fmt;
 
+use crate::enumeration::Enumeration;
+use crate::value::Value;
+
+/// A bit field whose bits have names. Generated bit fields implement this trait.
+pub trait BitField: Enumeration
+where
+    <Self::Base as Value>::Native: Into<u64>,
+{
+    /// Names and masks of the fields, as [`debug_bits`] describes them.
+    const LAYOUT: &'static str;
+
+    /// Returns the names of the flags that are set, in the order of the description. A flag that is active low is set if
+    /// its bit is 0. Fields of several bits are left out.
+    fn set_flags(self) -> SetFlags {
+        SetFlags { raw: self.as_is().into(), fields: fields(Self::LAYOUT).1.split_terminator(' ') }
+    }
+}
+
+/// Iterator over the names of the set flags of a bit field.
+#[derive(Clone, Debug)]
+pub struct SetFlags {
+    raw: u64,
+    fields: core::str::SplitTerminator<'static, char>,
+}
+
+impl Iterator for SetFlags {
+    type Item = &'static str;
+
+    fn next(&mut self) -> Option<&'static str> {
+        let raw = self.raw;
+        self.fields.find_map(|text| {
+            let field = Field::parse(text);
+            (!field.is_value && field.mask.count_ones() == 1 && field.is_set(raw)).then_some(field.name)
+        })
+    }
+}
+
+/// An element of a layout.
+struct Field<'l> {
+    name: &'l str,
+    mask: u64,
+    /// True if the flag is set while its bit is 0.
+    is_inverted: bool,
+    /// True if the field has a value of its own type.
+    is_value: bool,
+}
+
+impl<'l> Field<'l> {
+    fn parse(text: &'l str) -> Self {
+        let (name, mask) = text.split_once(':').unwrap_or((text, ""));
+        let mask = u64::from_str_radix(mask, 16).unwrap_or(0);
+        let (inverted, value) = (name.strip_prefix('!'), name.strip_prefix('?'));
+        let name = inverted.or(value).unwrap_or(name);
+        Field { name, mask, is_inverted: inverted.is_some(), is_value: value.is_some() }
+    }
+
+    fn is_set(&self, raw: u64) -> bool {
+        (raw & self.mask != 0) != self.is_inverted
+    }
+}
+
+/// Splits a layout into the name of the type and the fields.
+fn fields(layout: &str) -> (&str, &str) {
+    layout.split_once(' ').unwrap_or((layout, ""))
+}
+
 /// Formats a bit field for `Debug`. The output contains the flags that are set and the fields with their values. Set
 /// bits that belong to no field follow in hexadecimal. Generated code calls this function.
 ///
@@ -28,25 +94,22 @@ use core::fmt;
 /// assert_eq!(format!("{:?}", Status(0x8025)), "Status { running, level: 1, fault, mode: 'b', 0x8000 }");
 /// ```
 pub fn debug_bits(f: &mut fmt::Formatter<'_>, raw: u64, layout: &str, values: &[&dyn fmt::Debug]) -> fmt::Result {
-    let (title, fields) = layout.split_once(' ').unwrap_or((layout, ""));
+    let (title, fields) = fields(layout);
     f.write_str(title)?;
     let mut entries = Entries { f, any: false };
     let (mut named, mut values) = (0, values.iter());
-    for field in fields.split_terminator(' ') {
-        let (name, mask) = field.split_once(':').unwrap_or((field, ""));
-        let mask = u64::from_str_radix(mask, 16).unwrap_or(0);
+    for text in fields.split_terminator(' ') {
+        let field = Field::parse(text);
+        let Field { name, mask, is_inverted, is_value } = field;
         named |= mask;
-        let bits = raw & mask;
-        if let Some(name) = name.strip_prefix('?') {
+        if is_value {
             if let Some(value) = values.next() {
                 entries.write(format_args!("{name}: {value:?}"))?;
             }
-        } else if let Some(name) = name.strip_prefix('!') {
-            entries.flag(name, bits == 0)?;
-        } else if mask.count_ones() < 2 {
-            entries.flag(name, bits != 0)?;
+        } else if is_inverted || mask.count_ones() < 2 {
+            entries.flag(name, field.is_set(raw))?;
         } else {
-            entries.write(format_args!("{name}: {}", bits >> mask.trailing_zeros()))?;
+            entries.write(format_args!("{name}: {}", (raw & mask) >> mask.trailing_zeros()))?;
         }
     }
     if raw & !named != 0 {

@@ -123,6 +123,7 @@ mod location;
 mod machine;
 pub mod message;
 pub mod modbus;
+mod named;
 mod node_id;
 #[cfg(test)]
 mod now;
@@ -153,9 +154,9 @@ pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
 pub use access_error::AccessError;
 pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
-pub use bit_field::debug_bits;
 #[doc(hidden)]
 pub use bit_field::{bits16, bits32, bits64, bits8};
+pub use bit_field::{debug_bits, BitField, SetFlags};
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
 pub use bus_address::BusAddress;
 pub use client::{AsyncClient, Client, Timed, Write};
@@ -177,6 +178,7 @@ pub use location::{
     OnImage, OnModbus, OnProfinet, OnSerial,
 };
 pub use machine::{Machine, MachineState, StateWord, Step, Stopped, Transition, WalkError, Walked, Walker};
+pub use named::{display_name, parse_name, Named, UnknownName};
 pub use node_id::NodeId;
 pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWrite, Tpdo};
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};

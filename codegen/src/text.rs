@@ -28,7 +28,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// Returns the Levenshtein distance: the number of characters to insert, delete or replace to get from `a` to `b`.
-pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
+pub fn edit_distance(a: &str, b: &str) -> usize {
     // One row of the usual table: `row[j]` is the distance between the first `i` characters of `a` and the first `j` of `b`.
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, from) in a.chars().enumerate() {

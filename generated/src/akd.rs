@@ -1259,7 +1259,7 @@ pub mod types {
     /// | 3 | [`Bootstrap`](Self::Bootstrap) |
     /// | 4 | [`SafeOperational`](Self::SafeOperational) |
     /// | 8 | [`Operational`](Self::Operational) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CommunicationState {
         /// 1: init. Manual: 4\.3.1 Controllo AL (indirizzo 0x0120:0x0121); 4.3.2 Stato AL (indirizzo 0x0130:0x0131): Inizializzazione.
         Init,
@@ -1275,6 +1275,14 @@ pub mod types {
         Unknown(u8),
     }
     impl CommunicationState {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Init,
+            Self::PreOperational,
+            Self::Bootstrap,
+            Self::SafeOperational,
+            Self::Operational,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1307,6 +1315,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CommunicationState> for u8 {
+        fn from(value: CommunicationState) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for CommunicationState {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CommunicationState {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CommunicationState {}
+    impl core::hash::Hash for CommunicationState {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CommunicationState {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Init, "init"),
+            (Self::PreOperational, "pre-operational"),
+            (Self::Bootstrap, "bootstrap"),
+            (Self::SafeOperational, "safe-operational"),
+            (Self::Operational, "operational"),
+        ];
+    }
+    impl core::fmt::Display for CommunicationState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CommunicationState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AlStatusCode.
     ///
     /// Manual: 4\.3.3 Codice dello stato AL (indirizzo 0x0134:0x0135).
@@ -1318,7 +1367,7 @@ pub mod types {
     /// | 0 | [`NoError`](Self::NoError) | No error is present. This code can occur in every state. |
     /// | 17 | [`InvalidRequestedStateChange`](Self::InvalidRequestedStateChange) | The master requested an invalid transition (I to S, I to O, P to O, O to B, S to B or P to B). The … |
     /// | 23 | [`InvalidSyncManagerConfiguration`](Self::InvalidSyncManagerConfiguration) | The master requested the transition from "init" to "pre-operational" or from "pre-operational" to … |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AlStatusCode {
         /// 0: no error. No error is present. This code can occur in every state. Manual: 4\.3.3 Codice dello stato AL (indirizzo 0x0134:0x0135): Nessun errore.
         NoError,
@@ -1330,6 +1379,12 @@ pub mod types {
         Unknown(u16),
     }
     impl AlStatusCode {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::NoError,
+            Self::InvalidRequestedStateChange,
+            Self::InvalidSyncManagerConfiguration,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -1358,13 +1413,52 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<AlStatusCode> for u16 {
+        fn from(value: AlStatusCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for AlStatusCode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for AlStatusCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AlStatusCode {}
+    impl core::hash::Hash for AlStatusCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AlStatusCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoError, "no error"),
+            (Self::InvalidRequestedStateChange, "invalid requested state change"),
+            (Self::InvalidSyncManagerConfiguration, "invalid sync manager configuration"),
+        ];
+    }
+    impl core::fmt::Display for AlStatusCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AlStatusCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ControlWord target.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Absolute`](Self::Absolute) |
     /// | 1 | [`Relative`](Self::Relative) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ControlWordTarget {
         /// 0: absolute.
         Absolute,
@@ -1372,6 +1466,8 @@ pub mod types {
         Relative,
     }
     impl ControlWordTarget {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Absolute, Self::Relative];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -1396,6 +1492,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ControlWordTarget> for u8 {
+        fn from(value: ControlWordTarget) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ControlWordTarget {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ControlWordTarget {}
+    impl core::hash::Hash for ControlWordTarget {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ControlWordTarget {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Absolute, "absolute"),
+            (Self::Relative, "relative"),
+        ];
+    }
+    impl core::fmt::Display for ControlWordTarget {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ControlWordTarget {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModesOfOperation.
     ///
     /// Manual: Bit dipendenti dalla modalità nella parola di controllo; 4.8 Modalità di funzionamento supportate.
@@ -1412,7 +1541,7 @@ pub mod types {
     /// | 6 | [`Homing`](Self::Homing) | The drive performs its internal homing. |
     /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) | The drive interpolates between cyclic position set-points from the master. |
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModesOfOperation {
         /// 1: profile position. Manual: Bit dipendenti dalla modalità nella parola di controllo: Modalità di posizione del profilo (pp).
         ProfilePosition,
@@ -1430,6 +1559,15 @@ pub mod types {
         Unknown(i8),
     }
     impl ModesOfOperation {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::ProfilePosition,
+            Self::ProfileVelocity,
+            Self::ProfileTorque,
+            Self::Homing,
+            Self::InterpolatedPosition,
+            Self::CyclicSynchronousPosition,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -1464,6 +1602,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModesOfOperation> for i8 {
+        fn from(value: ModesOfOperation) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i8> for ModesOfOperation {
+        fn from(raw: i8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModesOfOperation {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModesOfOperation {}
+    impl core::hash::Hash for ModesOfOperation {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModesOfOperation {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ProfilePosition, "profile position"),
+            (Self::ProfileVelocity, "profile velocity"),
+            (Self::ProfileTorque, "profile torque"),
+            (Self::Homing, "homing"),
+            (Self::InterpolatedPosition, "interpolated position"),
+            (Self::CyclicSynchronousPosition, "cyclic synchronous position"),
+        ];
+    }
+    impl core::fmt::Display for ModesOfOperation {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModesOfOperation {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LatchControl read.
     ///
     /// | Value | Name |
@@ -1472,7 +1652,7 @@ pub mod types {
     /// | 2 | [`Latch1Falling`](Self::Latch1Falling) |
     /// | 3 | [`Latch2Rising`](Self::Latch2Rising) |
     /// | 4 | [`Latch2Falling`](Self::Latch2Falling) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LatchControlRead {
         /// 1: latch 1 rising. Manual: Parola del controllo del blocco (2 byte): Lettura del blocco esterno 1 (tempi di aumento positivi).
         Latch1Rising,
@@ -1486,6 +1666,13 @@ pub mod types {
         Unknown(u8),
     }
     impl LatchControlRead {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Latch1Rising,
+            Self::Latch1Falling,
+            Self::Latch2Rising,
+            Self::Latch2Falling,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1516,6 +1703,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LatchControlRead> for u8 {
+        fn from(value: LatchControlRead) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for LatchControlRead {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for LatchControlRead {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LatchControlRead {}
+    impl core::hash::Hash for LatchControlRead {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LatchControlRead {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Latch1Rising, "latch 1 rising"),
+            (Self::Latch1Falling, "latch 1 falling"),
+            (Self::Latch2Rising, "latch 2 rising"),
+            (Self::Latch2Falling, "latch 2 falling"),
+        ];
+    }
+    impl core::fmt::Display for LatchControlRead {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LatchControlRead {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LatchStatus acquired.
     ///
     /// | Value | Name |
@@ -1524,7 +1751,7 @@ pub mod types {
     /// | 2 | [`Latch1Falling`](Self::Latch1Falling) |
     /// | 3 | [`Latch2Rising`](Self::Latch2Rising) |
     /// | 4 | [`Latch2Falling`](Self::Latch2Falling) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LatchStatusAcquired {
         /// 1: latch 1 rising. Manual: Parola dello stato del blocco (2 byte): Blocco esterno del valore di acquisizione 1 (tempi di aumento positivi).
         Latch1Rising,
@@ -1538,6 +1765,13 @@ pub mod types {
         Unknown(u8),
     }
     impl LatchStatusAcquired {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Latch1Rising,
+            Self::Latch1Falling,
+            Self::Latch2Rising,
+            Self::Latch2Falling,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1568,13 +1802,53 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LatchStatusAcquired> for u8 {
+        fn from(value: LatchStatusAcquired) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for LatchStatusAcquired {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for LatchStatusAcquired {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LatchStatusAcquired {}
+    impl core::hash::Hash for LatchStatusAcquired {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LatchStatusAcquired {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Latch1Rising, "latch 1 rising"),
+            (Self::Latch1Falling, "latch 1 falling"),
+            (Self::Latch2Rising, "latch 2 rising"),
+            (Self::Latch2Falling, "latch 2 falling"),
+        ];
+    }
+    impl core::fmt::Display for LatchStatusAcquired {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LatchStatusAcquired {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Synchronization.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`On`](Self::On) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Synchronization {
         /// 0: off.
         Off,
@@ -1584,6 +1858,8 @@ pub mod types {
         Unknown(u8),
     }
     impl Synchronization {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::On];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1610,13 +1886,51 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<Synchronization> for u8 {
+        fn from(value: Synchronization) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for Synchronization {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for Synchronization {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for Synchronization {}
+    impl core::hash::Hash for Synchronization {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for Synchronization {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::On, "on"),
+        ];
+    }
+    impl core::fmt::Display for Synchronization {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for Synchronization {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Synchronization supervision.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`On`](Self::On) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SynchronizationSupervision {
         /// 0: off.
         Off,
@@ -1626,6 +1940,8 @@ pub mod types {
         Unknown(u8),
     }
     impl SynchronizationSupervision {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::On];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1652,6 +1968,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SynchronizationSupervision> for u8 {
+        fn from(value: SynchronizationSupervision) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for SynchronizationSupervision {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SynchronizationSupervision {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SynchronizationSupervision {}
+    impl core::hash::Hash for SynchronizationSupervision {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SynchronizationSupervision {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::On, "on"),
+        ];
+    }
+    impl core::fmt::Display for SynchronizationSupervision {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SynchronizationSupervision {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// MailboxType protocol.
     ///
     /// | Value | Name | Meaning |
@@ -1659,7 +2013,7 @@ pub mod types {
     /// | 1 | [`AoE`](Self::AoE) | ADS over EtherCAT (AoE), reserved. |
     /// | 2 | [`EoE`](Self::EoE) | Ethernet over EtherCAT (EoE), reserved. |
     /// | 3 | [`CoE`](Self::CoE) | CAN application protocol over EtherCAT (CoE). |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MailboxTypeProtocol {
         /// 1: AoE. This value is reserved. Do not use it. ADS over EtherCAT (AoE), reserved.
         AoE,
@@ -1671,6 +2025,8 @@ pub mod types {
         Unknown(u8),
     }
     impl MailboxTypeProtocol {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [Self::AoE, Self::EoE, Self::CoE];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1699,6 +2055,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<MailboxTypeProtocol> for u8 {
+        fn from(value: MailboxTypeProtocol) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for MailboxTypeProtocol {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for MailboxTypeProtocol {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for MailboxTypeProtocol {}
+    impl core::hash::Hash for MailboxTypeProtocol {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for MailboxTypeProtocol {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::AoE, "AoE"),
+            (Self::EoE, "EoE"),
+            (Self::CoE, "CoE"),
+        ];
+    }
+    impl core::fmt::Display for MailboxTypeProtocol {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for MailboxTypeProtocol {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CoeService.
     ///
     /// Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox.
@@ -1716,7 +2111,7 @@ pub mod types {
     /// | 6 | [`TxPdoRemoteRequest`](Self::TxPdoRemoteRequest) |  |
     /// | 7 | [`RxPdoRemoteRequest`](Self::RxPdoRemoteRequest) |  |
     /// | 8 to 15 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CoeService {
         /// 0: reserved. Do not use this value. Manual: 4\.13.1 Uscita della Mailbox; 4.13.2 Ingresso della Mailbox: Riserva.
         Reserved,
@@ -1738,6 +2133,17 @@ pub mod types {
         Unknown(u8),
     }
     impl CoeService {
+        /// All values with names.
+        pub const ALL: [Self; 8] = [
+            Self::Reserved,
+            Self::Emergency,
+            Self::SdoRequest,
+            Self::SdoResponse,
+            Self::TxPdo,
+            Self::RxPdo,
+            Self::TxPdoRemoteRequest,
+            Self::RxPdoRemoteRequest,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1776,6 +2182,50 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CoeService> for u8 {
+        fn from(value: CoeService) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for CoeService {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CoeService {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CoeService {}
+    impl core::hash::Hash for CoeService {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CoeService {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reserved, "reserved"),
+            (Self::Emergency, "emergency"),
+            (Self::SdoRequest, "SDO request"),
+            (Self::SdoResponse, "SDO response"),
+            (Self::TxPdo, "TxPDO"),
+            (Self::RxPdo, "RxPDO"),
+            (Self::TxPdoRemoteRequest, "TxPDO remote request"),
+            (Self::RxPdoRemoteRequest, "RxPDO remote request"),
+        ];
+    }
+    impl core::fmt::Display for CoeService {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CoeService {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// SdoCommand.
     ///
     /// Manual: 4\.13.1 Uscita della Mailbox.
@@ -1787,7 +2237,7 @@ pub mod types {
     /// | 43 | [`Write2Bytes`](Self::Write2Bytes) |
     /// | 47 | [`Write1Byte`](Self::Write1Byte) |
     /// | 64 | [`Read`](Self::Read) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SdoCommand {
         /// 35: write 4 bytes. Manual: 4\.13.1 Uscita della Mailbox.
         Write4Bytes,
@@ -1803,6 +2253,14 @@ pub mod types {
         Unknown(u8),
     }
     impl SdoCommand {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Write4Bytes,
+            Self::Write3Bytes,
+            Self::Write2Bytes,
+            Self::Write1Byte,
+            Self::Read,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1835,6 +2293,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SdoCommand> for u8 {
+        fn from(value: SdoCommand) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for SdoCommand {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SdoCommand {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SdoCommand {}
+    impl core::hash::Hash for SdoCommand {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SdoCommand {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Write4Bytes, "write 4 bytes"),
+            (Self::Write3Bytes, "write 3 bytes"),
+            (Self::Write2Bytes, "write 2 bytes"),
+            (Self::Write1Byte, "write 1 byte"),
+            (Self::Read, "read"),
+        ];
+    }
+    impl core::fmt::Display for SdoCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SdoCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// SdoResult.
     ///
     /// Manual: 4\.13.2 Ingresso della Mailbox.
@@ -1847,7 +2346,7 @@ pub mod types {
     /// | 79 | [`Read1Byte`](Self::Read1Byte) |  |
     /// | 96 | [`Written`](Self::Written) |  |
     /// | 128 | [`Error`](Self::Error) | The read or write access failed. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SdoResult {
         /// 67: read 4 bytes. Manual: 4\.13.2 Ingresso della Mailbox.
         Read4Bytes,
@@ -1865,6 +2364,15 @@ pub mod types {
         Unknown(u8),
     }
     impl SdoResult {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::Read4Bytes,
+            Self::Read3Bytes,
+            Self::Read2Bytes,
+            Self::Read1Byte,
+            Self::Written,
+            Self::Error,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -1899,6 +2407,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SdoResult> for u8 {
+        fn from(value: SdoResult) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for SdoResult {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SdoResult {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SdoResult {}
+    impl core::hash::Hash for SdoResult {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SdoResult {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Read4Bytes, "read 4 bytes"),
+            (Self::Read3Bytes, "read 3 bytes"),
+            (Self::Read2Bytes, "read 2 bytes"),
+            (Self::Read1Byte, "read 1 byte"),
+            (Self::Written, "written"),
+            (Self::Error, "error"),
+        ];
+    }
+    impl core::fmt::Display for SdoResult {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SdoResult {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AlControl.
     ///
     /// Manual: 4\.3.1 Controllo AL (indirizzo 0x0120:0x0121).
@@ -1911,7 +2461,7 @@ pub mod types {
     /// | 4 | [`acknowledge`](Self::acknowledge) | A rising edge acknowledges an error. The device reacts to the rising edge. |
     /// | 5–7 | reserved |  |
     /// | 8–15 | [`application_specific`](Self::application_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AlControl(u16);
     impl AlControl {
         /// Creates a value in which all bits are 0.
@@ -1968,14 +2518,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AlControl {
+        const LAYOUT: &'static str = "AlControl ?request:f acknowledge:10 application_specific:ff00";
+    }
     impl core::fmt::Debug for AlControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "AlControl ?request:f acknowledge:10 application_specific:ff00",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.request()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for AlControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AlControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AlControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// AlStatus.
@@ -1990,7 +2558,7 @@ pub mod types {
     /// | 4 | [`error`](Self::error) | The last state change failed, for example because the transition is forbidden. The AL status code … |
     /// | 5–7 | reserved |  |
     /// | 8–15 | [`application_specific`](Self::application_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AlStatus(u16);
     impl AlStatus {
         /// Creates a value in which all bits are 0.
@@ -2047,14 +2615,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AlStatus {
+        const LAYOUT: &'static str = "AlStatus ?current:f error:10 application_specific:ff00";
+    }
     impl core::fmt::Debug for AlStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "AlStatus ?current:f error:10 application_specific:ff00",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.current()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for AlStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AlStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AlStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// InterruptEnable.
@@ -2079,7 +2665,7 @@ pub mod types {
     /// | 10 | [`sync_manager_2`](Self::sync_manager_2) | Event of the output process data (cyclic set-points). |
     /// | 11 | [`sync_manager_3`](Self::sync_manager_3) | Event of the input process data (cyclic actual values). |
     /// | 12–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct InterruptEnable(u16);
     impl InterruptEnable {
         /// Creates a value in which all bits are 0.
@@ -2190,14 +2776,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for InterruptEnable {
+        const LAYOUT: &'static str = "InterruptEnable al_control_event:1 dc_sync0:4 dc_sync1:8 sync_manager_activation_changed:10 eeprom_emulation:20 sync_manager_0:100 sync_manager_1:200 sync_manager_2:400 sync_manager_3:800";
+    }
     impl core::fmt::Debug for InterruptEnable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "InterruptEnable al_control_event:1 dc_sync0:4 dc_sync1:8 sync_manager_activation_changed:10 eeprom_emulation:20 sync_manager_0:100 sync_manager_1:200 sync_manager_2:400 sync_manager_3:800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for InterruptEnable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for InterruptEnable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for InterruptEnable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// AlEventRequest.
@@ -2230,7 +2829,7 @@ pub mod types {
     /// | 10 | [`sync_manager_2`](Self::sync_manager_2) | Event of the output process data (cyclic set-points). |
     /// | 11 | [`sync_manager_3`](Self::sync_manager_3) | Event of the input process data (cyclic actual values). |
     /// | 12–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AlEventRequest(u16);
     impl AlEventRequest {
         /// Creates a value in which all bits are 0.
@@ -2341,14 +2940,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AlEventRequest {
+        const LAYOUT: &'static str = "AlEventRequest al_control_event:1 dc_sync0:4 dc_sync1:8 sync_manager_activation_changed:10 eeprom_emulation:20 sync_manager_0:100 sync_manager_1:200 sync_manager_2:400 sync_manager_3:800";
+    }
     impl core::fmt::Debug for AlEventRequest {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "AlEventRequest al_control_event:1 dc_sync0:4 dc_sync1:8 sync_manager_activation_changed:10 eeprom_emulation:20 sync_manager_0:100 sync_manager_1:200 sync_manager_2:400 sync_manager_3:800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for AlEventRequest {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AlEventRequest {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AlEventRequest {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ControlWord.
@@ -2384,7 +2996,7 @@ pub mod types {
     /// | 9–10 | reserved |  |
     /// | 11–12 | reserved |  |
     /// | 13–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ControlWord(u16);
     impl ControlWord {
         /// Creates a value in which all bits are 0.
@@ -2476,14 +3088,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ControlWord {
+        const LAYOUT: &'static str = "ControlWord switch_on:1 !disable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100";
+    }
     impl core::fmt::Debug for ControlWord {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ControlWord switch_on:1 !disable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ControlWord {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ControlWord {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ControlWord {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`ControlWord`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
@@ -2572,7 +3197,7 @@ pub mod types {
     /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A motion is or was limited. The cause depends on the mode. |
     /// | 12–13 | reserved |  |
     /// | 14–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct StatusWord(u16);
     impl StatusWord {
         /// Creates a value in which all bits are 0, except reserved bits that must be 1.
@@ -2695,14 +3320,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for StatusWord {
+        const LAYOUT: &'static str = "StatusWord ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 target_reached:400 internal_limit_active:800";
+    }
     impl core::fmt::Debug for StatusWord {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "StatusWord ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 target_reached:400 internal_limit_active:800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for StatusWord {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for StatusWord {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for StatusWord {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// LatchControl.
@@ -2725,7 +3363,7 @@ pub mod types {
     /// | 5–7 | reserved |  |
     /// | 8–12 | [`read`](Self::read) | Number of the captured position to read (1 to 4). Values: [`LatchControlRead`]. |
     /// | 13–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct LatchControl(u16);
     impl LatchControl {
         /// Creates a value in which all bits are 0.
@@ -2800,14 +3438,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for LatchControl {
+        const LAYOUT: &'static str = "LatchControl enable_latch_1_rising:1 enable_latch_1_falling:2 enable_latch_2_rising:4 enable_latch_2_falling:8 ?read:1f00";
+    }
     impl core::fmt::Debug for LatchControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "LatchControl enable_latch_1_rising:1 enable_latch_1_falling:2 enable_latch_2_rising:4 enable_latch_2_falling:8 ?read:1f00",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.read()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for LatchControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for LatchControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for LatchControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// LatchStatus.
@@ -2831,7 +3487,7 @@ pub mod types {
     /// | 13 | [`digital_input_3`](Self::digital_input_3) |  |
     /// | 14 | [`digital_input_2`](Self::digital_input_2) |  |
     /// | 15 | [`digital_input_1`](Self::digital_input_1) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct LatchStatus(u16);
     impl LatchStatus {
         /// Creates a value in which all bits are 0.
@@ -2942,14 +3598,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for LatchStatus {
+        const LAYOUT: &'static str = "LatchStatus latch_1_rising_valid:1 latch_1_falling_valid:2 latch_2_rising_valid:4 latch_2_falling_valid:8 ?acquired:f00 digital_input_4:1000 digital_input_3:2000 digital_input_2:4000 digital_input_1:8000";
+    }
     impl core::fmt::Debug for LatchStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "LatchStatus latch_1_rising_valid:1 latch_1_falling_valid:2 latch_2_rising_valid:4 latch_2_falling_valid:8 ?acquired:f00 digital_input_4:1000 digital_input_3:2000 digital_input_2:4000 digital_input_1:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.acquired()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for LatchStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for LatchStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for LatchStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// PdoMapping.
@@ -2963,7 +3637,7 @@ pub mod types {
     /// | 0–7 | [`length`](Self::length) | Length of the object in bits. |
     /// | 8–15 | [`sub_index`](Self::sub_index) |  |
     /// | 16–31 | [`index`](Self::index) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct PdoMapping(u32);
     impl PdoMapping {
         /// Creates a value in which all bits are 0.
@@ -3020,14 +3694,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for PdoMapping {
+        const LAYOUT: &'static str = "PdoMapping length:ff sub_index:ff00 index:ffff0000";
+    }
     impl core::fmt::Debug for PdoMapping {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "PdoMapping length:ff sub_index:ff00 index:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for PdoMapping {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for PdoMapping {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for PdoMapping {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// MailboxRouting.
@@ -3038,7 +3725,7 @@ pub mod types {
     /// |---|---|
     /// | 0–5 | [`channel`](Self::channel) |
     /// | 6–7 | [`priority`](Self::priority) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct MailboxRouting(u8);
     impl MailboxRouting {
         /// Creates a value in which all bits are 0.
@@ -3086,14 +3773,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for MailboxRouting {
+        const LAYOUT: &'static str = "MailboxRouting channel:3f priority:c0";
+    }
     impl core::fmt::Debug for MailboxRouting {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "MailboxRouting channel:3f priority:c0",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for MailboxRouting {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for MailboxRouting {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for MailboxRouting {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// MailboxType.
@@ -3108,7 +3808,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–3 | [`protocol`](Self::protocol) | Values: [`MailboxTypeProtocol`]. |
     /// | 4–7 | reserved | A write to an item sets the value 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct MailboxType(u8);
     impl MailboxType {
         /// Creates a value in which all bits are 0.
@@ -3150,14 +3850,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for MailboxType {
+        const LAYOUT: &'static str = "MailboxType ?protocol:f";
+    }
     impl core::fmt::Debug for MailboxType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "MailboxType ?protocol:f",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.protocol()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for MailboxType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for MailboxType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for MailboxType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CoeHeader.
@@ -3171,7 +3889,7 @@ pub mod types {
     /// | 0–8 | [`pdo_number`](Self::pdo_number) | PDO number, for PDO services only. Bit 0 of byte 7 is the most significant bit of the number. |
     /// | 9–11 | reserved | A write to an item sets the value 0. |
     /// | 12–15 | [`service`](Self::service) | Values: [`CoeService`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CoeHeader(u16);
     impl CoeHeader {
         /// Creates a value in which all bits are 0.
@@ -3222,14 +3940,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CoeHeader {
+        const LAYOUT: &'static str = "CoeHeader pdo_number:1ff ?service:f000";
+    }
     impl core::fmt::Debug for CoeHeader {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "CoeHeader pdo_number:1ff ?service:f000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.service()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for CoeHeader {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CoeHeader {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CoeHeader {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// States of al, read from [AL status](super::objects::AL_STATUS).
@@ -3247,7 +3983,7 @@ pub mod types {
     /// | [`Bootstrap`](Self::Bootstrap) | `xxxx xxxx xxxx 0011` |
     /// | [`SafeOperational`](Self::SafeOperational) | `xxxx xxxx xxxx 0100` |
     /// | [`Operational`](Self::Operational) | `xxxx xxxx xxxx 1000` |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum AlState {
         /// init: `xxxx xxxx xxxx 0001`.
         Init,
@@ -3280,11 +4016,25 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::Init => 0x1,
+                Self::PreOperational => 0x2,
+                Self::Bootstrap => 0x3,
+                Self::SafeOperational => 0x4,
+                Self::Operational => 0x8,
+            }
+        }
     }
     impl AlStatus {
         /// Returns the state, or `None` if the bits match no state.
         pub const fn al_state(self) -> Option<AlState> {
             AlState::from_raw(self.0)
+        }
+        /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        pub const fn from_al_state(state: AlState) -> Self {
+            Self(state.value())
         }
     }
     impl AlState {
@@ -3407,7 +4157,7 @@ pub mod types {
     /// | [`Operational`](AlState::Operational) | [`SafeOperational`](AlState::SafeOperational) | [`RequestSafeOperational`](AlCommand::RequestSafeOperational) | The drive disables the hardware interrupt of sync manager 2. |
     /// | [`Operational`](AlState::Operational) | [`PreOperational`](AlState::PreOperational) | [`RequestPreOperational`](AlCommand::RequestPreOperational) | The drive disables the hardware interrupt of sync manager 2. |
     /// | [`Operational`](AlState::Operational) | [`Init`](AlState::Init) | [`RequestInit`](AlCommand::RequestInit) | The drive disables the hardware interrupt of sync manager 2. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum AlCommand {
         /// request init: `xxxx xxxx xxxx 0001`.
         RequestInit,
@@ -3421,6 +4171,27 @@ pub mod types {
         RequestOperational,
     }
     impl AlCommand {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0xF == 0x1 {
+                return Some(Self::RequestInit);
+            }
+            if raw & 0xF == 0x2 {
+                return Some(Self::RequestPreOperational);
+            }
+            if raw & 0xF == 0x3 {
+                return Some(Self::RequestBootstrap);
+            }
+            if raw & 0xF == 0x4 {
+                return Some(Self::RequestSafeOperational);
+            }
+            if raw & 0xF == 0x8 {
+                return Some(Self::RequestOperational);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
@@ -3443,6 +4214,10 @@ pub mod types {
         }
     }
     impl AlControl {
+        /// Returns the command, or `None` if the bits match no command.
+        pub const fn al_command(self) -> Option<AlCommand> {
+            AlCommand::from_raw(self.0)
+        }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_al_command(self, command: AlCommand) -> Self {
@@ -3475,7 +4250,7 @@ pub mod types {
     /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` | A fault is present. The drive is stopped and disabled. |
     /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` | The drive stops with the emergency-stop ramp after a fault. |
     /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` | The drive stops with the quick-stop ramp. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum DriveState {
         /// not ready to switch on: `xxxx xxxx x0xx 0000`. The drive is starting up, or is in an error state.
         NotReadyToSwitchOn,
@@ -3523,11 +4298,28 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::NotReadyToSwitchOn => 0,
+                Self::SwitchOnDisabled => 0x40,
+                Self::ReadyToSwitchOn => 0x21,
+                Self::SwitchedOn => 0x23,
+                Self::OperationEnabled => 0x27,
+                Self::Fault => 0x8,
+                Self::FaultReactionActive => 0xF,
+                Self::QuickStopActive => 0x7,
+            }
+        }
     }
     impl StatusWord {
         /// Returns the state, or `None` if the bits match no state.
         pub const fn drive_state(self) -> Option<DriveState> {
             DriveState::from_raw(self.0)
+        }
+        /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        pub const fn from_drive_state(state: DriveState) -> Self {
+            Self(state.value())
         }
     }
     impl DriveState {
@@ -3704,7 +4496,7 @@ pub mod types {
     /// | 14 | [`FaultReactionActive`](DriveState::FaultReactionActive) | [`Fault`](DriveState::Fault) | automatic | Automatic transition when the fault reaction is complete. |
     /// | 15 | [`Fault`](DriveState::Fault) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`FaultReset`](DriveCommand::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](DriveState::QuickStopActive) | [`OperationEnabled`](DriveState::OperationEnabled) | [`EnableOperation`](DriveCommand::EnableOperation) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum DriveCommand {
         /// shutdown: `xxxx xxxx xxxx x110`.
         Shutdown,
@@ -3722,6 +4514,33 @@ pub mod types {
         FaultReset,
     }
     impl DriveCommand {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0xF == 0x7 {
+                return Some(Self::DisableOperation);
+            }
+            if raw & 0xF == 0xF {
+                return Some(Self::EnableOperation);
+            }
+            if raw & 0x7 == 0x6 {
+                return Some(Self::Shutdown);
+            }
+            if raw & 0x7 == 0x7 {
+                return Some(Self::SwitchOn);
+            }
+            if raw & 0x6 == 0x2 {
+                return Some(Self::QuickStop);
+            }
+            if raw & 0x2 == 0 {
+                return Some(Self::DisableVoltage);
+            }
+            if raw & 0x80 == 0x80 {
+                return Some(Self::FaultReset);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
@@ -3748,6 +4567,10 @@ pub mod types {
         }
     }
     impl ControlWord {
+        /// Returns the command, or `None` if the bits match no command.
+        pub const fn drive_command(self) -> Option<DriveCommand> {
+            DriveCommand::from_raw(self.0)
+        }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_drive_command(self, command: DriveCommand) -> Self {
@@ -3803,7 +4626,7 @@ pub mod codes {
     /// | 0x0000 | [`NoError`](Self::NoError) |
     /// | 0x0011 | [`InvalidRequestedStateChange`](Self::InvalidRequestedStateChange) |
     /// | 0x0017 | [`InvalidSyncManagerConfiguration`](Self::InvalidSyncManagerConfiguration) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum AlStatus {
         /// 0x0000: no error. Manual: 4\.3.3 Codice dello stato AL (indirizzo 0x0134:0x0135): Nessun errore.
         NoError,
@@ -3877,7 +4700,7 @@ pub mod codes {
     /// | 3 | [`ProfileVelocity`](Self::ProfileVelocity) | The drive follows cyclic velocity set-points from the master. |
     /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) | The drive follows cyclic position set-points from the master. |
     /// | 6 | [`Homing`](Self::Homing) | The drive performs its internal homing. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum OperatingModes {
         /// 3: profile velocity. The drive follows cyclic velocity set-points from the master. Manual: 4\.8 Modalità di funzionamento supportate: Velocità del profilo.
         ProfileVelocity,
@@ -3931,7 +4754,7 @@ pub mod codes {
     /// | Code | Name | Meaning |
     /// |---|---|---|
     /// | F125 | [`SynchronizationLost`](Self::SynchronizationLost) | F125: the drive missed more than three CANopen SYNC messages or more than seven EtherCAT frames … |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Faults {
         /// F125: synchronization lost. F125: the drive missed more than three CANopen SYNC messages or more than seven EtherCAT frames while the drive was enabled and FBUS.PARAM04 was 1. Manual: 4\.14 Parametri del bus di campo: Sincronizzazione persa.
         SynchronizationLost,
@@ -4493,7 +5316,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x04, "Entry 4");
-        /// Accessors for the entries of RxPDO mapping 1: 0x1600.
+        /// Accessors for the entries of the object. RxPDO mapping 1: 0x1600.
         pub struct RxPdoMapping1Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -4624,7 +5447,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x04, "Entry 4");
-        /// Accessors for the entries of RxPDO mapping 2: 0x1601.
+        /// Accessors for the entries of the object. RxPDO mapping 2: 0x1601.
         pub struct RxPdoMapping2Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -4755,7 +5578,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x04, "Entry 4");
-        /// Accessors for the entries of RxPDO mapping 3: 0x1602.
+        /// Accessors for the entries of the object. RxPDO mapping 3: 0x1602.
         pub struct RxPdoMapping3Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -4886,7 +5709,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x04, "Entry 4");
-        /// Accessors for the entries of RxPDO mapping 4: 0x1603.
+        /// Accessors for the entries of the object. RxPDO mapping 4: 0x1603.
         pub struct RxPdoMapping4Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5017,7 +5840,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x04, "Entry 4");
-        /// Accessors for the entries of TxPDO mapping 1: 0x1A00.
+        /// Accessors for the entries of the object. TxPDO mapping 1: 0x1A00.
         pub struct TxPdoMapping1Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5148,7 +5971,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x04, "Entry 4");
-        /// Accessors for the entries of TxPDO mapping 2: 0x1A01.
+        /// Accessors for the entries of the object. TxPDO mapping 2: 0x1A01.
         pub struct TxPdoMapping2Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5279,7 +6102,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x04, "Entry 4");
-        /// Accessors for the entries of TxPDO mapping 3: 0x1A02.
+        /// Accessors for the entries of the object. TxPDO mapping 3: 0x1A02.
         pub struct TxPdoMapping3Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5410,7 +6233,7 @@ pub mod objects {
             super::super::types::PdoMapping,
             rt::OnCoE,
         > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x04, "Entry 4");
-        /// Accessors for the entries of TxPDO mapping 4: 0x1A03.
+        /// Accessors for the entries of the object. TxPDO mapping 4: 0x1A03.
         pub struct TxPdoMapping4Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5546,7 +6369,7 @@ pub mod objects {
             0x04,
             "PDO 4",
         );
-        /// Accessors for the entries of Sync manager 2 assignment: 0x1C12.
+        /// Accessors for the entries of the object. Sync manager 2 assignment: 0x1C12.
         pub struct SyncManager2AssignmentAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5654,7 +6477,7 @@ pub mod objects {
             0x04,
             "PDO 4",
         );
-        /// Accessors for the entries of Sync manager 3 assignment: 0x1C13.
+        /// Accessors for the entries of the object. Sync manager 3 assignment: 0x1C13.
         pub struct SyncManager3AssignmentAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5870,7 +6693,7 @@ pub mod objects {
             "Position command value",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of Interpolation data record: 0x60C1.
+        /// Accessors for the entries of the object. Interpolation data record: 0x60C1.
         pub struct InterpolationDataRecordAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -5933,7 +6756,7 @@ pub mod objects {
             0x02,
             "Interpolation time index",
         );
-        /// Accessors for the entries of Interpolation time period: 0x60C2.
+        /// Accessors for the entries of the object. Interpolation time period: 0x60C2.
         pub struct InterpolationTimePeriodAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -6015,7 +6838,7 @@ pub mod objects {
             "Physical outputs",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of Digital outputs: 0x60FE.
+        /// Accessors for the entries of the object. Digital outputs: 0x60FE.
         pub struct DigitalOutputsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

@@ -461,7 +461,7 @@ pub mod types {
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
     /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModesOfOperation {
         /// 0: no mode.
         NoMode,
@@ -489,6 +489,20 @@ pub mod types {
         Unknown(i8),
     }
     impl ModesOfOperation {
+        /// All values with names.
+        pub const ALL: [Self; 11] = [
+            Self::NoMode,
+            Self::ProfilePosition,
+            Self::Velocity,
+            Self::ProfileVelocity,
+            Self::ProfileTorque,
+            Self::Homing,
+            Self::InterpolatedPosition,
+            Self::CyclicSynchronousPosition,
+            Self::CyclicSynchronousVelocity,
+            Self::CyclicSynchronousTorque,
+            Self::CyclicSynchronousTorqueWithAngle,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -533,6 +547,56 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModesOfOperation> for i8 {
+        fn from(value: ModesOfOperation) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i8> for ModesOfOperation {
+        fn from(raw: i8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModesOfOperation {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModesOfOperation {}
+    impl core::hash::Hash for ModesOfOperation {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModesOfOperation {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoMode, "no mode"),
+            (Self::ProfilePosition, "profile position"),
+            (Self::Velocity, "velocity"),
+            (Self::ProfileVelocity, "profile velocity"),
+            (Self::ProfileTorque, "profile torque"),
+            (Self::Homing, "homing"),
+            (Self::InterpolatedPosition, "interpolated position"),
+            (Self::CyclicSynchronousPosition, "cyclic synchronous position"),
+            (Self::CyclicSynchronousVelocity, "cyclic synchronous velocity"),
+            (Self::CyclicSynchronousTorque, "cyclic synchronous torque"),
+            (
+                Self::CyclicSynchronousTorqueWithAngle,
+                "cyclic synchronous torque with angle",
+            ),
+        ];
+    }
+    impl core::fmt::Display for ModesOfOperation {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModesOfOperation {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// StoreParameters.
     ///
     /// Definition from CiA 301, 7.5.2.13.
@@ -546,7 +610,7 @@ pub mod types {
     /// | 2 | [`AtOnce`](Self::AtOnce) | Value read if the device stores parameters automatically. |
     /// | 3 | [`OnCommandAndAtOnce`](Self::OnCommandAndAtOnce) | Value read if the device stores parameters on command and automatically. |
     /// | 0x65766173 | [`Save`](Self::Save) | Value written to store the parameters (ASCII "save"). |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum StoreParameters {
         /// 0: never. Value read if the device cannot store parameters.
         Never,
@@ -562,6 +626,14 @@ pub mod types {
         Unknown(u32),
     }
     impl StoreParameters {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Never,
+            Self::OnCommand,
+            Self::AtOnce,
+            Self::OnCommandAndAtOnce,
+            Self::Save,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u32) -> Self {
             match raw {
@@ -594,6 +666,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<StoreParameters> for u32 {
+        fn from(value: StoreParameters) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u32> for StoreParameters {
+        fn from(raw: u32) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for StoreParameters {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for StoreParameters {}
+    impl core::hash::Hash for StoreParameters {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for StoreParameters {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Never, "never"),
+            (Self::OnCommand, "on command"),
+            (Self::AtOnce, "at once"),
+            (Self::OnCommandAndAtOnce, "on command and at once"),
+            (Self::Save, "save"),
+        ];
+    }
+    impl core::fmt::Display for StoreParameters {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for StoreParameters {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ReceiveType.
     ///
     /// Time at which the device applies the received data.
@@ -608,7 +721,7 @@ pub mod types {
     /// | 241 to 253 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The data are applied at once, or as the manufacturer defines. |
     /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | The data are applied at once, or as the device profile defines. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ReceiveType {
         /// 254: event of the manufacturer. The data are applied at once, or as the manufacturer defines.
         EventOfTheManufacturer,
@@ -618,6 +731,11 @@ pub mod types {
         Unknown(u8),
     }
     impl ReceiveType {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [
+            Self::EventOfTheManufacturer,
+            Self::EventOfTheProfile,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -644,6 +762,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ReceiveType> for u8 {
+        fn from(value: ReceiveType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for ReceiveType {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ReceiveType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ReceiveType {}
+    impl core::hash::Hash for ReceiveType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ReceiveType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::EventOfTheManufacturer, "event of the manufacturer"),
+            (Self::EventOfTheProfile, "event of the profile"),
+        ];
+    }
+    impl core::fmt::Display for ReceiveType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ReceiveType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TransmitType.
     ///
     /// Condition for the transmission of the PDO.
@@ -661,7 +817,7 @@ pub mod types {
     /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | The PDO is sampled and transmitted when a remote frame requests it. |
     /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | The PDO is transmitted after events that the manufacturer defines. |
     /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | The PDO is transmitted after events that the device profile defines. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TransmitType {
         /// 0: synchronous acyclic. The PDO is transmitted at the next SYNC after an event.
         SynchronousAcyclic,
@@ -677,6 +833,14 @@ pub mod types {
         Unknown(u8),
     }
     impl TransmitType {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::SynchronousAcyclic,
+            Self::RemoteRequestSynchronous,
+            Self::RemoteRequest,
+            Self::EventOfTheManufacturer,
+            Self::EventOfTheProfile,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -709,6 +873,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TransmitType> for u8 {
+        fn from(value: TransmitType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for TransmitType {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for TransmitType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TransmitType {}
+    impl core::hash::Hash for TransmitType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TransmitType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SynchronousAcyclic, "synchronous acyclic"),
+            (Self::RemoteRequestSynchronous, "remote request, synchronous"),
+            (Self::RemoteRequest, "remote request"),
+            (Self::EventOfTheManufacturer, "event of the manufacturer"),
+            (Self::EventOfTheProfile, "event of the profile"),
+        ];
+    }
+    impl core::fmt::Display for TransmitType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TransmitType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Controlword.
     ///
     /// Definition from CiA 402, 10.3.1.
@@ -736,7 +941,7 @@ pub mod types {
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
     /// | 10 | reserved | A write to an item sets the value 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Controlword(u16);
     impl Controlword {
         /// Creates a value in which all bits are 0.
@@ -850,14 +1055,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Controlword {
+        const LAYOUT: &'static str = "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 manufacturer_specific:f800";
+    }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 manufacturer_specific:f800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
@@ -1009,7 +1227,7 @@ pub mod types {
     /// | 13 | [`in_homing().homing_error()`](StatuswordInHoming::homing_error) |  |
     /// | 13 | [`in_cyclic_synchronous_position().following_error()`](StatuswordInCyclicSynchronousPosition::following_error) |  |
     /// | 14–15 | [`manufacturer_specific_14`](Self::manufacturer_specific_14) | manufacturer specific. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Statusword(u16);
     impl Statusword {
         /// Creates a value in which all bits are 0.
@@ -1190,14 +1408,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Statusword {
+        const LAYOUT: &'static str = "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 manufacturer_specific_8:100 remote:200 target_reached:400 internal_limit_active:800 manufacturer_specific_14:c000";
+    }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 manufacturer_specific_8:100 remote:200 target_reached:400 internal_limit_active:800 manufacturer_specific_14:c000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "profile position" (1).
@@ -1372,7 +1603,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–15 | [`profile`](Self::profile) | Number of the device profile, or 0 if the device follows no profile. |
     /// | 16–31 | [`additional_information`](Self::additional_information) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DeviceType(u32);
     impl DeviceType {
         /// Creates a value in which all bits are 0.
@@ -1420,14 +1651,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DeviceType {
+        const LAYOUT: &'static str = "DeviceType profile:ffff additional_information:ffff0000";
+    }
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DeviceType profile:ffff additional_information:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ErrorRegister.
@@ -1448,7 +1692,7 @@ pub mod types {
     /// | 5 | [`device_profile`](Self::device_profile) |  |
     /// | 6 | reserved | A write to an item sets the value 0. |
     /// | 7 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
         /// Creates a value in which all bits are 0.
@@ -1544,14 +1788,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorRegister {
+        const LAYOUT: &'static str = "ErrorRegister generic:1 current:2 voltage:4 temperature:8 communication:10 device_profile:20 manufacturer_specific:80";
+    }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ErrorRegister generic:1 current:2 voltage:4 temperature:8 communication:10 device_profile:20 manufacturer_specific:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// MappingEntry.
@@ -1565,7 +1822,7 @@ pub mod types {
     /// | 0–7 | [`length`](Self::length) | Length of the object in bits. |
     /// | 8–15 | [`sub_index`](Self::sub_index) |  |
     /// | 16–31 | [`index`](Self::index) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct MappingEntry(u32);
     impl MappingEntry {
         /// Creates a value in which all bits are 0.
@@ -1622,14 +1879,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for MappingEntry {
+        const LAYOUT: &'static str = "MappingEntry length:ff sub_index:ff00 index:ffff0000";
+    }
     impl core::fmt::Debug for MappingEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "MappingEntry length:ff sub_index:ff00 index:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for MappingEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for MappingEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for MappingEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ErrorFieldEntry.
@@ -1642,7 +1912,7 @@ pub mod types {
     /// |---|---|
     /// | 0–15 | [`error_code`](Self::error_code) |
     /// | 16–31 | [`additional_information`](Self::additional_information) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
         /// Creates a value in which all bits are 0.
@@ -1690,14 +1960,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorFieldEntry {
+        const LAYOUT: &'static str = "ErrorFieldEntry error_code:ffff additional_information:ffff0000";
+    }
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ErrorFieldEntry error_code:ffff additional_information:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// SyncIdentifier.
@@ -1711,7 +1994,7 @@ pub mod types {
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`generates`](Self::generates) | The device transmits SYNC messages. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
         /// Creates a value in which all bits are 0.
@@ -1768,14 +2051,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for SyncIdentifier {
+        const LAYOUT: &'static str = "SyncIdentifier identifier:1fffffff extended:20000000 generates:40000000";
+    }
     impl core::fmt::Debug for SyncIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "SyncIdentifier identifier:1fffffff extended:20000000 generates:40000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// EmergencyIdentifier.
@@ -1792,7 +2088,7 @@ pub mod types {
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | reserved | A write to an item sets the value 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
         /// Creates a value in which all bits are 0.
@@ -1852,14 +2148,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EmergencyIdentifier {
+        const LAYOUT: &'static str = "EmergencyIdentifier identifier:1fffffff extended:20000000 !valid:80000000";
+    }
     impl core::fmt::Debug for EmergencyIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "EmergencyIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// RevisionNumber.
@@ -1872,7 +2181,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–15 | [`minor`](Self::minor) | Minor revision number, which changes if a new revision does not change the behavior of the device … |
     /// | 16–31 | [`major`](Self::major) | Major revision number, which changes if the behavior of the device on the bus changes. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
         /// Creates a value in which all bits are 0.
@@ -1920,14 +2229,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for RevisionNumber {
+        const LAYOUT: &'static str = "RevisionNumber minor:ffff major:ffff0000";
+    }
     impl core::fmt::Debug for RevisionNumber {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "RevisionNumber minor:ffff major:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ReceivePdoIdentifier.
@@ -1941,7 +2263,7 @@ pub mod types {
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
         /// Creates a value in which all bits are 0.
@@ -1998,14 +2320,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ReceivePdoIdentifier {
+        const LAYOUT: &'static str = "ReceivePdoIdentifier identifier:1fffffff extended:20000000 !valid:80000000";
+    }
     impl core::fmt::Debug for ReceivePdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ReceivePdoIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// TransmitPdoIdentifier.
@@ -2020,7 +2355,7 @@ pub mod types {
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`remote_request`](Self::remote_request) | 0 if a remote frame may request the PDO. Active low: the flag is true if the bit is 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
         /// Creates a value in which all bits are 0.
@@ -2086,14 +2421,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TransmitPdoIdentifier {
+        const LAYOUT: &'static str = "TransmitPdoIdentifier identifier:1fffffff extended:20000000 !remote_request:40000000 !valid:80000000";
+    }
     impl core::fmt::Debug for TransmitPdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "TransmitPdoIdentifier identifier:1fffffff extended:20000000 !remote_request:40000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// States of drive, read from [Statusword](super::objects::STATUSWORD).
@@ -2110,7 +2458,7 @@ pub mod types {
     /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
     /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
     /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum State {
         /// not ready to switch on: `xxxx xxxx x0xx 0000`.
         NotReadyToSwitchOn,
@@ -2158,11 +2506,28 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::NotReadyToSwitchOn => 0,
+                Self::SwitchOnDisabled => 0x40,
+                Self::ReadyToSwitchOn => 0x21,
+                Self::SwitchedOn => 0x23,
+                Self::OperationEnabled => 0x27,
+                Self::QuickStopActive => 0x7,
+                Self::FaultReactionActive => 0xF,
+                Self::Fault => 0x8,
+            }
+        }
     }
     impl Statusword {
         /// Returns the state, or `None` if the bits match no state.
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
+        }
+        /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        pub const fn from_state(state: State) -> Self {
+            Self(state.value())
         }
     }
     impl State {
@@ -2315,7 +2680,7 @@ pub mod types {
     /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
     /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic transition when a fault occurs. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Command {
         /// shutdown: `xxxx xxxx 0xxx x110`.
         Shutdown,
@@ -2333,6 +2698,33 @@ pub mod types {
         FaultReset,
     }
     impl Command {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0x8F == 0x7 {
+                return Some(Self::SwitchOn);
+            }
+            if raw & 0x8F == 0xF {
+                return Some(Self::EnableOperation);
+            }
+            if raw & 0x8F == 0x7 {
+                return Some(Self::DisableOperation);
+            }
+            if raw & 0x87 == 0x6 {
+                return Some(Self::Shutdown);
+            }
+            if raw & 0x86 == 0x2 {
+                return Some(Self::QuickStop);
+            }
+            if raw & 0x82 == 0 {
+                return Some(Self::DisableVoltage);
+            }
+            if raw & 0x80 == 0x80 {
+                return Some(Self::FaultReset);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
@@ -2359,6 +2751,10 @@ pub mod types {
         }
     }
     impl Controlword {
+        /// Returns the command, or `None` if the bits match no command.
+        pub const fn command(self) -> Option<Command> {
+            Command::from_raw(self.0)
+        }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_command(self, command: Command) -> Self {
@@ -2446,7 +2842,7 @@ pub mod codes {
     /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
     /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
     /// | 0xF004 | [`Control`](Self::Control) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
         ContinuousOverCurrent,
@@ -2710,7 +3106,7 @@ pub mod codes {
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
     /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Emergency {
         /// 0x0000: no error. No error is present, or an error was reset.
         NoError,
@@ -3027,7 +3423,7 @@ pub mod objects {
             0x04,
             "Pre-defined error field4",
         );
-        /// Accessors for the entries of Pre-defined error field: 0x1003.
+        /// Accessors for the entries of the object. Pre-defined error field: 0x1003.
         pub struct PreDefinedErrorFieldAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3135,7 +3531,7 @@ pub mod objects {
             "Save all parameters",
             super::super::types::StoreParameters::from_raw(1),
         );
-        /// Accessors for the entries of Store parameters: 0x1010.
+        /// Accessors for the entries of the object. Store parameters: 0x1010.
         pub struct StoreParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3255,7 +3651,7 @@ pub mod objects {
             0x04,
             "Serial number",
         );
-        /// Accessors for the entries of Identity object: 0x1018.
+        /// Accessors for the entries of the object. Identity object: 0x1018.
         pub struct IdentityObjectAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3348,7 +3744,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::ReceiveType::from_raw(255),
         );
-        /// Accessors for the entries of RPDO 1 communication: 0x1400.
+        /// Accessors for the entries of the object. RPDO 1 communication: 0x1400.
         pub struct Rpdo1CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3433,7 +3829,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::ReceiveType::from_raw(1),
         );
-        /// Accessors for the entries of RPDO 2 communication: 0x1401.
+        /// Accessors for the entries of the object. RPDO 2 communication: 0x1401.
         pub struct Rpdo2CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3497,7 +3893,7 @@ pub mod objects {
             "Mapped object 1",
             super::super::types::MappingEntry::from_raw(0x60400010),
         );
-        /// Accessors for the entries of RPDO 1 mapping: 0x1600.
+        /// Accessors for the entries of the object. RPDO 1 mapping: 0x1600.
         pub struct Rpdo1MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3562,7 +3958,7 @@ pub mod objects {
             "Mapped object 2",
             super::super::types::MappingEntry::from_raw(0x607A0020),
         );
-        /// Accessors for the entries of RPDO 2 mapping: 0x1601.
+        /// Accessors for the entries of the object. RPDO 2 mapping: 0x1601.
         pub struct Rpdo2MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3643,7 +4039,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmitType::from_raw(255),
         );
-        /// Accessors for the entries of TPDO 1 communication: 0x1800.
+        /// Accessors for the entries of the object. TPDO 1 communication: 0x1800.
         pub struct Tpdo1CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3728,7 +4124,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmitType::from_raw(1),
         );
-        /// Accessors for the entries of TPDO 2 communication: 0x1801.
+        /// Accessors for the entries of the object. TPDO 2 communication: 0x1801.
         pub struct Tpdo2CommunicationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3792,7 +4188,7 @@ pub mod objects {
             "Mapped object 1",
             super::super::types::MappingEntry::from_raw(0x60410010),
         );
-        /// Accessors for the entries of TPDO 1 mapping: 0x1A00.
+        /// Accessors for the entries of the object. TPDO 1 mapping: 0x1A00.
         pub struct Tpdo1MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3857,7 +4253,7 @@ pub mod objects {
             "Mapped object 2",
             super::super::types::MappingEntry::from_raw(0x60640020),
         );
-        /// Accessors for the entries of TPDO 2 mapping: 0x1A01.
+        /// Accessors for the entries of the object. TPDO 2 mapping: 0x1A01.
         pub struct Tpdo2MappingAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -3942,7 +4338,7 @@ pub mod objects {
             "Input 2",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of Analog inputs: 0x2010.
+        /// Accessors for the entries of the object. Analog inputs: 0x2010.
         pub struct AnalogInputsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -4084,7 +4480,7 @@ pub mod objects {
             "Max position limit",
             1000000,
         );
-        /// Accessors for the entries of Software position limit: 0x607D.
+        /// Accessors for the entries of the object. Software position limit: 0x607D.
         pub struct SoftwarePositionLimitAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

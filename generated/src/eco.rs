@@ -3959,7 +3959,7 @@ pub mod types {
     /// | -50 | [`SaveAndLoad`](Self::SaveAndLoad) | Mode for saving and loading on Modbus and PROFINET. The list of modes of 0x6060 does not contain … |
     /// | -127 | [`AnalogReference`](Self::AnalogReference) | Mode with an analog velocity reference. The mode exists only on models with the required hardware. |
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Mode {
         /// 1: positioner. Manual: Registri; Descrizione degli oggetti del Device Profile; Utilizzo degli Slots.
         Positioner,
@@ -3983,6 +3983,18 @@ pub mod types {
         Unknown(i8),
     }
     impl Mode {
+        /// All values with names.
+        pub const ALL: [Self; 9] = [
+            Self::Positioner,
+            Self::Velocity,
+            Self::Homing,
+            Self::Interpolator,
+            Self::PulsePositioner,
+            Self::ElectricAxis,
+            Self::SaveAndLoad,
+            Self::AnalogReference,
+            Self::CyclicSynchronousPosition,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -4023,6 +4035,51 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<Mode> for i8 {
+        fn from(value: Mode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i8> for Mode {
+        fn from(raw: i8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for Mode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for Mode {}
+    impl core::hash::Hash for Mode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for Mode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Positioner, "positioner"),
+            (Self::Velocity, "velocity"),
+            (Self::Homing, "homing"),
+            (Self::Interpolator, "interpolator"),
+            (Self::PulsePositioner, "pulse positioner"),
+            (Self::ElectricAxis, "electric axis"),
+            (Self::SaveAndLoad, "save and load"),
+            (Self::AnalogReference, "analog reference"),
+            (Self::CyclicSynchronousPosition, "cyclic synchronous position"),
+        ];
+    }
+    impl core::fmt::Display for Mode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for Mode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HomingMethod.
     ///
     /// Homing methods that the examples use. The companion manual describes the homing methods of the drive.
@@ -4039,7 +4096,7 @@ pub mod types {
     /// |---|---|
     /// | 33 | [`MarkerBackwards`](Self::MarkerBackwards) |
     /// | 34 | [`MarkerForwards`](Self::MarkerForwards) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HomingMethod {
         /// 33: marker backwards. Manual: Esempio di configurazione dell’asse; Esempio posizionamento punto a punto.
         MarkerBackwards,
@@ -4049,6 +4106,8 @@ pub mod types {
         Unknown(u8),
     }
     impl HomingMethod {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::MarkerBackwards, Self::MarkerForwards];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -4075,6 +4134,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HomingMethod> for u8 {
+        fn from(value: HomingMethod) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for HomingMethod {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for HomingMethod {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HomingMethod {}
+    impl core::hash::Hash for HomingMethod {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HomingMethod {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::MarkerBackwards, "marker backwards"),
+            (Self::MarkerForwards, "marker forwards"),
+        ];
+    }
+    impl core::fmt::Display for HomingMethod {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HomingMethod {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// MotionProfile.
     ///
     /// Manual: Descrizione degli oggetti del Device Profile.
@@ -4086,7 +4183,7 @@ pub mod types {
     /// | 0 | [`Trapezoidal`](Self::Trapezoidal) |
     /// | -1 | [`SRamp`](Self::SRamp) |
     /// | -2 | [`SineRamp`](Self::SineRamp) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MotionProfile {
         /// 0: trapezoidal. Manual: Descrizione degli oggetti del Device Profile: profilo trapezoidale.
         Trapezoidal,
@@ -4098,6 +4195,8 @@ pub mod types {
         Unknown(i16),
     }
     impl MotionProfile {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [Self::Trapezoidal, Self::SRamp, Self::SineRamp];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -4126,6 +4225,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<MotionProfile> for i16 {
+        fn from(value: MotionProfile) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for MotionProfile {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for MotionProfile {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for MotionProfile {}
+    impl core::hash::Hash for MotionProfile {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for MotionProfile {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Trapezoidal, "trapezoidal"),
+            (Self::SRamp, "s ramp"),
+            (Self::SineRamp, "sine ramp"),
+        ];
+    }
+    impl core::fmt::Display for MotionProfile {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for MotionProfile {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Exceptions.
     ///
     /// Manual: Configurazione della rete; Estensione della mappatura degli indirizzi per.
@@ -4136,7 +4274,7 @@ pub mod types {
     /// |---|---|---|
     /// | 6 | [`NoParity`](Self::NoParity) | No parity on Modbus. With all other values of E3, the parity is even. |
     /// | 9 | [`AddressesForSiemens`](Self::AddressesForSiemens) | Modbus addresses for Siemens controllers: parameters from 40001, registers from 44096. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Exceptions {
         /// 6: no parity. No parity on Modbus. With all other values of E3, the parity is even. Manual: Configurazione della rete: nessuna parità.
         NoParity,
@@ -4146,6 +4284,8 @@ pub mod types {
         Unknown(u16),
     }
     impl Exceptions {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoParity, Self::AddressesForSiemens];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -4172,6 +4312,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<Exceptions> for u16 {
+        fn from(value: Exceptions) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for Exceptions {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for Exceptions {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for Exceptions {}
+    impl core::hash::Hash for Exceptions {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for Exceptions {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoParity, "no parity"),
+            (Self::AddressesForSiemens, "addresses for Siemens"),
+        ];
+    }
+    impl core::fmt::Display for Exceptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for Exceptions {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// MiniInputs.
     ///
     /// Functions of the inputs at pins 11 (DIR), 10 (PULSE) and 5 (IEN) of connector CN1.
@@ -4191,7 +4369,7 @@ pub mod types {
     /// | 4 | [`StartAndNegativeLimit`](Self::StartAndNegativeLimit) |  |
     /// | 5 | [`StartAndPositiveLimit`](Self::StartAndPositiveLimit) |  |
     /// | 6 | [`StartAndHome`](Self::StartAndHome) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MiniInputs {
         /// 0: limits and home. Manual: digital\_inputs su MiniECO standard o miniECO PLUS.
         LimitsAndHome,
@@ -4211,6 +4389,16 @@ pub mod types {
         Unknown(u16),
     }
     impl MiniInputs {
+        /// All values with names.
+        pub const ALL: [Self; 7] = [
+            Self::LimitsAndHome,
+            Self::LimitsAndLatch,
+            Self::LimitsAndStart,
+            Self::StartHomeAndLatch,
+            Self::StartAndNegativeLimit,
+            Self::StartAndPositiveLimit,
+            Self::StartAndHome,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -4247,6 +4435,49 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<MiniInputs> for u16 {
+        fn from(value: MiniInputs) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for MiniInputs {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for MiniInputs {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for MiniInputs {}
+    impl core::hash::Hash for MiniInputs {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for MiniInputs {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::LimitsAndHome, "limits and home"),
+            (Self::LimitsAndLatch, "limits and latch"),
+            (Self::LimitsAndStart, "limits and start"),
+            (Self::StartHomeAndLatch, "start, home and latch"),
+            (Self::StartAndNegativeLimit, "start and negative limit"),
+            (Self::StartAndPositiveLimit, "start and positive limit"),
+            (Self::StartAndHome, "start and home"),
+        ];
+    }
+    impl core::fmt::Display for MiniInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for MiniInputs {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Network.
     ///
     /// Values of c9 that select a bus. The manual does not state further values of c9.
@@ -4261,7 +4492,7 @@ pub mod types {
     /// | 5 | [`CaNopen`](Self::CaNopen) |
     /// | 11 | [`EtherCat`](Self::EtherCat) |
     /// | 13 | [`Profinet`](Self::Profinet) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Network {
         /// 3: Modbus RTU. Manual: Configurazione della rete.
         ModbusRtu,
@@ -4275,6 +4506,13 @@ pub mod types {
         Unknown(u16),
     }
     impl Network {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::ModbusRtu,
+            Self::CaNopen,
+            Self::EtherCat,
+            Self::Profinet,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -4305,6 +4543,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<Network> for u16 {
+        fn from(value: Network) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for Network {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for Network {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for Network {}
+    impl core::hash::Hash for Network {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for Network {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ModbusRtu, "Modbus RTU"),
+            (Self::CaNopen, "CANopen"),
+            (Self::EtherCat, "EtherCAT"),
+            (Self::Profinet, "PROFINET"),
+        ];
+    }
+    impl core::fmt::Display for Network {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for Network {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// BitRate.
     ///
     /// Manual: Configurazione della rete; Configurazione del drive per il funzionamento in CANopen.
@@ -4321,7 +4599,7 @@ pub mod types {
     /// | 6 | [`_500KbitS`](Self::_500KbitS) | 500 kbit/s. |
     /// | 7 | [`_800KbitS`](Self::_800KbitS) | 800 kbit/s. |
     /// | 8 | [`_1MbitS`](Self::_1MbitS) | 1 Mbit/s. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum BitRate {
         /// 1: 10 kbit/s. Manual: Configurazione della rete.
         _10KbitS,
@@ -4343,6 +4621,17 @@ pub mod types {
         Unknown(u16),
     }
     impl BitRate {
+        /// All values with names.
+        pub const ALL: [Self; 8] = [
+            Self::_10KbitS,
+            Self::_20KbitS,
+            Self::_50KbitS,
+            Self::_125KbitS,
+            Self::_250KbitS,
+            Self::_500KbitS,
+            Self::_800KbitS,
+            Self::_1MbitS,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -4381,6 +4670,50 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<BitRate> for u16 {
+        fn from(value: BitRate) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for BitRate {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for BitRate {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for BitRate {}
+    impl core::hash::Hash for BitRate {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for BitRate {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::_10KbitS, "10 kbit/s"),
+            (Self::_20KbitS, "20 kbit/s"),
+            (Self::_50KbitS, "50 kbit/s"),
+            (Self::_125KbitS, "125 kbit/s"),
+            (Self::_250KbitS, "250 kbit/s"),
+            (Self::_500KbitS, "500 kbit/s"),
+            (Self::_800KbitS, "800 kbit/s"),
+            (Self::_1MbitS, "1 Mbit/s"),
+        ];
+    }
+    impl core::fmt::Display for BitRate {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for BitRate {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TransmissionType.
     ///
     /// Manual: Process data exchange with PDOs; Servizio PDO.
@@ -4395,7 +4728,7 @@ pub mod types {
     /// | 252 | [`SynchronousOnRequest`](Self::SynchronousOnRequest) | Transmission type that is only in the general table of the manual, not in the description of the … |
     /// | 253 | [`AsynchronousOnRequest`](Self::AsynchronousOnRequest) | Transmission type that is only in the general table of the manual, not in the description of the … |
     /// | 254 to 255 | [`Unknown`](Self::Unknown) | asynchronous. A TPDO is transmitted on its event or when its event timer expires, after the inhibit time. An RPDO … |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TransmissionType {
         /// 0: acyclic synchronous. A TPDO is transmitted at the next SYNC after its event. An RPDO is applied at the next SYNC. Manual: Process data exchange with PDOs; Servizio PDO.
         AcyclicSynchronous,
@@ -4407,6 +4740,12 @@ pub mod types {
         Unknown(u8),
     }
     impl TransmissionType {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::AcyclicSynchronous,
+            Self::SynchronousOnRequest,
+            Self::AsynchronousOnRequest,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -4435,6 +4774,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TransmissionType> for u8 {
+        fn from(value: TransmissionType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for TransmissionType {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for TransmissionType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TransmissionType {}
+    impl core::hash::Hash for TransmissionType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TransmissionType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::AcyclicSynchronous, "acyclic synchronous"),
+            (Self::SynchronousOnRequest, "synchronous on request"),
+            (Self::AsynchronousOnRequest, "asynchronous on request"),
+        ];
+    }
+    impl core::fmt::Display for TransmissionType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TransmissionType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Statusword homing.
     ///
     /// | Value | Name |
@@ -4443,7 +4821,7 @@ pub mod types {
     /// | 1 | [`Done`](Self::Done) |
     /// | 2 | [`Interrupted`](Self::Interrupted) |
     /// | 3 | [`Forbidden`](Self::Forbidden) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum StatuswordHoming {
         /// 0: not done.
         NotDone,
@@ -4455,6 +4833,13 @@ pub mod types {
         Forbidden,
     }
     impl StatuswordHoming {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::NotDone,
+            Self::Done,
+            Self::Interrupted,
+            Self::Forbidden,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -4483,6 +4868,41 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<StatuswordHoming> for u8 {
+        fn from(value: StatuswordHoming) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for StatuswordHoming {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for StatuswordHoming {}
+    impl core::hash::Hash for StatuswordHoming {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for StatuswordHoming {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotDone, "not done"),
+            (Self::Done, "done"),
+            (Self::Interrupted, "interrupted"),
+            (Self::Forbidden, "forbidden"),
+        ];
+    }
+    impl core::fmt::Display for StatuswordHoming {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for StatuswordHoming {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// StoreParameters.
     ///
     /// Definition from CiA 301, 7.5.2.13.
@@ -4496,7 +4916,7 @@ pub mod types {
     /// | 2 | [`AtOnce`](Self::AtOnce) | Value read if the device stores parameters automatically. |
     /// | 3 | [`OnCommandAndAtOnce`](Self::OnCommandAndAtOnce) | Value read if the device stores parameters on command and automatically. |
     /// | 0x65766173 | [`Save`](Self::Save) | Value written to store the parameters (ASCII "save"). |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum StoreParameters {
         /// 0: never. Value read if the device cannot store parameters.
         Never,
@@ -4512,6 +4932,14 @@ pub mod types {
         Unknown(u32),
     }
     impl StoreParameters {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Never,
+            Self::OnCommand,
+            Self::AtOnce,
+            Self::OnCommandAndAtOnce,
+            Self::Save,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u32) -> Self {
             match raw {
@@ -4542,6 +4970,47 @@ pub mod types {
         }
         fn native(self) -> u32 {
             self.raw()
+        }
+    }
+    impl From<StoreParameters> for u32 {
+        fn from(value: StoreParameters) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u32> for StoreParameters {
+        fn from(raw: u32) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for StoreParameters {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for StoreParameters {}
+    impl core::hash::Hash for StoreParameters {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for StoreParameters {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Never, "never"),
+            (Self::OnCommand, "on command"),
+            (Self::AtOnce, "at once"),
+            (Self::OnCommandAndAtOnce, "on command and at once"),
+            (Self::Save, "save"),
+        ];
+    }
+    impl core::fmt::Display for StoreParameters {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for StoreParameters {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
         }
     }
     /// DriveCommand.
@@ -4580,7 +5049,7 @@ pub mod types {
     /// | 6 | [`in_electric_axis().couple()`](DriveCommandInElectricAxis::couple) | 1: the axis follows its master (electronic gearing). |
     /// | 7 | [`in_positioner().incremental()`](DriveCommandInPositioner::incremental) | 1: the set-point is a distance (incremental positioning). |
     /// | 8–15 | reserved | A write to an item sets the value 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DriveCommand(u16);
     impl DriveCommand {
         /// Creates a value in which all bits are 0.
@@ -4678,14 +5147,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DriveCommand {
+        const LAYOUT: &'static str = "DriveCommand torque_enable:1 motion_enable:2 stop:4 alarm_reset:8 latch_reset:10";
+    }
     impl core::fmt::Debug for DriveCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DriveCommand torque_enable:1 motion_enable:2 stop:4 alarm_reset:8 latch_reset:10",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DriveCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DriveCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DriveCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`DriveCommand`] with the bits that are defined while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is "positioner" (1).
@@ -4833,7 +5315,7 @@ pub mod types {
     /// | 7 | [`in_homing().homing_error()`](DriveStatusInHoming::homing_error) |  |
     /// | 7 | [`in_velocity().standing_still()`](DriveStatusInVelocity::standing_still) |  |
     /// | 8–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DriveStatus(u16);
     impl DriveStatus {
         /// Creates a value in which all bits are 0.
@@ -4932,14 +5414,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DriveStatus {
+        const LAYOUT: &'static str = "DriveStatus torque_enabled:1 motion_enabled:2 stopping:4 alarm:8 position_latched:10";
+    }
     impl core::fmt::Debug for DriveStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DriveStatus torque_enabled:1 motion_enabled:2 stopping:4 alarm:8 position_latched:10",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DriveStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DriveStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DriveStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`DriveStatus`] with the bits that are defined while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is "positioner" (1).
@@ -5109,7 +5604,7 @@ pub mod types {
     /// | 10 | [`home_switch`](Self::home_switch) | Pin 14: home switch. On the miniECO, pin 5 of CN1 if c8 is 0, and pin 10 of CN1 if c8 is 3 or 6. |
     /// | 11 | [`input_11`](Self::input_11) | Pin 10: general-purpose digital input. |
     /// | 12–31 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalInputs(u32);
     impl DigitalInputs {
         /// Creates a value in which all bits are 0.
@@ -5247,14 +5742,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalInputs {
+        const LAYOUT: &'static str = "DigitalInputs position_latch:1 start:2 input_2:4 input_3:8 input_4:10 select:20 input_6:40 input_7:80 negative_limit_switch:100 positive_limit_switch:200 home_switch:400 input_11:800";
+    }
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DigitalInputs position_latch:1 start:2 input_2:4 input_3:8 input_4:10 select:20 input_6:40 input_7:80 negative_limit_switch:100 positive_limit_switch:200 home_switch:400 input_11:800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// DigitalOutputs.
@@ -5273,7 +5781,7 @@ pub mod types {
     /// | 2 | [`brake`](Self::brake) | Pin 16: controls the brake on some models. |
     /// | 3 | [`output_3`](Self::output_3) | Pin 15: digital output, with no function on the miniECO. |
     /// | 4–31 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalOutputs(u32);
     impl DigitalOutputs {
         /// Creates a value in which all bits are 0.
@@ -5348,14 +5856,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalOutputs {
+        const LAYOUT: &'static str = "DigitalOutputs output_0:1 output_1:2 fan:2 brake:4 output_3:8";
+    }
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DigitalOutputs output_0:1 output_1:2 fan:2 brake:4 output_3:8",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ErrorRegister.
@@ -5376,7 +5897,7 @@ pub mod types {
     /// | 5 | [`device_profile_specific`](Self::device_profile_specific) |  |
     /// | 6 | reserved | A write to an item sets the value 0. |
     /// | 7 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
         /// Creates a value in which all bits are 0.
@@ -5472,14 +5993,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorRegister {
+        const LAYOUT: &'static str = "ErrorRegister generic_error:1 current:2 voltage:4 temperature:8 communication_error:10 device_profile_specific:20 manufacturer_specific:80";
+    }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ErrorRegister generic_error:1 current:2 voltage:4 temperature:8 communication_error:10 device_profile_specific:20 manufacturer_specific:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// MappedObject.
@@ -5493,7 +6027,7 @@ pub mod types {
     /// | 0–7 | [`length`](Self::length) | Length of the object in bits. |
     /// | 8–15 | [`sub_index`](Self::sub_index) |  |
     /// | 16–31 | [`index`](Self::index) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct MappedObject(u32);
     impl MappedObject {
         /// Creates a value in which all bits are 0.
@@ -5550,14 +6084,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for MappedObject {
+        const LAYOUT: &'static str = "MappedObject length:ff sub_index:ff00 index:ffff0000";
+    }
     impl core::fmt::Debug for MappedObject {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "MappedObject length:ff sub_index:ff00 index:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for MappedObject {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for MappedObject {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for MappedObject {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Controlword.
@@ -5601,7 +6148,7 @@ pub mod types {
     /// | 13 | reserved | A write to an item sets the value 0. |
     /// | 14 | [`latch_reset`](Self::latch_reset) | A rising edge resets bit 14 of the Statusword (position latched). The device reacts to the rising edge. |
     /// | 15 | reserved | A write to an item sets the value 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Controlword(u16);
     impl Controlword {
         /// Creates a value in which all bits are 0.
@@ -5722,14 +6269,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Controlword {
+        const LAYOUT: &'static str = "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 show_master_speed:1000 latch_reset:4000";
+    }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 show_master_speed:1000 latch_reset:4000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Controlword`] with the bits that are defined while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is "positioner" (1).
@@ -5851,7 +6411,7 @@ pub mod types {
     /// | 12–13 | [`in_homing().homing()`](StatuswordInHoming::homing) | Values: [`StatuswordHoming`]. |
     /// | 14 | [`position_latched`](Self::position_latched) | A new latched position is available. Bit 14 of the Controlword resets this bit. |
     /// | 15 | [`velocity_forced_to_zero`](Self::velocity_forced_to_zero) | The target velocity is forced to 0, because the axis is disabled (TEN low) or motion is disabled … |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Statusword(u16);
     impl Statusword {
         /// Creates a value in which all bits are 0.
@@ -6011,14 +6571,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Statusword {
+        const LAYOUT: &'static str = "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 latch_input:100 remote:200 target_reached:400 internal_limit_active:800 position_latched:4000 velocity_forced_to_zero:8000";
+    }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 latch_input:100 remote:200 target_reached:400 internal_limit_active:800 position_latched:4000 velocity_forced_to_zero:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Statusword`] with the bits that are defined while [Modes Of Operation Display](super::objects::MODES_OF_OPERATION_DISPLAY) is "homing" (6).
@@ -6062,7 +6635,7 @@ pub mod types {
     /// | 10 | [`cyclic_synchronous_torque_with_angle`](Self::cyclic_synchronous_torque_with_angle) |  |
     /// | 11–15 | reserved | A write to an item sets the value 0. |
     /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct SupportedDriveModes(u32);
     impl SupportedDriveModes {
         /// Creates a value in which all bits are 0.
@@ -6197,14 +6770,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for SupportedDriveModes {
+        const LAYOUT: &'static str = "SupportedDriveModes profile_position:1 velocity:2 profile_velocity:4 profile_torque:8 homing:20 interpolated_position:40 cyclic_synchronous_position:80 cyclic_synchronous_velocity:100 cyclic_synchronous_torque:200 cyclic_synchronous_torque_with_angle:400 manufacturer_specific:ffff0000";
+    }
     impl core::fmt::Debug for SupportedDriveModes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "SupportedDriveModes profile_position:1 velocity:2 profile_velocity:4 profile_torque:8 homing:20 interpolated_position:40 cyclic_synchronous_position:80 cyclic_synchronous_velocity:100 cyclic_synchronous_torque:200 cyclic_synchronous_torque_with_angle:400 manufacturer_specific:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for SupportedDriveModes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for SupportedDriveModes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for SupportedDriveModes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// DeviceType.
@@ -6217,7 +6803,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–15 | [`profile`](Self::profile) | Number of the device profile, or 0 if the device follows no profile. |
     /// | 16–31 | [`additional_information`](Self::additional_information) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DeviceType(u32);
     impl DeviceType {
         /// Creates a value in which all bits are 0.
@@ -6265,14 +6851,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DeviceType {
+        const LAYOUT: &'static str = "DeviceType profile:ffff additional_information:ffff0000";
+    }
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DeviceType profile:ffff additional_information:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ErrorFieldEntry.
@@ -6285,7 +6884,7 @@ pub mod types {
     /// |---|---|
     /// | 0–15 | [`error_code`](Self::error_code) |
     /// | 16–31 | [`additional_information`](Self::additional_information) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
         /// Creates a value in which all bits are 0.
@@ -6333,14 +6932,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorFieldEntry {
+        const LAYOUT: &'static str = "ErrorFieldEntry error_code:ffff additional_information:ffff0000";
+    }
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ErrorFieldEntry error_code:ffff additional_information:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// SyncIdentifier.
@@ -6354,7 +6966,7 @@ pub mod types {
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`generates`](Self::generates) | The device transmits SYNC messages. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
         /// Creates a value in which all bits are 0.
@@ -6411,14 +7023,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for SyncIdentifier {
+        const LAYOUT: &'static str = "SyncIdentifier identifier:1fffffff extended:20000000 generates:40000000";
+    }
     impl core::fmt::Debug for SyncIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "SyncIdentifier identifier:1fffffff extended:20000000 generates:40000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// EmergencyIdentifier.
@@ -6435,7 +7060,7 @@ pub mod types {
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | reserved | A write to an item sets the value 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
         /// Creates a value in which all bits are 0.
@@ -6495,14 +7120,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EmergencyIdentifier {
+        const LAYOUT: &'static str = "EmergencyIdentifier identifier:1fffffff extended:20000000 !valid:80000000";
+    }
     impl core::fmt::Debug for EmergencyIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "EmergencyIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ReceivePdoIdentifier.
@@ -6516,7 +7154,7 @@ pub mod types {
     /// | 0–28 | [`identifier`](Self::identifier) |  |
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
         /// Creates a value in which all bits are 0.
@@ -6573,14 +7211,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ReceivePdoIdentifier {
+        const LAYOUT: &'static str = "ReceivePdoIdentifier identifier:1fffffff extended:20000000 !valid:80000000";
+    }
     impl core::fmt::Debug for ReceivePdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ReceivePdoIdentifier identifier:1fffffff extended:20000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// TransmitPdoIdentifier.
@@ -6595,7 +7246,7 @@ pub mod types {
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`remote_request`](Self::remote_request) | 0 if a remote frame may request the PDO. Active low: the flag is true if the bit is 0. |
     /// | 31 | [`valid`](Self::valid) | 0 if the PDO is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
         /// Creates a value in which all bits are 0.
@@ -6661,14 +7312,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TransmitPdoIdentifier {
+        const LAYOUT: &'static str = "TransmitPdoIdentifier identifier:1fffffff extended:20000000 !remote_request:40000000 !valid:80000000";
+    }
     impl core::fmt::Debug for TransmitPdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "TransmitPdoIdentifier identifier:1fffffff extended:20000000 !remote_request:40000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// States of drive, read from [Statusword](super::objects::STATUSWORD).
@@ -6685,7 +7349,7 @@ pub mod types {
     /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
     /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
     /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum State {
         /// not ready to switch on: `xxxx xxxx x0xx 0000`.
         NotReadyToSwitchOn,
@@ -6733,11 +7397,28 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::NotReadyToSwitchOn => 0,
+                Self::SwitchOnDisabled => 0x40,
+                Self::ReadyToSwitchOn => 0x21,
+                Self::SwitchedOn => 0x23,
+                Self::OperationEnabled => 0x27,
+                Self::QuickStopActive => 0x7,
+                Self::FaultReactionActive => 0xF,
+                Self::Fault => 0x8,
+            }
+        }
     }
     impl Statusword {
         /// Returns the state, or `None` if the bits match no state.
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
+        }
+        /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        pub const fn from_state(state: State) -> Self {
+            Self(state.value())
         }
     }
     impl State {
@@ -6890,7 +7571,7 @@ pub mod types {
     /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
     /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic transition when a fault occurs. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Command {
         /// shutdown: `xxxx xxxx 0xxx x110`.
         Shutdown,
@@ -6908,6 +7589,33 @@ pub mod types {
         FaultReset,
     }
     impl Command {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0x8F == 0x7 {
+                return Some(Self::SwitchOn);
+            }
+            if raw & 0x8F == 0xF {
+                return Some(Self::EnableOperation);
+            }
+            if raw & 0x8F == 0x7 {
+                return Some(Self::DisableOperation);
+            }
+            if raw & 0x87 == 0x6 {
+                return Some(Self::Shutdown);
+            }
+            if raw & 0x86 == 0x2 {
+                return Some(Self::QuickStop);
+            }
+            if raw & 0x82 == 0 {
+                return Some(Self::DisableVoltage);
+            }
+            if raw & 0x80 == 0x80 {
+                return Some(Self::FaultReset);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
@@ -6934,6 +7642,10 @@ pub mod types {
         }
     }
     impl Controlword {
+        /// Returns the command, or `None` if the bits match no command.
+        pub const fn command(self) -> Option<Command> {
+            Command::from_raw(self.0)
+        }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_command(self, command: Command) -> Self {
@@ -7113,7 +7825,7 @@ pub mod codes {
     /// | 24 | [`AbsoluteEncoderCommunication`](Self::AbsoluteEncoderCommunication) | Communication between the drive and the absolute encoder failed. |
     /// | 25 | [`AxisMovedAtPowerOn`](Self::AxisMovedAtPowerOn) | The absolute encoder detected a motion at power-on. |
     /// | 26 | [`ConfigurationNotAllowed`](Self::ConfigurationNotAllowed) | The selected mode is not compatible with an external encoder. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum GeneralAlarms {
         /// 1: IGBT module. Over-current, over-temperature or short circuit in the power stage. Manual: Codici di Allarme: Allarme modulo IGBT.
         IgbtModule,
@@ -7451,7 +8163,7 @@ pub mod codes {
     /// | 33 | [`PdoMappingFailed`](Self::PdoMappingFailed) |  |
     /// | 34 | [`SynchronizationTimedOut`](Self::SynchronizationTimedOut) |  |
     /// | 35 | [`EepromOfEtherCatAtStart`](Self::EepromOfEtherCatAtStart) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum EthercatAlarms {
         /// 1: IGBT. Manual: Codici allarmi specifici: Problema IGBT.
         Igbt,
@@ -7641,7 +8353,7 @@ pub mod codes {
     /// | 32 | [`InitializationOfTheInterfacePhase2`](Self::InitializationOfTheInterfacePhase2) | initialization of the interface, phase 2. |
     /// | 33 | [`FieldbusNotStartedProperly`](Self::FieldbusNotStartedProperly) |  |
     /// | 34 | [`SynchronizationTimedOut`](Self::SynchronizationTimedOut) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ProfinetAlarms {
         /// 30: internal communication timed out. Manual: Codici allarmi specifici: Timeout comunicazione interna al Drive.
         InternalCommunicationTimedOut,
@@ -7721,7 +8433,7 @@ pub mod codes {
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |
     /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Emergency {
         /// 0x0000 to 0x00FF: error reset or no error. Manual: Emergency Message.
         ErrorResetOrNoError(u16),
@@ -7827,7 +8539,7 @@ pub mod codes {
     /// | 0x06070010 to 0x0607001F | [`DataTypeDoesNotMatch`](Self::DataTypeDoesNotMatch) |
     /// | 0x06090011 | [`SubIndexDoesNotExist`](Self::SubIndexDoesNotExist) |
     /// | 0x08000000 | [`GeneralError`](Self::GeneralError) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum SdoAbort {
         /// 0x05030000: toggle bit not alternated. Manual: Device Configuration via SDOs.
         ToggleBitNotAlternated,
@@ -7904,7 +8616,7 @@ pub mod codes {
     /// | 0x04 | [`Stopped`](Self::Stopped) |
     /// | 0x05 | [`Operational`](Self::Operational) |
     /// | 0x7F | [`PreOperational`](Self::PreOperational) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum NmtState {
         /// 0x00: boot-up. Manual: Node Monitoring via Node-Guarding or.
         BootUp,
@@ -7960,7 +8672,7 @@ pub mod codes {
     /// | Code | Name |
     /// |---|---|
     /// | 0x02 | [`IllegalDataAddress`](Self::IllegalDataAddress) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ModbusExceptions {
         /// 0x02: illegal data address. Manual: Eccezioni.
         IllegalDataAddress,
@@ -8084,7 +8796,7 @@ pub mod codes {
     /// | 4 | [`StartAndNegativeLimit`](Self::StartAndNegativeLimit) |  |
     /// | 5 | [`StartAndPositiveLimit`](Self::StartAndPositiveLimit) |  |
     /// | 6 | [`StartAndHome`](Self::StartAndHome) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum MiniInputs {
         /// 0: limits and home. Manual: digital\_inputs su MiniECO standard o miniECO PLUS.
         LimitsAndHome,
@@ -8284,7 +8996,7 @@ pub mod codes {
     /// | 14 | [`Pin14`](Self::Pin14) |  |
     /// | 15 | [`Pin15`](Self::Pin15) | The start of positioning sets the output to low. The output becomes high when the distance to the … |
     /// | 16 | [`Pin16`](Self::Pin16) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Cn2Pins {
         /// 1: pin 1. A rising edge of the input starts positioning. In electronic gearing, a high level couples the axis to its master if the control word also commands it. Manual: Morsettiera CN2 ECO2/ECO4.
         Pin1,
@@ -13159,7 +13871,7 @@ pub mod objects {
             0x01,
             "Standard Of Error Type",
         );
-        /// Accessors for the entries of Pre Defined Error Field: 0x1003.
+        /// Accessors for the entries of the object. Pre Defined Error Field: 0x1003.
         pub struct PreDefinedErrorFieldAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13305,7 +14017,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Store Parameter Field: 0x1010.
+        /// Accessors for the entries of the object. Store Parameter Field: 0x1010.
         pub struct StoreParameterFieldAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13405,7 +14117,7 @@ pub mod objects {
             0x01,
             "Vendor Id",
         );
-        /// Accessors for the entries of Identity Object: 0x1018.
+        /// Accessors for the entries of the object. Identity Object: 0x1018.
         pub struct IdentityObjectAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13481,7 +14193,7 @@ pub mod objects {
             0x02,
             "Transmission type of RPDO 1",
         );
-        /// Accessors for the entries of Receive PDO 1 Communication Parameter: 0x1400.
+        /// Accessors for the entries of the object. Receive PDO 1 Communication Parameter: 0x1400.
         pub struct ReceivePdo1CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13564,7 +14276,7 @@ pub mod objects {
             0x02,
             "Transmission type of RPDO 2",
         );
-        /// Accessors for the entries of Receive PDO 2 Communication Parameter: 0x1401.
+        /// Accessors for the entries of the object. Receive PDO 2 Communication Parameter: 0x1401.
         pub struct ReceivePdo2CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13651,7 +14363,7 @@ pub mod objects {
             0x02,
             "Transmission type of RPDO 3",
         );
-        /// Accessors for the entries of Receive PDO 3 Communication Parameter: 0x1402.
+        /// Accessors for the entries of the object. Receive PDO 3 Communication Parameter: 0x1402.
         pub struct ReceivePdo3CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13738,7 +14450,7 @@ pub mod objects {
             0x02,
             "Transmission type of RPDO 4",
         );
-        /// Accessors for the entries of Receive PDO 4 Communication Parameter: 0x1403.
+        /// Accessors for the entries of the object. Receive PDO 4 Communication Parameter: 0x1403.
         pub struct ReceivePdo4CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -13907,7 +14619,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of RPDO 1",
         );
-        /// Accessors for the entries of Receive PDO 1 Mapping Parameter: 0x1600.
+        /// Accessors for the entries of the object. Receive PDO 1 Mapping Parameter: 0x1600.
         pub struct ReceivePdo1MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -14124,7 +14836,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of RPDO 2",
         );
-        /// Accessors for the entries of Receive PDO 2 Mapping Parameter: 0x1601.
+        /// Accessors for the entries of the object. Receive PDO 2 Mapping Parameter: 0x1601.
         pub struct ReceivePdo2MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -14363,7 +15075,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of RPDO 3",
         );
-        /// Accessors for the entries of Receive PDO 3 Mapping Parameter: 0x1602.
+        /// Accessors for the entries of the object. Receive PDO 3 Mapping Parameter: 0x1602.
         pub struct ReceivePdo3MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -14600,7 +15312,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of RPDO 4",
         );
-        /// Accessors for the entries of Receive PDO 4 Mapping Parameter: 0x1603.
+        /// Accessors for the entries of the object. Receive PDO 4 Mapping Parameter: 0x1603.
         pub struct ReceivePdo4MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -14777,7 +15489,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Transmit PDO 1 Communication Parameter: 0x1800.
+        /// Accessors for the entries of the object. Transmit PDO 1 Communication Parameter: 0x1800.
         pub struct TransmitPdo1CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -14931,7 +15643,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Transmit PDO 2 Communication Parameter: 0x1801.
+        /// Accessors for the entries of the object. Transmit PDO 2 Communication Parameter: 0x1801.
         pub struct TransmitPdo2CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -15095,7 +15807,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Transmit PDO 3 Communication Parameter: 0x1802.
+        /// Accessors for the entries of the object. Transmit PDO 3 Communication Parameter: 0x1802.
         pub struct TransmitPdo3CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -15259,7 +15971,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Transmit PDO 4 Communication Parameter: 0x1803.
+        /// Accessors for the entries of the object. Transmit PDO 4 Communication Parameter: 0x1803.
         pub struct TransmitPdo4CommunicationParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -15453,7 +16165,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of TPDO 1",
         );
-        /// Accessors for the entries of Transmit PDO 1 Mapping Parameter: 0x1A00.
+        /// Accessors for the entries of the object. Transmit PDO 1 Mapping Parameter: 0x1A00.
         pub struct TransmitPdo1MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -15670,7 +16382,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of TPDO 2",
         );
-        /// Accessors for the entries of Transmit PDO 2 Mapping Parameter: 0x1A01.
+        /// Accessors for the entries of the object. Transmit PDO 2 Mapping Parameter: 0x1A01.
         pub struct TransmitPdo2MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -15909,7 +16621,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of TPDO 3",
         );
-        /// Accessors for the entries of Transmit PDO 3 Mapping Parameter: 0x1A02.
+        /// Accessors for the entries of the object. Transmit PDO 3 Mapping Parameter: 0x1A02.
         pub struct TransmitPdo3MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16146,7 +16858,7 @@ pub mod objects {
             0x08,
             "Mapped object 8 of TPDO 4",
         );
-        /// Accessors for the entries of Transmit PDO 4 Mapping Parameter: 0x1A03.
+        /// Accessors for the entries of the object. Transmit PDO 4 Mapping Parameter: 0x1A03.
         pub struct TransmitPdo4MappingParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16296,7 +17008,7 @@ pub mod objects {
             0x04,
             "Fourth RxPDO",
         );
-        /// Accessors for the entries of RxPDO Assign: 0x1C12.
+        /// Accessors for the entries of the object. RxPDO Assign: 0x1C12.
         pub struct RxPdoAssignAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16410,7 +17122,7 @@ pub mod objects {
             0x04,
             "Fourth TxPDO",
         );
-        /// Accessors for the entries of TxPDO Assign: 0x1C13.
+        /// Accessors for the entries of the object. TxPDO Assign: 0x1C13.
         pub struct TxPdoAssignAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16527,7 +17239,7 @@ pub mod objects {
             0x04,
             "Parameter Read Value",
         );
-        /// Accessors for the entries of Drive Parameters Settings: 0x2000.
+        /// Accessors for the entries of the object. Drive Parameters Settings: 0x2000.
         pub struct DriveParametersSettingsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16669,7 +17381,7 @@ pub mod objects {
             "Variable Read Value",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of Drive Variable Read: 0x2005.
+        /// Accessors for the entries of the object. Drive Variable Read: 0x2005.
         pub struct DriveVariableReadAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16747,7 +17459,7 @@ pub mod objects {
             "Variable Write Value",
             rt::Flags::PDO,
         );
-        /// Accessors for the entries of Drive Variable Write: 0x2006.
+        /// Accessors for the entries of the object. Drive Variable Write: 0x2006.
         pub struct DriveVariableWriteAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -16941,7 +17653,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Feed Constant: 0x6092.
+        /// Accessors for the entries of the object. Feed Constant: 0x6092.
         pub struct FeedConstantAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -17049,7 +17761,7 @@ pub mod objects {
             "rpm",
             rt::Flags::PDO,
         );
-        /// Accessors for the entries of Homing Speeds: 0x6099.
+        /// Accessors for the entries of the object. Homing Speeds: 0x6099.
         pub struct HomingSpeedsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -17129,7 +17841,7 @@ pub mod objects {
             "rev",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of Interpolation Data Record: 0x60C1.
+        /// Accessors for the entries of the object. Interpolation Data Record: 0x60C1.
         pub struct InterpolationDataRecordAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -17207,7 +17919,7 @@ pub mod objects {
             0x02,
             "Time Index",
         );
-        /// Accessors for the entries of Interpolation Time Period: 0x60C2.
+        /// Accessors for the entries of the object. Interpolation Time Period: 0x60C2.
         pub struct InterpolationTimePeriodAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -17325,7 +18037,7 @@ pub mod objects {
             "",
             rt::Flags::PDO,
         );
-        /// Accessors for the entries of Digital Outputs: 0x60FE.
+        /// Accessors for the entries of the object. Digital Outputs: 0x60FE.
         pub struct DigitalOutputsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

@@ -8623,7 +8623,7 @@ pub mod types {
     /// | 0 | [`IndexWhileJogging`](Self::IndexWhileJogging) | The home position is the next encoder index while the motor jogs. |
     /// | 1 | [`Switch`](Self::Switch) | The home position is where the motor leaves the home switch. Homing does not use the index. |
     /// | 2 | [`SwitchAndIndex`](Self::SwitchAndIndex) | The home position is the first encoder index after the motor has left the home switch. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HomingType {
         /// 0: index while jogging. The home position is the next encoder index while the motor jogs. Manual: 3\.7 Assegnazione automatica della quota del motore (Azzeramento Automatico).
         IndexWhileJogging,
@@ -8635,6 +8635,12 @@ pub mod types {
         Unknown(u16),
     }
     impl HomingType {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::IndexWhileJogging,
+            Self::Switch,
+            Self::SwitchAndIndex,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -8663,6 +8669,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HomingType> for u16 {
+        fn from(value: HomingType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for HomingType {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for HomingType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HomingType {}
+    impl core::hash::Hash for HomingType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HomingType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::IndexWhileJogging, "index while jogging"),
+            (Self::Switch, "switch"),
+            (Self::SwitchAndIndex, "switch and index"),
+        ];
+    }
+    impl core::fmt::Display for HomingType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HomingType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HomingState.
     ///
     /// Homing status of the motor. TIPOAZZ decides which values occur.
@@ -8683,7 +8728,7 @@ pub mod types {
     /// | 3 | [`Homed`](Self::Homed) | Automatic homing is complete. |
     /// | 4 | [`LeavingSwitch`](Self::LeavingSwitch) | Automatic homing: the motor leaves the home switch. |
     /// | 6 | [`SearchingIndex`](Self::SearchingIndex) | Automatic homing: the motor searches for the encoder index. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HomingState {
         /// 0: not homed. The motor was never homed, or the last homing was interrupted. This value is valid only while [TIPOAZZ](super::objects::TIPOAZZ) is 0 or 1 or 2. Manual: 4\.9 Lettura dello stato di azzeramento; C Stato dell'azzeramento: NOAZZ.
         NotHomed,
@@ -8701,6 +8746,15 @@ pub mod types {
         Unknown(u16),
     }
     impl HomingState {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::NotHomed,
+            Self::SetByHand,
+            Self::SearchingSwitch,
+            Self::Homed,
+            Self::LeavingSwitch,
+            Self::SearchingIndex,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -8735,6 +8789,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HomingState> for u16 {
+        fn from(value: HomingState) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for HomingState {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for HomingState {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HomingState {}
+    impl core::hash::Hash for HomingState {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HomingState {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotHomed, "not homed"),
+            (Self::SetByHand, "set by hand"),
+            (Self::SearchingSwitch, "searching switch"),
+            (Self::Homed, "homed"),
+            (Self::LeavingSwitch, "leaving switch"),
+            (Self::SearchingIndex, "searching index"),
+        ];
+    }
+    impl core::fmt::Display for HomingState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HomingState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// MotorType.
     ///
     /// Motor type (bit 4) and fieldbus (bits 1-0).
@@ -8753,7 +8849,7 @@ pub mod types {
     /// | 16 | [`Sm140EnetX`](Self::Sm140EnetX) |
     /// | 17 | [`Sm140Rs485`](Self::Sm140Rs485) |
     /// | 18 | [`Sm140Can`](Self::Sm140Can) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MotorType {
         /// 0: SM137 ENET-X. Manual: 4\.17 Lettura del tipo di motore e di bus di campo.
         Sm137EnetX,
@@ -8771,6 +8867,15 @@ pub mod types {
         Unknown(u16),
     }
     impl MotorType {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::Sm137EnetX,
+            Self::Sm137Rs485,
+            Self::Sm137Can,
+            Self::Sm140EnetX,
+            Self::Sm140Rs485,
+            Self::Sm140Can,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -8805,6 +8910,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<MotorType> for u16 {
+        fn from(value: MotorType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for MotorType {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for MotorType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for MotorType {}
+    impl core::hash::Hash for MotorType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for MotorType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Sm137EnetX, "SM137 ENET-X"),
+            (Self::Sm137Rs485, "SM137 RS-485"),
+            (Self::Sm137Can, "SM137 CAN"),
+            (Self::Sm140EnetX, "SM140 ENET-X"),
+            (Self::Sm140Rs485, "SM140 RS-485"),
+            (Self::Sm140Can, "SM140 CAN"),
+        ];
+    }
+    impl core::fmt::Display for MotorType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for MotorType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// State.
     ///
     /// Internal states of the motor. The state after power-on is "alarm".
@@ -8835,7 +8982,7 @@ pub mod types {
     /// | 13 | [`Latching`](Self::Latching) | The motor latches the position at the encoder index. |
     /// | 14 | [`BrakingToAlarm`](Self::BrakingToAlarm) | Controlled braking with the acceleration of parameter 0x0119, then "alarm". The motor enters this … |
     /// | 15 | [`BrakingToRelease`](Self::BrakingToRelease) | Controlled braking with the acceleration of parameter 0x0119, then "released". The motor enters … |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum State {
         /// 0: released. Closed-loop control is off, so the shaft turns freely. Manual: B Stati interni: AXNOREG.
         Released,
@@ -8869,6 +9016,23 @@ pub mod types {
         Unknown(u16),
     }
     impl State {
+        /// All values with names.
+        pub const ALL: [Self; 14] = [
+            Self::Released,
+            Self::Alarm,
+            Self::Stopped,
+            Self::CalibratingCurrentSensors,
+            Self::ElectricalHoming,
+            Self::Homing,
+            Self::Stopping,
+            Self::Jogging,
+            Self::Positioning,
+            Self::Torque,
+            Self::Interpolating,
+            Self::Latching,
+            Self::BrakingToAlarm,
+            Self::BrakingToRelease,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -8919,6 +9083,56 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<State> for u16 {
+        fn from(value: State) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for State {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for State {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for State {}
+    impl core::hash::Hash for State {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for State {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Released, "released"),
+            (Self::Alarm, "alarm"),
+            (Self::Stopped, "stopped"),
+            (Self::CalibratingCurrentSensors, "calibrating current sensors"),
+            (Self::ElectricalHoming, "electrical homing"),
+            (Self::Homing, "homing"),
+            (Self::Stopping, "stopping"),
+            (Self::Jogging, "jogging"),
+            (Self::Positioning, "positioning"),
+            (Self::Torque, "torque"),
+            (Self::Interpolating, "interpolating"),
+            (Self::Latching, "latching"),
+            (Self::BrakingToAlarm, "braking to alarm"),
+            (Self::BrakingToRelease, "braking to release"),
+        ];
+    }
+    impl core::fmt::Display for State {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for State {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// BitA.
     ///
     /// Option bits of the motor.
@@ -8948,7 +9162,7 @@ pub mod types {
     /// | 10 | [`alarm_at_limit_cams`](Self::alarm_at_limit_cams) | Reaction to a limit switch. With 1, the motor goes to "alarm". With 0, it stops with a ramp and … |
     /// | 11 | [`no_bus_synchronization`](Self::no_bus_synchronization) | 1 disables the synchronization of closed-loop control with the bus (ENET-X only). |
     /// | 12 | [`no_controlled_braking`](Self::no_controlled_braking) | 0 enables controlled braking: a turning motor brakes with AMAX before closed-loop control is … |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct BitA(u16);
     impl BitA {
         /// Creates a value in which all bits are 0.
@@ -9053,14 +9267,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for BitA {
+        const LAYOUT: &'static str = "BitA software_limits:1 inverted_direction:8 cmd_reset_only:40 negative_limit_cam:100 positive_limit_cam:200 alarm_at_limit_cams:400 no_bus_synchronization:800 no_controlled_braking:1000";
+    }
     impl core::fmt::Debug for BitA {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "BitA software_limits:1 inverted_direction:8 cmd_reset_only:40 negative_limit_cam:100 positive_limit_cam:200 alarm_at_limit_cams:400 no_bus_synchronization:800 no_controlled_braking:1000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for BitA {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for BitA {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for BitA {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// InvertedInputs.
@@ -9080,7 +9307,7 @@ pub mod types {
     /// | 0 | [`input_1`](Self::input_1) | Negative limit switch, active while the signal is low. |
     /// | 1 | [`input_2`](Self::input_2) | Positive limit switch, active while the signal is low. |
     /// | 2 | [`input_3`](Self::input_3) | Home switch, active while the signal is high. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct InvertedInputs(u16);
     impl InvertedInputs {
         /// Creates a value in which all bits are 0.
@@ -9137,14 +9364,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for InvertedInputs {
+        const LAYOUT: &'static str = "InvertedInputs input_1:1 input_2:2 input_3:4";
+    }
     impl core::fmt::Debug for InvertedInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "InvertedInputs input_1:1 input_2:2 input_3:4",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for InvertedInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for InvertedInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for InvertedInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for InvertedInputs {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for InvertedInputs {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for InvertedInputs {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x7)
         }
     }
     /// TestSlim.
@@ -9176,7 +9434,7 @@ pub mod types {
     /// | 10 | [`alarm_at_limit_cams`](Self::alarm_at_limit_cams) | Reaction to a limit switch, as in bit 10 of BIT\_A. |
     /// | 11 | [`no_bus_synchronization`](Self::no_bus_synchronization) | 1 disables the synchronization of closed-loop control with the bus, as in bit 11 of BIT\_A. |
     /// | 12 | [`no_controlled_braking`](Self::no_controlled_braking) | 0 enables controlled braking, as in bit 12 of BIT\_A. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TestSlim(u16);
     impl TestSlim {
         /// Creates a value in which all bits are 0.
@@ -9281,14 +9539,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TestSlim {
+        const LAYOUT: &'static str = "TestSlim software_limits:1 inverted_direction:8 cmd_reset_only:40 negative_limit_cam:100 positive_limit_cam:200 alarm_at_limit_cams:400 no_bus_synchronization:800 no_controlled_braking:1000";
+    }
     impl core::fmt::Debug for TestSlim {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "TestSlim software_limits:1 inverted_direction:8 cmd_reset_only:40 negative_limit_cam:100 positive_limit_cam:200 alarm_at_limit_cams:400 no_bus_synchronization:800 no_controlled_braking:1000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for TestSlim {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TestSlim {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TestSlim {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// BitStato.
@@ -9311,7 +9582,7 @@ pub mod types {
     /// | 1 | [`command_complete`](Self::command_complete) | 0 while the last command is in progress, for example homing or positioning. |
     /// | 2 | [`message_pending`](Self::message_pending) | 1 if a message is pending, which CmdGetAlarm reads. |
     /// | 3 | [`alarm`](Self::alarm) | 1 while the motor is in the alarm state. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct BitStato(u8);
     impl BitStato {
         /// Creates a value in which all bits are 0.
@@ -9377,14 +9648,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for BitStato {
+        const LAYOUT: &'static str = "BitStato position_not_selected:1 command_complete:2 message_pending:4 alarm:8";
+    }
     impl core::fmt::Debug for BitStato {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "BitStato position_not_selected:1 command_complete:2 message_pending:4 alarm:8",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for BitStato {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for BitStato {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for BitStato {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for BitStato {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for BitStato {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for BitStato {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xF)
         }
     }
     /// States of interpolation.
@@ -9409,7 +9711,7 @@ pub mod types {
     /// | [`Latched`](Self::Latched) | `1000 x11x` | The motor has latched the position at the encoder index. |
     /// | [`Unused000`](Self::Unused000) | `000x xxxx` |  |
     /// | [`Unused010`](Self::Unused010) | `010x xxxx` |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum InterpolationState {
         /// default packet: `1100 xxxx`.
         DefaultPacket,
@@ -9467,6 +9769,21 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u8 {
+            match self {
+                Self::DefaultPacket => 0xC0,
+                Self::SinglePacket => 0xE0,
+                Self::FirstOfSeveralPackets => 0x60,
+                Self::NextOfSeveralPackets => 0x20,
+                Self::LastOfSeveralPackets => 0xA0,
+                Self::InterpolatingSwitchHigh => 0x84,
+                Self::InterpolatingSwitchLow => 0x82,
+                Self::Latched => 0x86,
+                Self::Unused000 => 0,
+                Self::Unused010 => 0x40,
+            }
+        }
     }
     /// Commands of interpolation.
     ///
@@ -9488,7 +9805,7 @@ pub mod types {
     /// | [`SetPoint`](Self::SetPoint) | `1000 xxxx` |
     /// | [`Latch`](Self::Latch) | `1100 xxxx` |
     /// | [`Unused`](Self::Unused) | `010x xxxx` |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum InterpolationCommand {
         /// empty packet: `0000 xxxx`.
         EmptyPacket,
@@ -9508,6 +9825,36 @@ pub mod types {
         Unused,
     }
     impl InterpolationCommand {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u8) -> Option<Self> {
+            if raw & 0xF0 == 0 {
+                return Some(Self::EmptyPacket);
+            }
+            if raw & 0xF0 == 0x80 {
+                return Some(Self::SetPoint);
+            }
+            if raw & 0xF0 == 0xC0 {
+                return Some(Self::Latch);
+            }
+            if raw & 0xE0 == 0xE0 {
+                return Some(Self::SinglePacket);
+            }
+            if raw & 0xE0 == 0x60 {
+                return Some(Self::FirstOfSeveralPackets);
+            }
+            if raw & 0xE0 == 0x20 {
+                return Some(Self::NextOfSeveralPackets);
+            }
+            if raw & 0xE0 == 0xA0 {
+                return Some(Self::LastOfSeveralPackets);
+            }
+            if raw & 0xE0 == 0x40 {
+                return Some(Self::Unused);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u8 {
             match self {
@@ -9792,7 +10139,7 @@ pub mod codes {
     /// | 0x0014 | [`OverPower`](Self::OverPower) | The supply voltage exceeded 38 V. |
     /// | 0x0020 | [`ProcessorOverload`](Self::ProcessorOverload) | Internal software error of the drive. |
     /// | 0x0021 | [`WrongInterrupt`](Self::WrongInterrupt) | Internal software error of the drive. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Alarm {
         /// 0x0000: no alarm. The motor works normally. Manual: D.1 Messaggi di ALLARME: NOALARM.
         NoAlarm,
@@ -10040,7 +10387,7 @@ pub mod codes {
     /// | 0x4009 | [`NegativeLimitCam`](Self::NegativeLimitCam) | The motor has reached the negative limit switch. |
     /// | 0x400A | [`PositiveLimitCam`](Self::PositiveLimitCam) | The motor has reached the positive limit switch. |
     /// | 0x400B | [`MotionTooLong`](Self::MotionTooLong) | Positioning over more than 67108863 counts was commanded. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Warning {
         /// 0x4000: not homed. Positioning was commanded, but the axis is not homed. Manual: D.2 Messaggi di WARNING: ALNOAZZ.
         NotHomed,

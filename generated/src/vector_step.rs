@@ -7478,7 +7478,7 @@ pub mod types {
     /// | Value | Name |
     /// |---|---|
     /// | 4 | [`StepperMotor`](Self::StepperMotor) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DeviceTypeDriveType {
         /// 4: stepper motor.
         StepperMotor,
@@ -7486,6 +7486,8 @@ pub mod types {
         Unknown(u8),
     }
     impl DeviceTypeDriveType {
+        /// All values with names.
+        pub const ALL: [Self; 1] = [Self::StepperMotor];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -7510,13 +7512,50 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DeviceTypeDriveType> for u8 {
+        fn from(value: DeviceTypeDriveType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for DeviceTypeDriveType {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for DeviceTypeDriveType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DeviceTypeDriveType {}
+    impl core::hash::Hash for DeviceTypeDriveType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DeviceTypeDriveType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::StepperMotor, "stepper motor"),
+        ];
+    }
+    impl core::fmt::Display for DeviceTypeDriveType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DeviceTypeDriveType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CobIdSync SYNC production.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`On`](Self::On) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CobIdSyncSyncProduction {
         /// 0: off.
         Off,
@@ -7524,6 +7563,8 @@ pub mod types {
         On,
     }
     impl CobIdSyncSyncProduction {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::On];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7548,13 +7589,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CobIdSyncSyncProduction> for u8 {
+        fn from(value: CobIdSyncSyncProduction) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CobIdSyncSyncProduction {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CobIdSyncSyncProduction {}
+    impl core::hash::Hash for CobIdSyncSyncProduction {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CobIdSyncSyncProduction {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::On, "on"),
+        ];
+    }
+    impl core::fmt::Display for CobIdSyncSyncProduction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CobIdSyncSyncProduction {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CobIdSync frame format.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Base`](Self::Base) |
     /// | 1 | [`Extended`](Self::Extended) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CobIdSyncFrameFormat {
         /// 0: base.
         Base,
@@ -7562,6 +7636,8 @@ pub mod types {
         Extended,
     }
     impl CobIdSyncFrameFormat {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Base, Self::Extended];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7586,13 +7662,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CobIdSyncFrameFormat> for u8 {
+        fn from(value: CobIdSyncFrameFormat) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CobIdSyncFrameFormat {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CobIdSyncFrameFormat {}
+    impl core::hash::Hash for CobIdSyncFrameFormat {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CobIdSyncFrameFormat {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Base, "base"),
+            (Self::Extended, "extended"),
+        ];
+    }
+    impl core::fmt::Display for CobIdSyncFrameFormat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CobIdSyncFrameFormat {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CobIdEmergency frame format.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Base`](Self::Base) |
     /// | 1 | [`Extended`](Self::Extended) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CobIdEmergencyFrameFormat {
         /// 0: base.
         Base,
@@ -7600,6 +7709,8 @@ pub mod types {
         Extended,
     }
     impl CobIdEmergencyFrameFormat {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Base, Self::Extended];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7624,13 +7735,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CobIdEmergencyFrameFormat> for u8 {
+        fn from(value: CobIdEmergencyFrameFormat) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CobIdEmergencyFrameFormat {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CobIdEmergencyFrameFormat {}
+    impl core::hash::Hash for CobIdEmergencyFrameFormat {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CobIdEmergencyFrameFormat {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Base, "base"),
+            (Self::Extended, "extended"),
+        ];
+    }
+    impl core::fmt::Display for CobIdEmergencyFrameFormat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CobIdEmergencyFrameFormat {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CobIdPdo validity.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Valid`](Self::Valid) |
     /// | 1 | [`Invalid`](Self::Invalid) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CobIdPdoValidity {
         /// 0: valid.
         Valid,
@@ -7638,6 +7782,8 @@ pub mod types {
         Invalid,
     }
     impl CobIdPdoValidity {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Valid, Self::Invalid];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7662,13 +7808,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CobIdPdoValidity> for u8 {
+        fn from(value: CobIdPdoValidity) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CobIdPdoValidity {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CobIdPdoValidity {}
+    impl core::hash::Hash for CobIdPdoValidity {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CobIdPdoValidity {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Valid, "valid"),
+            (Self::Invalid, "invalid"),
+        ];
+    }
+    impl core::fmt::Display for CobIdPdoValidity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CobIdPdoValidity {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CobIdPdo remote request.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Allowed`](Self::Allowed) |
     /// | 1 | [`Refused`](Self::Refused) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CobIdPdoRemoteRequest {
         /// 0: allowed.
         Allowed,
@@ -7676,6 +7855,8 @@ pub mod types {
         Refused,
     }
     impl CobIdPdoRemoteRequest {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Allowed, Self::Refused];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7700,13 +7881,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CobIdPdoRemoteRequest> for u8 {
+        fn from(value: CobIdPdoRemoteRequest) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CobIdPdoRemoteRequest {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CobIdPdoRemoteRequest {}
+    impl core::hash::Hash for CobIdPdoRemoteRequest {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CobIdPdoRemoteRequest {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Allowed, "allowed"),
+            (Self::Refused, "refused"),
+        ];
+    }
+    impl core::fmt::Display for CobIdPdoRemoteRequest {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CobIdPdoRemoteRequest {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CobIdPdo frame format.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Base`](Self::Base) |
     /// | 1 | [`Extended`](Self::Extended) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CobIdPdoFrameFormat {
         /// 0: base.
         Base,
@@ -7714,6 +7928,8 @@ pub mod types {
         Extended,
     }
     impl CobIdPdoFrameFormat {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Base, Self::Extended];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7738,6 +7954,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CobIdPdoFrameFormat> for u8 {
+        fn from(value: CobIdPdoFrameFormat) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CobIdPdoFrameFormat {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CobIdPdoFrameFormat {}
+    impl core::hash::Hash for CobIdPdoFrameFormat {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CobIdPdoFrameFormat {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Base, "base"),
+            (Self::Extended, "extended"),
+        ];
+    }
+    impl core::fmt::Display for CobIdPdoFrameFormat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CobIdPdoFrameFormat {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TransmissionType.
     ///
     /// Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
@@ -7753,7 +8002,7 @@ pub mod types {
     /// | 253 | [`AsynchronousOnRequest`](Self::AsynchronousOnRequest) | The PDO is transmitted only on a remote request, with data sampled at the request. |
     /// | 254 | [`EventTriggered254`](Self::EventTriggered254) | The PDO is transmitted asynchronously: on events, and when the event timer expires. |
     /// | 255 | [`EventTriggered255`](Self::EventTriggered255) | The PDO is transmitted asynchronously: on events, and when the event timer expires (same as 254). |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TransmissionType {
         /// 0: synchronous acyclic. The PDO is transmitted at SYNC, but not periodically. Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
         SynchronousAcyclic,
@@ -7769,6 +8018,14 @@ pub mod types {
         Unknown(u8),
     }
     impl TransmissionType {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::SynchronousAcyclic,
+            Self::SynchronousOnRequest,
+            Self::AsynchronousOnRequest,
+            Self::EventTriggered254,
+            Self::EventTriggered255,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -7801,13 +8058,54 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TransmissionType> for u8 {
+        fn from(value: TransmissionType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for TransmissionType {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for TransmissionType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TransmissionType {}
+    impl core::hash::Hash for TransmissionType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TransmissionType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SynchronousAcyclic, "synchronous acyclic"),
+            (Self::SynchronousOnRequest, "synchronous on request"),
+            (Self::AsynchronousOnRequest, "asynchronous on request"),
+            (Self::EventTriggered254, "event triggered 254"),
+            (Self::EventTriggered255, "event triggered 255"),
+        ];
+    }
+    impl core::fmt::Display for TransmissionType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TransmissionType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Controlword jog.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Stop`](Self::Stop) |
     /// | 1 | [`Start`](Self::Start) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ControlwordJog {
         /// 0: stop.
         Stop,
@@ -7815,6 +8113,8 @@ pub mod types {
         Start,
     }
     impl ControlwordJog {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Stop, Self::Start];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7839,13 +8139,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ControlwordJog> for u8 {
+        fn from(value: ControlwordJog) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ControlwordJog {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ControlwordJog {}
+    impl core::hash::Hash for ControlwordJog {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ControlwordJog {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Stop, "stop"),
+            (Self::Start, "start"),
+        ];
+    }
+    impl core::fmt::Display for ControlwordJog {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ControlwordJog {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Controlword jog direction.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Clockwise`](Self::Clockwise) |
     /// | 1 | [`Counterclockwise`](Self::Counterclockwise) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ControlwordJogDirection {
         /// 0: clockwise.
         Clockwise,
@@ -7853,6 +8186,8 @@ pub mod types {
         Counterclockwise,
     }
     impl ControlwordJogDirection {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Clockwise, Self::Counterclockwise];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7877,13 +8212,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ControlwordJogDirection> for u8 {
+        fn from(value: ControlwordJogDirection) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ControlwordJogDirection {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ControlwordJogDirection {}
+    impl core::hash::Hash for ControlwordJogDirection {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ControlwordJogDirection {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Clockwise, "clockwise"),
+            (Self::Counterclockwise, "counterclockwise"),
+        ];
+    }
+    impl core::fmt::Display for ControlwordJogDirection {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ControlwordJogDirection {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Controlword target.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Absolute`](Self::Absolute) |
     /// | 1 | [`Relative`](Self::Relative) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ControlwordTarget {
         /// 0: absolute.
         Absolute,
@@ -7891,6 +8259,8 @@ pub mod types {
         Relative,
     }
     impl ControlwordTarget {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Absolute, Self::Relative];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7915,13 +8285,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ControlwordTarget> for u8 {
+        fn from(value: ControlwordTarget) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ControlwordTarget {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ControlwordTarget {}
+    impl core::hash::Hash for ControlwordTarget {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ControlwordTarget {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Absolute, "absolute"),
+            (Self::Relative, "relative"),
+        ];
+    }
+    impl core::fmt::Display for ControlwordTarget {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ControlwordTarget {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Controlword jog velocity update.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`OnJogStart`](Self::OnJogStart) |
     /// | 1 | [`Continuous`](Self::Continuous) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ControlwordJogVelocityUpdate {
         /// 0: on jog start.
         OnJogStart,
@@ -7929,6 +8332,8 @@ pub mod types {
         Continuous,
     }
     impl ControlwordJogVelocityUpdate {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::OnJogStart, Self::Continuous];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -7953,6 +8358,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ControlwordJogVelocityUpdate> for u8 {
+        fn from(value: ControlwordJogVelocityUpdate) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ControlwordJogVelocityUpdate {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ControlwordJogVelocityUpdate {}
+    impl core::hash::Hash for ControlwordJogVelocityUpdate {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ControlwordJogVelocityUpdate {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::OnJogStart, "on jog start"),
+            (Self::Continuous, "continuous"),
+        ];
+    }
+    impl core::fmt::Display for ControlwordJogVelocityUpdate {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ControlwordJogVelocityUpdate {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// QuickStopOptionCode.
     ///
     /// Manual: QUICK STOP OPTION CODE.
@@ -7972,7 +8410,7 @@ pub mod types {
     /// | 7 | [`Reserved7`](Self::Reserved7) |  |
     /// | 8 | [`Reserved8`](Self::Reserved8) |  |
     /// | 9 to 32767 | [`Unknown`](Self::Unknown) | reserved from 9. This value is reserved. Do not use it. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum QuickStopOptionCode {
         /// 0: disable drive. Manual: QUICK STOP OPTION CODE: Disable drive function.
         DisableDrive,
@@ -7996,6 +8434,18 @@ pub mod types {
         Unknown(i16),
     }
     impl QuickStopOptionCode {
+        /// All values with names.
+        pub const ALL: [Self; 9] = [
+            Self::DisableDrive,
+            Self::SlowDownRampThenDisabled,
+            Self::QuickStopRampThenDisabled,
+            Self::Reserved3,
+            Self::Reserved4,
+            Self::SlowDownRampThenQuickStop,
+            Self::QuickStopRampThenQuickStop,
+            Self::Reserved7,
+            Self::Reserved8,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -8036,6 +8486,51 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<QuickStopOptionCode> for i16 {
+        fn from(value: QuickStopOptionCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for QuickStopOptionCode {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for QuickStopOptionCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for QuickStopOptionCode {}
+    impl core::hash::Hash for QuickStopOptionCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for QuickStopOptionCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::DisableDrive, "disable drive"),
+            (Self::SlowDownRampThenDisabled, "slow down ramp, then disabled"),
+            (Self::QuickStopRampThenDisabled, "quick stop ramp, then disabled"),
+            (Self::Reserved3, "reserved 3"),
+            (Self::Reserved4, "reserved 4"),
+            (Self::SlowDownRampThenQuickStop, "slow down ramp, then quick stop"),
+            (Self::QuickStopRampThenQuickStop, "quick stop ramp, then quick stop"),
+            (Self::Reserved7, "reserved 7"),
+            (Self::Reserved8, "reserved 8"),
+        ];
+    }
+    impl core::fmt::Display for QuickStopOptionCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for QuickStopOptionCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ShutdownOptionCode.
     ///
     /// Manual: SHUTDOWN OPTION CODE.
@@ -8048,7 +8543,7 @@ pub mod types {
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | The drive stops on the deceleration ramp. |
     /// | 2 to 32767 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ShutdownOptionCode {
         /// 0: disable drive. Manual: SHUTDOWN OPTION CODE: Disable drive function.
         DisableDrive,
@@ -8058,6 +8553,8 @@ pub mod types {
         Unknown(i16),
     }
     impl ShutdownOptionCode {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::DisableDrive, Self::SlowDownRamp];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -8084,6 +8581,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ShutdownOptionCode> for i16 {
+        fn from(value: ShutdownOptionCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for ShutdownOptionCode {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ShutdownOptionCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ShutdownOptionCode {}
+    impl core::hash::Hash for ShutdownOptionCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ShutdownOptionCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::DisableDrive, "disable drive"),
+            (Self::SlowDownRamp, "slow down ramp"),
+        ];
+    }
+    impl core::fmt::Display for ShutdownOptionCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ShutdownOptionCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DisableOperationOptionCode.
     ///
     /// Manual: DISABLE OPERATION OPTION CODE.
@@ -8096,7 +8631,7 @@ pub mod types {
     /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | The drive stops on the deceleration ramp. |
     /// | 2 to 32767 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DisableOperationOptionCode {
         /// 0: disable drive. Manual: DISABLE OPERATION OPTION CODE: Disable drive function.
         DisableDrive,
@@ -8106,6 +8641,8 @@ pub mod types {
         Unknown(i16),
     }
     impl DisableOperationOptionCode {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::DisableDrive, Self::SlowDownRamp];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -8132,6 +8669,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DisableOperationOptionCode> for i16 {
+        fn from(value: DisableOperationOptionCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for DisableOperationOptionCode {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for DisableOperationOptionCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DisableOperationOptionCode {}
+    impl core::hash::Hash for DisableOperationOptionCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DisableOperationOptionCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::DisableDrive, "disable drive"),
+            (Self::SlowDownRamp, "slow down ramp"),
+        ];
+    }
+    impl core::fmt::Display for DisableOperationOptionCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DisableOperationOptionCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// StopOptionCode.
     ///
     /// Manual: STOP OPTION CODE.
@@ -8145,7 +8720,7 @@ pub mod types {
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | The drive stops on the deceleration ramp. |
     /// | 2 | [`QuickStopRamp`](Self::QuickStopRamp) | The drive stops on the quick-stop ramp. |
     /// | 3 to 32767 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum StopOptionCode {
         /// 0: disable drive. Manual: STOP OPTION CODE: Disable drive function.
         DisableDrive,
@@ -8157,6 +8732,12 @@ pub mod types {
         Unknown(i16),
     }
     impl StopOptionCode {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::DisableDrive,
+            Self::SlowDownRamp,
+            Self::QuickStopRamp,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -8185,6 +8766,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<StopOptionCode> for i16 {
+        fn from(value: StopOptionCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for StopOptionCode {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for StopOptionCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for StopOptionCode {}
+    impl core::hash::Hash for StopOptionCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for StopOptionCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::DisableDrive, "disable drive"),
+            (Self::SlowDownRamp, "slow down ramp"),
+            (Self::QuickStopRamp, "quick stop ramp"),
+        ];
+    }
+    impl core::fmt::Display for StopOptionCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for StopOptionCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// FaultReactionOptionCode.
     ///
     /// Manual: FAULT REACTION OPTION CODE.
@@ -8198,7 +8818,7 @@ pub mod types {
     /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | The drive stops on the deceleration ramp. |
     /// | 2 | [`QuickStopRamp`](Self::QuickStopRamp) | The drive stops on the quick-stop ramp. |
     /// | 3 to 32767 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum FaultReactionOptionCode {
         /// 0: disable drive. Manual: FAULT REACTION OPTION CODE: Disable drive function.
         DisableDrive,
@@ -8210,6 +8830,12 @@ pub mod types {
         Unknown(i16),
     }
     impl FaultReactionOptionCode {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::DisableDrive,
+            Self::SlowDownRamp,
+            Self::QuickStopRamp,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -8238,6 +8864,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<FaultReactionOptionCode> for i16 {
+        fn from(value: FaultReactionOptionCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for FaultReactionOptionCode {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for FaultReactionOptionCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for FaultReactionOptionCode {}
+    impl core::hash::Hash for FaultReactionOptionCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for FaultReactionOptionCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::DisableDrive, "disable drive"),
+            (Self::SlowDownRamp, "slow down ramp"),
+            (Self::QuickStopRamp, "quick stop ramp"),
+        ];
+    }
+    impl core::fmt::Display for FaultReactionOptionCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for FaultReactionOptionCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModesOfOperation.
     ///
     /// Manual: MODES OF OPERATION; MODES OF OPERATION DISPLAY.
@@ -8260,7 +8925,7 @@ pub mod types {
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 to 127 | [`Unknown`](Self::Unknown) | reserved from 10. This value is reserved. Do not use it. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModesOfOperation {
         /// -1: AEC velocity. Jog mode: motion at constant velocity. Manual: MODES OF OPERATION; MODES OF OPERATION DISPLAY: AEC Velocity mode (JOG).
         AecVelocity,
@@ -8280,6 +8945,16 @@ pub mod types {
         Unknown(i8),
     }
     impl ModesOfOperation {
+        /// All values with names.
+        pub const ALL: [Self; 7] = [
+            Self::AecVelocity,
+            Self::Reserved0,
+            Self::ProfilePosition,
+            Self::Homing,
+            Self::InterpolatedPosition,
+            Self::CyclicSynchronousPosition,
+            Self::CyclicSynchronousVelocity,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -8316,6 +8991,49 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModesOfOperation> for i8 {
+        fn from(value: ModesOfOperation) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i8> for ModesOfOperation {
+        fn from(raw: i8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModesOfOperation {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModesOfOperation {}
+    impl core::hash::Hash for ModesOfOperation {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModesOfOperation {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::AecVelocity, "AEC velocity"),
+            (Self::Reserved0, "reserved 0"),
+            (Self::ProfilePosition, "profile position"),
+            (Self::Homing, "homing"),
+            (Self::InterpolatedPosition, "interpolated position"),
+            (Self::CyclicSynchronousPosition, "cyclic synchronous position"),
+            (Self::CyclicSynchronousVelocity, "cyclic synchronous velocity"),
+        ];
+    }
+    impl core::fmt::Display for ModesOfOperation {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModesOfOperation {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// MotionProfileType.
     ///
     /// Manual: MOTION PROFILE TYPE.
@@ -8342,7 +9060,7 @@ pub mod types {
     /// | 2 | [`NotUsed2`](Self::NotUsed2) |  |
     /// | 3 | [`NotUsed3`](Self::NotUsed3) |  |
     /// | 4 to 32767 | [`Unknown`](Self::Unknown) | reserved from 4. This value is reserved. Do not use it. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MotionProfileType {
         /// -10: pure S ramp. S-shaped ramp without a linear part: the linear phases 2 and 6 take 0 % of the ramp time. Manual: MOTION PROFILE TYPE: Rampa ad S pura.
         PureSRamp,
@@ -8376,6 +9094,23 @@ pub mod types {
         Unknown(i16),
     }
     impl MotionProfileType {
+        /// All values with names.
+        pub const ALL: [Self; 14] = [
+            Self::PureSRamp,
+            Self::SRamp10PercentLinear,
+            Self::SRamp20PercentLinear,
+            Self::SRamp30PercentLinear,
+            Self::SRamp40PercentLinear,
+            Self::SRamp50PercentLinear,
+            Self::SRamp60PercentLinear,
+            Self::SRamp70PercentLinear,
+            Self::SRamp80PercentLinear,
+            Self::SRamp90PercentLinear,
+            Self::TrapezoidalRamp,
+            Self::NotUsed1,
+            Self::NotUsed2,
+            Self::NotUsed3,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -8426,6 +9161,56 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<MotionProfileType> for i16 {
+        fn from(value: MotionProfileType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for MotionProfileType {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for MotionProfileType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for MotionProfileType {}
+    impl core::hash::Hash for MotionProfileType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for MotionProfileType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::PureSRamp, "pure S ramp"),
+            (Self::SRamp10PercentLinear, "S ramp, 10 percent linear"),
+            (Self::SRamp20PercentLinear, "S ramp, 20 percent linear"),
+            (Self::SRamp30PercentLinear, "S ramp, 30 percent linear"),
+            (Self::SRamp40PercentLinear, "S ramp, 40 percent linear"),
+            (Self::SRamp50PercentLinear, "S ramp, 50 percent linear"),
+            (Self::SRamp60PercentLinear, "S ramp, 60 percent linear"),
+            (Self::SRamp70PercentLinear, "S ramp, 70 percent linear"),
+            (Self::SRamp80PercentLinear, "S ramp, 80 percent linear"),
+            (Self::SRamp90PercentLinear, "S ramp, 90 percent linear"),
+            (Self::TrapezoidalRamp, "trapezoidal ramp"),
+            (Self::NotUsed1, "not used 1"),
+            (Self::NotUsed2, "not used 2"),
+            (Self::NotUsed3, "not used 3"),
+        ];
+    }
+    impl core::fmt::Display for MotionProfileType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for MotionProfileType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HomingMethod.
     ///
     /// Value type of [`HOMING_METHOD`](super::objects::HOMING_METHOD).
@@ -8451,7 +9236,7 @@ pub mod types {
     /// | 0 | [`InPlace`](Self::InPlace) |  |
     /// | 35 | [`InPlaceDs402Method35`](Self::InPlaceDs402Method35) | in place, DS402 method 35. Same homing method as 0, for compatibility with DS402. |
     /// | 37 | [`InPlaceDs402Method37`](Self::InPlaceDs402Method37) | in place, DS402 method 37. Same homing method as 0, for compatibility with DS402. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HomingMethod {
         /// -16: forward limit and index, positive. Name in the manual: Home su FLS + TOP, direzione positiva.
         ForwardLimitAndIndexPositive,
@@ -8495,6 +9280,28 @@ pub mod types {
         Unknown(i8),
     }
     impl HomingMethod {
+        /// All values with names.
+        pub const ALL: [Self; 19] = [
+            Self::ForwardLimitAndIndexPositive,
+            Self::ForwardLimitAndIndexNegative,
+            Self::ForwardLimitPositive,
+            Self::ForwardLimitNegative,
+            Self::ForwardMechanicalStopAndIndex,
+            Self::BackwardMechanicalStopAndIndex,
+            Self::ForwardMechanicalStop,
+            Self::BackwardMechanicalStop,
+            Self::ForwardMechanicalStopAndMeasureAxis,
+            Self::BackwardMechanicalStopAndMeasureAxis,
+            Self::IndexPositive,
+            Self::IndexNegative,
+            Self::BackwardLimitAndIndexPositive,
+            Self::BackwardLimitAndIndexNegative,
+            Self::BackwardLimitPositive,
+            Self::BackwardLimitNegative,
+            Self::InPlace,
+            Self::InPlaceDs402Method35,
+            Self::InPlaceDs402Method37,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -8555,13 +9362,74 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HomingMethod> for i8 {
+        fn from(value: HomingMethod) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i8> for HomingMethod {
+        fn from(raw: i8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for HomingMethod {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HomingMethod {}
+    impl core::hash::Hash for HomingMethod {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HomingMethod {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ForwardLimitAndIndexPositive, "forward limit and index, positive"),
+            (Self::ForwardLimitAndIndexNegative, "forward limit and index, negative"),
+            (Self::ForwardLimitPositive, "forward limit, positive"),
+            (Self::ForwardLimitNegative, "forward limit, negative"),
+            (Self::ForwardMechanicalStopAndIndex, "forward mechanical stop and index"),
+            (Self::BackwardMechanicalStopAndIndex, "backward mechanical stop and index"),
+            (Self::ForwardMechanicalStop, "forward mechanical stop"),
+            (Self::BackwardMechanicalStop, "backward mechanical stop"),
+            (
+                Self::ForwardMechanicalStopAndMeasureAxis,
+                "forward mechanical stop and measure axis",
+            ),
+            (
+                Self::BackwardMechanicalStopAndMeasureAxis,
+                "backward mechanical stop and measure axis",
+            ),
+            (Self::IndexPositive, "index, positive"),
+            (Self::IndexNegative, "index, negative"),
+            (Self::BackwardLimitAndIndexPositive, "backward limit and index, positive"),
+            (Self::BackwardLimitAndIndexNegative, "backward limit and index, negative"),
+            (Self::BackwardLimitPositive, "backward limit, positive"),
+            (Self::BackwardLimitNegative, "backward limit, negative"),
+            (Self::InPlace, "in place"),
+            (Self::InPlaceDs402Method35, "in place, DS402 method 35"),
+            (Self::InPlaceDs402Method37, "in place, DS402 method 37"),
+        ];
+    }
+    impl core::fmt::Display for HomingMethod {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HomingMethod {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 1 enable.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe1Enable {
         /// 0: off.
         Off,
@@ -8569,6 +9437,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeFunctionProbe1Enable {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8593,13 +9463,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe1Enable> for u8 {
+        fn from(value: TouchProbeFunctionProbe1Enable) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe1Enable {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe1Enable {}
+    impl core::hash::Hash for TouchProbeFunctionProbe1Enable {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe1Enable {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe1Enable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe1Enable {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 1 continuous.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`FirstEvent`](Self::FirstEvent) |
     /// | 1 | [`Continuous`](Self::Continuous) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe1Continuous {
         /// 0: first event.
         FirstEvent,
@@ -8607,6 +9510,8 @@ pub mod types {
         Continuous,
     }
     impl TouchProbeFunctionProbe1Continuous {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::FirstEvent, Self::Continuous];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8631,6 +9536,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe1Continuous> for u8 {
+        fn from(value: TouchProbeFunctionProbe1Continuous) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe1Continuous {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe1Continuous {}
+    impl core::hash::Hash for TouchProbeFunctionProbe1Continuous {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe1Continuous {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::FirstEvent, "first event"),
+            (Self::Continuous, "continuous"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe1Continuous {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe1Continuous {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 1 trigger.
     ///
     /// | Value | Name |
@@ -8639,7 +9577,7 @@ pub mod types {
     /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
     /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
     /// | 3 | [`Reserved`](Self::Reserved) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe1Trigger {
         /// 0: input 0.
         Input0,
@@ -8651,6 +9589,13 @@ pub mod types {
         Reserved,
     }
     impl TouchProbeFunctionProbe1Trigger {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Input0,
+            Self::EncoderIndex,
+            Self::ByObject60D0,
+            Self::Reserved,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -8679,13 +9624,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe1Trigger> for u8 {
+        fn from(value: TouchProbeFunctionProbe1Trigger) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe1Trigger {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe1Trigger {}
+    impl core::hash::Hash for TouchProbeFunctionProbe1Trigger {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe1Trigger {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Input0, "input 0"),
+            (Self::EncoderIndex, "encoder index"),
+            (Self::ByObject60D0, "by object 60D0"),
+            (Self::Reserved, "reserved"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe1Trigger {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe1Trigger {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 1 positive edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe1PositiveEdge {
         /// 0: off.
         Off,
@@ -8693,6 +9673,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeFunctionProbe1PositiveEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8717,13 +9699,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe1PositiveEdge> for u8 {
+        fn from(value: TouchProbeFunctionProbe1PositiveEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe1PositiveEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe1PositiveEdge {}
+    impl core::hash::Hash for TouchProbeFunctionProbe1PositiveEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe1PositiveEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe1PositiveEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe1PositiveEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 1 negative edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe1NegativeEdge {
         /// 0: off.
         Off,
@@ -8731,6 +9746,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeFunctionProbe1NegativeEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8755,6 +9772,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe1NegativeEdge> for u8 {
+        fn from(value: TouchProbeFunctionProbe1NegativeEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe1NegativeEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe1NegativeEdge {}
+    impl core::hash::Hash for TouchProbeFunctionProbe1NegativeEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe1NegativeEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe1NegativeEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe1NegativeEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 1 position.
     ///
     /// | Value | Name |
@@ -8763,7 +9813,7 @@ pub mod types {
     /// | 1 | [`Encoder1`](Self::Encoder1) |
     /// | 2 | [`Encoder2`](Self::Encoder2) |
     /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe1Position {
         /// 0: actual position. Name in the manual: Touch Rposact.
         ActualPosition,
@@ -8775,6 +9825,13 @@ pub mod types {
         AbsoluteEncoder,
     }
     impl TouchProbeFunctionProbe1Position {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::ActualPosition,
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -8803,13 +9860,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe1Position> for u8 {
+        fn from(value: TouchProbeFunctionProbe1Position) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe1Position {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe1Position {}
+    impl core::hash::Hash for TouchProbeFunctionProbe1Position {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe1Position {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActualPosition, "actual position"),
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe1Position {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe1Position {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 2 enable.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe2Enable {
         /// 0: off.
         Off,
@@ -8817,6 +9909,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeFunctionProbe2Enable {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8841,13 +9935,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe2Enable> for u8 {
+        fn from(value: TouchProbeFunctionProbe2Enable) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe2Enable {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe2Enable {}
+    impl core::hash::Hash for TouchProbeFunctionProbe2Enable {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe2Enable {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe2Enable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe2Enable {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 2 continuous.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`FirstEvent`](Self::FirstEvent) |
     /// | 1 | [`Continuous`](Self::Continuous) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe2Continuous {
         /// 0: first event.
         FirstEvent,
@@ -8855,6 +9982,8 @@ pub mod types {
         Continuous,
     }
     impl TouchProbeFunctionProbe2Continuous {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::FirstEvent, Self::Continuous];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8879,6 +10008,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe2Continuous> for u8 {
+        fn from(value: TouchProbeFunctionProbe2Continuous) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe2Continuous {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe2Continuous {}
+    impl core::hash::Hash for TouchProbeFunctionProbe2Continuous {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe2Continuous {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::FirstEvent, "first event"),
+            (Self::Continuous, "continuous"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe2Continuous {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe2Continuous {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 2 trigger.
     ///
     /// | Value | Name |
@@ -8887,7 +10049,7 @@ pub mod types {
     /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
     /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
     /// | 3 | [`Reserved`](Self::Reserved) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe2Trigger {
         /// 0: input 1.
         Input1,
@@ -8899,6 +10061,13 @@ pub mod types {
         Reserved,
     }
     impl TouchProbeFunctionProbe2Trigger {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Input1,
+            Self::EncoderIndex,
+            Self::ByObject60D0,
+            Self::Reserved,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -8927,13 +10096,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe2Trigger> for u8 {
+        fn from(value: TouchProbeFunctionProbe2Trigger) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe2Trigger {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe2Trigger {}
+    impl core::hash::Hash for TouchProbeFunctionProbe2Trigger {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe2Trigger {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Input1, "input 1"),
+            (Self::EncoderIndex, "encoder index"),
+            (Self::ByObject60D0, "by object 60D0"),
+            (Self::Reserved, "reserved"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe2Trigger {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe2Trigger {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 2 positive edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe2PositiveEdge {
         /// 0: off.
         Off,
@@ -8941,6 +10145,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeFunctionProbe2PositiveEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -8965,13 +10171,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe2PositiveEdge> for u8 {
+        fn from(value: TouchProbeFunctionProbe2PositiveEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe2PositiveEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe2PositiveEdge {}
+    impl core::hash::Hash for TouchProbeFunctionProbe2PositiveEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe2PositiveEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe2PositiveEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe2PositiveEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 2 negative edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe2NegativeEdge {
         /// 0: off.
         Off,
@@ -8979,6 +10218,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeFunctionProbe2NegativeEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9003,6 +10244,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe2NegativeEdge> for u8 {
+        fn from(value: TouchProbeFunctionProbe2NegativeEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe2NegativeEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe2NegativeEdge {}
+    impl core::hash::Hash for TouchProbeFunctionProbe2NegativeEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe2NegativeEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe2NegativeEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe2NegativeEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeFunction probe 2 position.
     ///
     /// | Value | Name |
@@ -9011,7 +10285,7 @@ pub mod types {
     /// | 1 | [`Encoder1`](Self::Encoder1) |
     /// | 2 | [`Encoder2`](Self::Encoder2) |
     /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeFunctionProbe2Position {
         /// 0: actual position. Name in the manual: Touch Rposact.
         ActualPosition,
@@ -9023,6 +10297,13 @@ pub mod types {
         AbsoluteEncoder,
     }
     impl TouchProbeFunctionProbe2Position {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::ActualPosition,
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -9051,13 +10332,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeFunctionProbe2Position> for u8 {
+        fn from(value: TouchProbeFunctionProbe2Position) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeFunctionProbe2Position {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeFunctionProbe2Position {}
+    impl core::hash::Hash for TouchProbeFunctionProbe2Position {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeFunctionProbe2Position {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActualPosition, "actual position"),
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeFunctionProbe2Position {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeFunctionProbe2Position {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatus probe 1 enabled.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusProbe1Enabled {
         /// 0: switched off.
         SwitchedOff,
@@ -9065,6 +10381,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeStatusProbe1Enabled {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SwitchedOff, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9089,13 +10407,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusProbe1Enabled> for u8 {
+        fn from(value: TouchProbeStatusProbe1Enabled) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusProbe1Enabled {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusProbe1Enabled {}
+    impl core::hash::Hash for TouchProbeStatusProbe1Enabled {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusProbe1Enabled {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SwitchedOff, "switched off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusProbe1Enabled {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusProbe1Enabled {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatus probe 1 positive edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusProbe1PositiveEdgeStored {
         /// 0: no value.
         NoValue,
@@ -9103,6 +10454,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusProbe1PositiveEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9127,13 +10480,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusProbe1PositiveEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusProbe1PositiveEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusProbe1PositiveEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusProbe1PositiveEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusProbe1PositiveEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusProbe1PositiveEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusProbe1PositiveEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusProbe1PositiveEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatus probe 1 negative edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusProbe1NegativeEdgeStored {
         /// 0: no value.
         NoValue,
@@ -9141,6 +10527,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusProbe1NegativeEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9165,13 +10553,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusProbe1NegativeEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusProbe1NegativeEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusProbe1NegativeEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusProbe1NegativeEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusProbe1NegativeEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusProbe1NegativeEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusProbe1NegativeEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusProbe1NegativeEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatus probe 2 enabled.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusProbe2Enabled {
         /// 0: switched off.
         SwitchedOff,
@@ -9179,6 +10600,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeStatusProbe2Enabled {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SwitchedOff, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9203,13 +10626,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusProbe2Enabled> for u8 {
+        fn from(value: TouchProbeStatusProbe2Enabled) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusProbe2Enabled {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusProbe2Enabled {}
+    impl core::hash::Hash for TouchProbeStatusProbe2Enabled {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusProbe2Enabled {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SwitchedOff, "switched off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusProbe2Enabled {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusProbe2Enabled {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatus probe 2 positive edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusProbe2PositiveEdgeStored {
         /// 0: no value.
         NoValue,
@@ -9217,6 +10673,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusProbe2PositiveEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9241,13 +10699,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusProbe2PositiveEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusProbe2PositiveEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusProbe2PositiveEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusProbe2PositiveEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusProbe2PositiveEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusProbe2PositiveEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusProbe2PositiveEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusProbe2PositiveEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatus probe 2 negative edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusProbe2NegativeEdgeStored {
         /// 0: no value.
         NoValue,
@@ -9255,6 +10746,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusProbe2NegativeEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9279,6 +10772,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusProbe2NegativeEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusProbe2NegativeEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusProbe2NegativeEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusProbe2NegativeEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusProbe2NegativeEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusProbe2NegativeEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusProbe2NegativeEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusProbe2NegativeEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// InterpolationSubmode.
     ///
     /// Manual: INTERPOLATION SUBMODE SELECT.
@@ -9292,7 +10818,7 @@ pub mod types {
     /// | -32768 to -1 | [`Unknown`](Self::Unknown) | reserved below 0. This value is reserved. Do not use it. |
     /// | 0 | [`Linear`](Self::Linear) |  |
     /// | 1 to 32767 | [`Unknown`](Self::Unknown) | reserved from 1. This value is reserved. Do not use it. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum InterpolationSubmode {
         /// 0: linear. Manual: INTERPOLATION SUBMODE SELECT: Interpolazione lineare.
         Linear,
@@ -9300,6 +10826,8 @@ pub mod types {
         Unknown(i16),
     }
     impl InterpolationSubmode {
+        /// All values with names.
+        pub const ALL: [Self; 1] = [Self::Linear];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -9324,6 +10852,41 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<InterpolationSubmode> for i16 {
+        fn from(value: InterpolationSubmode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for InterpolationSubmode {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for InterpolationSubmode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for InterpolationSubmode {}
+    impl core::hash::Hash for InterpolationSubmode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for InterpolationSubmode {
+        const NAMES: &'static [(Self, &'static str)] = &[(Self::Linear, "linear")];
+    }
+    impl core::fmt::Display for InterpolationSubmode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for InterpolationSubmode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// BufferClear.
     ///
     /// Manual: INTERPOLATION DATA CONFIGURATION.
@@ -9337,7 +10900,7 @@ pub mod types {
     /// | 0 | [`Clear`](Self::Clear) | Clears the interpolation buffer and disables access to it. |
     /// | 1 | [`EnableAccess`](Self::EnableAccess) |  |
     /// | 2 to 255 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum BufferClear {
         /// 0: clear. Clears the interpolation buffer and disables access to it. Manual: INTERPOLATION DATA CONFIGURATION: Cancello il buffer.
         Clear,
@@ -9347,6 +10910,8 @@ pub mod types {
         Unknown(u8),
     }
     impl BufferClear {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Clear, Self::EnableAccess];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -9373,6 +10938,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<BufferClear> for u8 {
+        fn from(value: BufferClear) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for BufferClear {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for BufferClear {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for BufferClear {}
+    impl core::hash::Hash for BufferClear {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for BufferClear {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Clear, "clear"),
+            (Self::EnableAccess, "enable access"),
+        ];
+    }
+    impl core::fmt::Display for BufferClear {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for BufferClear {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// MotorType.
     ///
     /// Manual: MOTOR TYPE.
@@ -9393,7 +10996,7 @@ pub mod types {
     /// | 9 | [`MicrostepStepperMotor`](Self::MicrostepStepperMotor) | Motor type that the drive supports and selects at power-on. |
     /// | 10 | [`SinusoidalPmBlMotor`](Self::SinusoidalPmBlMotor) | Motor type that the drive does not support. |
     /// | 11 | [`TrapezoidalPmBlMotor`](Self::TrapezoidalPmBlMotor) | Motor type that the drive does not support. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MotorType {
         /// 0: non-standard motor. Motor type that the drive does not support. Manual: MOTOR TYPE: Non-Standard Motor.
         NonStandardMotor,
@@ -9423,6 +11026,21 @@ pub mod types {
         Unknown(u16),
     }
     impl MotorType {
+        /// All values with names.
+        pub const ALL: [Self; 12] = [
+            Self::NonStandardMotor,
+            Self::PhaseModulatedDcMotor,
+            Self::FrequencyControlledDcMotor,
+            Self::PmSynchronousMotor,
+            Self::FcSynchronousMotor,
+            Self::SwitchedReluctanceMotor,
+            Self::WoundRotorInductionMotor,
+            Self::SquirrelCageInductionMotor,
+            Self::StepperMotor,
+            Self::MicrostepStepperMotor,
+            Self::SinusoidalPmBlMotor,
+            Self::TrapezoidalPmBlMotor,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -9469,13 +11087,61 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<MotorType> for u16 {
+        fn from(value: MotorType) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for MotorType {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for MotorType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for MotorType {}
+    impl core::hash::Hash for MotorType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for MotorType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NonStandardMotor, "non-standard motor"),
+            (Self::PhaseModulatedDcMotor, "phase modulated DC motor"),
+            (Self::FrequencyControlledDcMotor, "frequency controlled DC motor"),
+            (Self::PmSynchronousMotor, "PM synchronous motor"),
+            (Self::FcSynchronousMotor, "FC synchronous motor"),
+            (Self::SwitchedReluctanceMotor, "switched reluctance motor"),
+            (Self::WoundRotorInductionMotor, "wound rotor induction motor"),
+            (Self::SquirrelCageInductionMotor, "squirrel cage induction motor"),
+            (Self::StepperMotor, "stepper motor"),
+            (Self::MicrostepStepperMotor, "microstep stepper motor"),
+            (Self::SinusoidalPmBlMotor, "sinusoidal PM BL motor"),
+            (Self::TrapezoidalPmBlMotor, "trapezoidal PM BL motor"),
+        ];
+    }
+    impl core::fmt::Display for MotorType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for MotorType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Status motor current.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`On`](Self::On) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum StatusMotorCurrent {
         /// 0: off.
         Off,
@@ -9483,6 +11149,8 @@ pub mod types {
         On,
     }
     impl StatusMotorCurrent {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::On];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9507,13 +11175,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<StatusMotorCurrent> for u8 {
+        fn from(value: StatusMotorCurrent) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for StatusMotorCurrent {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for StatusMotorCurrent {}
+    impl core::hash::Hash for StatusMotorCurrent {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for StatusMotorCurrent {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::On, "on"),
+        ];
+    }
+    impl core::fmt::Display for StatusMotorCurrent {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for StatusMotorCurrent {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags actual position after homing.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Reset`](Self::Reset) |
     /// | 1 | [`NoReset`](Self::NoReset) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsActualPositionAfterHoming {
         /// 0: reset.
         Reset,
@@ -9521,6 +11222,8 @@ pub mod types {
         NoReset,
     }
     impl ModeFlagsActualPositionAfterHoming {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Reset, Self::NoReset];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9545,13 +11248,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsActualPositionAfterHoming> for u8 {
+        fn from(value: ModeFlagsActualPositionAfterHoming) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsActualPositionAfterHoming {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsActualPositionAfterHoming {}
+    impl core::hash::Hash for ModeFlagsActualPositionAfterHoming {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsActualPositionAfterHoming {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reset, "reset"),
+            (Self::NoReset, "no reset"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsActualPositionAfterHoming {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsActualPositionAfterHoming {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags motor encoder after homing.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Reset`](Self::Reset) |
     /// | 1 | [`NoReset`](Self::NoReset) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsMotorEncoderAfterHoming {
         /// 0: reset.
         Reset,
@@ -9559,6 +11295,8 @@ pub mod types {
         NoReset,
     }
     impl ModeFlagsMotorEncoderAfterHoming {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Reset, Self::NoReset];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9583,13 +11321,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsMotorEncoderAfterHoming> for u8 {
+        fn from(value: ModeFlagsMotorEncoderAfterHoming) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsMotorEncoderAfterHoming {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsMotorEncoderAfterHoming {}
+    impl core::hash::Hash for ModeFlagsMotorEncoderAfterHoming {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsMotorEncoderAfterHoming {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reset, "reset"),
+            (Self::NoReset, "no reset"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsMotorEncoderAfterHoming {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsMotorEncoderAfterHoming {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags external encoder after homing.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Reset`](Self::Reset) |
     /// | 1 | [`NoReset`](Self::NoReset) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsExternalEncoderAfterHoming {
         /// 0: reset.
         Reset,
@@ -9597,6 +11368,8 @@ pub mod types {
         NoReset,
     }
     impl ModeFlagsExternalEncoderAfterHoming {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Reset, Self::NoReset];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9621,13 +11394,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsExternalEncoderAfterHoming> for u8 {
+        fn from(value: ModeFlagsExternalEncoderAfterHoming) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsExternalEncoderAfterHoming {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsExternalEncoderAfterHoming {}
+    impl core::hash::Hash for ModeFlagsExternalEncoderAfterHoming {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsExternalEncoderAfterHoming {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reset, "reset"),
+            (Self::NoReset, "no reset"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsExternalEncoderAfterHoming {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsExternalEncoderAfterHoming {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags actual position after home offset.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Reset`](Self::Reset) |
     /// | 1 | [`NoReset`](Self::NoReset) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsActualPositionAfterHomeOffset {
         /// 0: reset.
         Reset,
@@ -9635,6 +11441,8 @@ pub mod types {
         NoReset,
     }
     impl ModeFlagsActualPositionAfterHomeOffset {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Reset, Self::NoReset];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9659,13 +11467,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsActualPositionAfterHomeOffset> for u8 {
+        fn from(value: ModeFlagsActualPositionAfterHomeOffset) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsActualPositionAfterHomeOffset {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsActualPositionAfterHomeOffset {}
+    impl core::hash::Hash for ModeFlagsActualPositionAfterHomeOffset {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsActualPositionAfterHomeOffset {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reset, "reset"),
+            (Self::NoReset, "no reset"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsActualPositionAfterHomeOffset {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsActualPositionAfterHomeOffset {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags motor encoder after home offset.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Reset`](Self::Reset) |
     /// | 1 | [`NoReset`](Self::NoReset) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsMotorEncoderAfterHomeOffset {
         /// 0: reset.
         Reset,
@@ -9673,6 +11514,8 @@ pub mod types {
         NoReset,
     }
     impl ModeFlagsMotorEncoderAfterHomeOffset {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Reset, Self::NoReset];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9697,13 +11540,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsMotorEncoderAfterHomeOffset> for u8 {
+        fn from(value: ModeFlagsMotorEncoderAfterHomeOffset) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsMotorEncoderAfterHomeOffset {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsMotorEncoderAfterHomeOffset {}
+    impl core::hash::Hash for ModeFlagsMotorEncoderAfterHomeOffset {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsMotorEncoderAfterHomeOffset {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reset, "reset"),
+            (Self::NoReset, "no reset"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsMotorEncoderAfterHomeOffset {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsMotorEncoderAfterHomeOffset {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags external encoder after home offset.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Reset`](Self::Reset) |
     /// | 1 | [`NoReset`](Self::NoReset) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsExternalEncoderAfterHomeOffset {
         /// 0: reset.
         Reset,
@@ -9711,6 +11587,8 @@ pub mod types {
         NoReset,
     }
     impl ModeFlagsExternalEncoderAfterHomeOffset {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Reset, Self::NoReset];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9735,13 +11613,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsExternalEncoderAfterHomeOffset> for u8 {
+        fn from(value: ModeFlagsExternalEncoderAfterHomeOffset) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsExternalEncoderAfterHomeOffset {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsExternalEncoderAfterHomeOffset {}
+    impl core::hash::Hash for ModeFlagsExternalEncoderAfterHomeOffset {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsExternalEncoderAfterHomeOffset {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Reset, "reset"),
+            (Self::NoReset, "no reset"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsExternalEncoderAfterHomeOffset {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsExternalEncoderAfterHomeOffset {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModeFlags USB port parameters.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Fixed9600N8_1`](Self::Fixed9600N8_1) |
     /// | 1 | [`FromRegisters`](Self::FromRegisters) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModeFlagsUsbPortParameters {
         /// 0: fixed 9600 N 8 1.
         Fixed9600N8_1,
@@ -9749,6 +11660,8 @@ pub mod types {
         FromRegisters,
     }
     impl ModeFlagsUsbPortParameters {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Fixed9600N8_1, Self::FromRegisters];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9773,13 +11686,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModeFlagsUsbPortParameters> for u8 {
+        fn from(value: ModeFlagsUsbPortParameters) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ModeFlagsUsbPortParameters {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModeFlagsUsbPortParameters {}
+    impl core::hash::Hash for ModeFlagsUsbPortParameters {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModeFlagsUsbPortParameters {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Fixed9600N8_1, "fixed 9600 N 8 1"),
+            (Self::FromRegisters, "from registers"),
+        ];
+    }
+    impl core::fmt::Display for ModeFlagsUsbPortParameters {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModeFlagsUsbPortParameters {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HardwareConfig motor encoder kind.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Quadrature`](Self::Quadrature) |
     /// | 1 | [`PulseAndDirection`](Self::PulseAndDirection) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HardwareConfigMotorEncoderKind {
         /// 0: quadrature.
         Quadrature,
@@ -9787,6 +11733,8 @@ pub mod types {
         PulseAndDirection,
     }
     impl HardwareConfigMotorEncoderKind {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Quadrature, Self::PulseAndDirection];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9811,13 +11759,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HardwareConfigMotorEncoderKind> for u8 {
+        fn from(value: HardwareConfigMotorEncoderKind) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for HardwareConfigMotorEncoderKind {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HardwareConfigMotorEncoderKind {}
+    impl core::hash::Hash for HardwareConfigMotorEncoderKind {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HardwareConfigMotorEncoderKind {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Quadrature, "quadrature"),
+            (Self::PulseAndDirection, "pulse and direction"),
+        ];
+    }
+    impl core::fmt::Display for HardwareConfigMotorEncoderKind {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HardwareConfigMotorEncoderKind {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HardwareConfig SSI encoder complement.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Normal`](Self::Normal) |
     /// | 1 | [`Complement`](Self::Complement) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HardwareConfigSsiEncoderComplement {
         /// 0: normal.
         Normal,
@@ -9825,6 +11806,8 @@ pub mod types {
         Complement,
     }
     impl HardwareConfigSsiEncoderComplement {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Normal, Self::Complement];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9849,13 +11832,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HardwareConfigSsiEncoderComplement> for u8 {
+        fn from(value: HardwareConfigSsiEncoderComplement) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for HardwareConfigSsiEncoderComplement {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HardwareConfigSsiEncoderComplement {}
+    impl core::hash::Hash for HardwareConfigSsiEncoderComplement {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HardwareConfigSsiEncoderComplement {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Normal, "normal"),
+            (Self::Complement, "complement"),
+        ];
+    }
+    impl core::fmt::Display for HardwareConfigSsiEncoderComplement {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HardwareConfigSsiEncoderComplement {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HardwareConfig SSI encoder code.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Gray`](Self::Gray) |
     /// | 1 | [`Binary`](Self::Binary) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HardwareConfigSsiEncoderCode {
         /// 0: Gray.
         Gray,
@@ -9863,6 +11879,8 @@ pub mod types {
         Binary,
     }
     impl HardwareConfigSsiEncoderCode {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Gray, Self::Binary];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9887,6 +11905,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HardwareConfigSsiEncoderCode> for u8 {
+        fn from(value: HardwareConfigSsiEncoderCode) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for HardwareConfigSsiEncoderCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HardwareConfigSsiEncoderCode {}
+    impl core::hash::Hash for HardwareConfigSsiEncoderCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HardwareConfigSsiEncoderCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Gray, "Gray"),
+            (Self::Binary, "binary"),
+        ];
+    }
+    impl core::fmt::Display for HardwareConfigSsiEncoderCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HardwareConfigSsiEncoderCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HardwareConfig SSI encoder alignment.
     ///
     /// | Value | Name |
@@ -9894,7 +11945,7 @@ pub mod types {
     /// | 0 | [`Right`](Self::Right) |
     /// | 1 | [`Left`](Self::Left) |
     /// | 2 | [`Centred`](Self::Centred) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HardwareConfigSsiEncoderAlignment {
         /// 0: right.
         Right,
@@ -9906,6 +11957,8 @@ pub mod types {
         Unknown(u8),
     }
     impl HardwareConfigSsiEncoderAlignment {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [Self::Right, Self::Left, Self::Centred];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -9934,13 +11987,52 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HardwareConfigSsiEncoderAlignment> for u8 {
+        fn from(value: HardwareConfigSsiEncoderAlignment) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for HardwareConfigSsiEncoderAlignment {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for HardwareConfigSsiEncoderAlignment {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HardwareConfigSsiEncoderAlignment {}
+    impl core::hash::Hash for HardwareConfigSsiEncoderAlignment {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HardwareConfigSsiEncoderAlignment {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Right, "right"),
+            (Self::Left, "left"),
+            (Self::Centred, "centred"),
+        ];
+    }
+    impl core::fmt::Display for HardwareConfigSsiEncoderAlignment {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HardwareConfigSsiEncoderAlignment {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// HardwareConfig PWM range.
     ///
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`_50Percent`](Self::_50Percent) | 50 %. |
     /// | 1 | [`_0To100Percent`](Self::_0To100Percent) | 0 to 100 %. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HardwareConfigPwmRange {
         /// 0: 50 %.
         _50Percent,
@@ -9948,6 +12040,8 @@ pub mod types {
         _0To100Percent,
     }
     impl HardwareConfigPwmRange {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::_50Percent, Self::_0To100Percent];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -9972,6 +12066,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HardwareConfigPwmRange> for u8 {
+        fn from(value: HardwareConfigPwmRange) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for HardwareConfigPwmRange {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HardwareConfigPwmRange {}
+    impl core::hash::Hash for HardwareConfigPwmRange {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HardwareConfigPwmRange {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::_50Percent, "50 %"),
+            (Self::_0To100Percent, "0 to 100 %"),
+        ];
+    }
+    impl core::fmt::Display for HardwareConfigPwmRange {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HardwareConfigPwmRange {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// RampProfile.
     ///
     /// Value type of [`RACCPRO`](super::objects::RACCPRO) and [`RDECPRO`](super::objects::RDECPRO).
@@ -9980,7 +12107,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`SCurve`](Self::SCurve) |
     /// | 10 | [`Linear`](Self::Linear) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum RampProfile {
         /// 0: S-curve. Name in the manual: S.
         SCurve,
@@ -9990,6 +12117,8 @@ pub mod types {
         Unknown(u16),
     }
     impl RampProfile {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SCurve, Self::Linear];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -10016,6 +12145,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<RampProfile> for u16 {
+        fn from(value: RampProfile) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for RampProfile {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for RampProfile {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for RampProfile {}
+    impl core::hash::Hash for RampProfile {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for RampProfile {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SCurve, "S-curve"),
+            (Self::Linear, "linear"),
+        ];
+    }
+    impl core::fmt::Display for RampProfile {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for RampProfile {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// SpeedDivisor.
     ///
     /// Value type of [`RDEFUM`](super::objects::RDEFUM).
@@ -10025,7 +12192,7 @@ pub mod types {
     /// | 1 | [`OneToOne`](Self::OneToOne) | The set value is equal to the actual value. |
     /// | 10 | [`TenToOne`](Self::TenToOne) | The set value is 10 times the actual value. |
     /// | 100 | [`HundredToOne`](Self::HundredToOne) | The set value is 100 times the actual value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SpeedDivisor {
         /// 1: one to one. The set value is equal to the actual value. Name in the manual: 1:1.
         OneToOne,
@@ -10037,6 +12204,8 @@ pub mod types {
         Unknown(u16),
     }
     impl SpeedDivisor {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [Self::OneToOne, Self::TenToOne, Self::HundredToOne];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -10065,6 +12234,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SpeedDivisor> for u16 {
+        fn from(value: SpeedDivisor) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for SpeedDivisor {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SpeedDivisor {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SpeedDivisor {}
+    impl core::hash::Hash for SpeedDivisor {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SpeedDivisor {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::OneToOne, "one to one"),
+            (Self::TenToOne, "ten to one"),
+            (Self::HundredToOne, "hundred to one"),
+        ];
+    }
+    impl core::fmt::Display for SpeedDivisor {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SpeedDivisor {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchInput.
     ///
     /// Value type of [`RDEFINPBLS`](super::objects::RDEFINPBLS) and [`RDEFINPFLS`](super::objects::RDEFINPFLS).
@@ -10074,7 +12282,7 @@ pub mod types {
     /// | 0 to 15 | [`Unknown`](Self::Unknown) | digital input. Number of the digital input, which must not have another function. |
     /// | 254 | [`Disabled`](Self::Disabled) |  |
     /// | 255 | [`StandardInput`](Self::StandardInput) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchInput {
         /// 255: standard input. Name in the manual: Ingresso standard.
         StandardInput,
@@ -10084,6 +12292,8 @@ pub mod types {
         Unknown(u16),
     }
     impl LimitSwitchInput {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::StandardInput, Self::Disabled];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -10108,6 +12318,44 @@ pub mod types {
         }
         fn native(self) -> u16 {
             self.raw()
+        }
+    }
+    impl From<LimitSwitchInput> for u16 {
+        fn from(value: LimitSwitchInput) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for LimitSwitchInput {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for LimitSwitchInput {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchInput {}
+    impl core::hash::Hash for LimitSwitchInput {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchInput {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::StandardInput, "standard input"),
+            (Self::Disabled, "disabled"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchInput {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchInput {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
         }
     }
     /// HomingMethodI16.
@@ -10135,7 +12383,7 @@ pub mod types {
     /// | 0 | [`InPlace`](Self::InPlace) |  |
     /// | 35 | [`InPlaceDs402Method35`](Self::InPlaceDs402Method35) | in place, DS402 method 35. Same homing method as 0, for compatibility with DS402. |
     /// | 37 | [`InPlaceDs402Method37`](Self::InPlaceDs402Method37) | in place, DS402 method 37. Same homing method as 0, for compatibility with DS402. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum HomingMethodI16 {
         /// -16: forward limit and index, positive. Name in the manual: Home su FLS + TOP, direzione positiva.
         ForwardLimitAndIndexPositive,
@@ -10179,6 +12427,28 @@ pub mod types {
         Unknown(i16),
     }
     impl HomingMethodI16 {
+        /// All values with names.
+        pub const ALL: [Self; 19] = [
+            Self::ForwardLimitAndIndexPositive,
+            Self::ForwardLimitAndIndexNegative,
+            Self::ForwardLimitPositive,
+            Self::ForwardLimitNegative,
+            Self::ForwardMechanicalStopAndIndex,
+            Self::BackwardMechanicalStopAndIndex,
+            Self::ForwardMechanicalStop,
+            Self::BackwardMechanicalStop,
+            Self::ForwardMechanicalStopAndMeasureAxis,
+            Self::BackwardMechanicalStopAndMeasureAxis,
+            Self::IndexPositive,
+            Self::IndexNegative,
+            Self::BackwardLimitAndIndexPositive,
+            Self::BackwardLimitAndIndexNegative,
+            Self::BackwardLimitPositive,
+            Self::BackwardLimitNegative,
+            Self::InPlace,
+            Self::InPlaceDs402Method35,
+            Self::InPlaceDs402Method37,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -10239,13 +12509,74 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<HomingMethodI16> for i16 {
+        fn from(value: HomingMethodI16) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for HomingMethodI16 {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for HomingMethodI16 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for HomingMethodI16 {}
+    impl core::hash::Hash for HomingMethodI16 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for HomingMethodI16 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ForwardLimitAndIndexPositive, "forward limit and index, positive"),
+            (Self::ForwardLimitAndIndexNegative, "forward limit and index, negative"),
+            (Self::ForwardLimitPositive, "forward limit, positive"),
+            (Self::ForwardLimitNegative, "forward limit, negative"),
+            (Self::ForwardMechanicalStopAndIndex, "forward mechanical stop and index"),
+            (Self::BackwardMechanicalStopAndIndex, "backward mechanical stop and index"),
+            (Self::ForwardMechanicalStop, "forward mechanical stop"),
+            (Self::BackwardMechanicalStop, "backward mechanical stop"),
+            (
+                Self::ForwardMechanicalStopAndMeasureAxis,
+                "forward mechanical stop and measure axis",
+            ),
+            (
+                Self::BackwardMechanicalStopAndMeasureAxis,
+                "backward mechanical stop and measure axis",
+            ),
+            (Self::IndexPositive, "index, positive"),
+            (Self::IndexNegative, "index, negative"),
+            (Self::BackwardLimitAndIndexPositive, "backward limit and index, positive"),
+            (Self::BackwardLimitAndIndexNegative, "backward limit and index, negative"),
+            (Self::BackwardLimitPositive, "backward limit, positive"),
+            (Self::BackwardLimitNegative, "backward limit, negative"),
+            (Self::InPlace, "in place"),
+            (Self::InPlaceDs402Method35, "in place, DS402 method 35"),
+            (Self::InPlaceDs402Method37, "in place, DS402 method 37"),
+        ];
+    }
+    impl core::fmt::Display for HomingMethodI16 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for HomingMethodI16 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// BestopSetup condition.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Low`](Self::Low) |
     /// | 1 | [`High`](Self::High) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum BestopSetupCondition {
         /// 0: low.
         Low,
@@ -10253,6 +12584,8 @@ pub mod types {
         High,
     }
     impl BestopSetupCondition {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Low, Self::High];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10277,13 +12610,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<BestopSetupCondition> for u8 {
+        fn from(value: BestopSetupCondition) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for BestopSetupCondition {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for BestopSetupCondition {}
+    impl core::hash::Hash for BestopSetupCondition {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for BestopSetupCondition {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Low, "low"),
+            (Self::High, "high"),
+        ];
+    }
+    impl core::fmt::Display for BestopSetupCondition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for BestopSetupCondition {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// BestopSetup type.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Variable`](Self::Variable) |
     /// | 1 | [`Register`](Self::Register) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum BestopSetupType {
         /// 0: variable.
         Variable,
@@ -10291,6 +12657,8 @@ pub mod types {
         Register,
     }
     impl BestopSetupType {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Variable, Self::Register];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10315,13 +12683,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<BestopSetupType> for u8 {
+        fn from(value: BestopSetupType) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for BestopSetupType {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for BestopSetupType {}
+    impl core::hash::Hash for BestopSetupType {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for BestopSetupType {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Variable, "variable"),
+            (Self::Register, "register"),
+        ];
+    }
+    impl core::fmt::Display for BestopSetupType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for BestopSetupType {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// EstopSetup destination.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Variable`](Self::Variable) |
     /// | 1 | [`Register`](Self::Register) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EstopSetupDestination {
         /// 0: variable.
         Variable,
@@ -10329,6 +12730,8 @@ pub mod types {
         Register,
     }
     impl EstopSetupDestination {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Variable, Self::Register];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10353,6 +12756,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<EstopSetupDestination> for u8 {
+        fn from(value: EstopSetupDestination) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for EstopSetupDestination {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for EstopSetupDestination {}
+    impl core::hash::Hash for EstopSetupDestination {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for EstopSetupDestination {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Variable, "variable"),
+            (Self::Register, "register"),
+        ];
+    }
+    impl core::fmt::Display for EstopSetupDestination {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for EstopSetupDestination {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// EstopSetup source.
     ///
     /// | Value | Name |
@@ -10361,7 +12797,7 @@ pub mod types {
     /// | 1 | [`Register`](Self::Register) |
     /// | 2 | [`Number`](Self::Number) |
     /// | 3 | [`NotAllowed`](Self::NotAllowed) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EstopSetupSource {
         /// 0: variable.
         Variable,
@@ -10373,6 +12809,13 @@ pub mod types {
         NotAllowed,
     }
     impl EstopSetupSource {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Variable,
+            Self::Register,
+            Self::Number,
+            Self::NotAllowed,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -10401,6 +12844,41 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<EstopSetupSource> for u8 {
+        fn from(value: EstopSetupSource) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for EstopSetupSource {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for EstopSetupSource {}
+    impl core::hash::Hash for EstopSetupSource {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for EstopSetupSource {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Variable, "variable"),
+            (Self::Register, "register"),
+            (Self::Number, "number"),
+            (Self::NotAllowed, "not allowed"),
+        ];
+    }
+    impl core::fmt::Display for EstopSetupSource {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for EstopSetupSource {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// EstopSetup condition.
     ///
     /// | Value | Name |
@@ -10411,7 +12889,7 @@ pub mod types {
     /// | 3 | [`Lower`](Self::Lower) |
     /// | 4 | [`HigherOrSame`](Self::HigherOrSame) |
     /// | 5 | [`LowerOrSame`](Self::LowerOrSame) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EstopSetupCondition {
         /// 0: equal.
         Equal,
@@ -10429,6 +12907,15 @@ pub mod types {
         Unknown(u8),
     }
     impl EstopSetupCondition {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::Equal,
+            Self::NotEqual,
+            Self::Higher,
+            Self::Lower,
+            Self::HigherOrSame,
+            Self::LowerOrSame,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -10463,6 +12950,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<EstopSetupCondition> for u8 {
+        fn from(value: EstopSetupCondition) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for EstopSetupCondition {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for EstopSetupCondition {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for EstopSetupCondition {}
+    impl core::hash::Hash for EstopSetupCondition {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for EstopSetupCondition {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Equal, "equal"),
+            (Self::NotEqual, "not equal"),
+            (Self::Higher, "higher"),
+            (Self::Lower, "lower"),
+            (Self::HigherOrSame, "higher or same"),
+            (Self::LowerOrSame, "lower or same"),
+        ];
+    }
+    impl core::fmt::Display for EstopSetupCondition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for EstopSetupCondition {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AlarmReaction.
     ///
     /// Value type of [`RALARMREACT`](super::objects::RALARMREACT).
@@ -10476,7 +13005,7 @@ pub mod types {
     /// | 0 | [`CurrentOff`](Self::CurrentOff) |  |
     /// | 1 | [`StopRampCurrentOff`](Self::StopRampCurrentOff) | stop ramp, current off. |
     /// | 2 | [`EmergencyRampCurrentOff`](Self::EmergencyRampCurrentOff) | emergency ramp, current off. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AlarmReaction {
         /// -4: emergency ramp, current off by alarm. The drive stops on the emergency ramp and switches the current off, depending on the alarm. Name in the manual: Abort in rampa di emergenza e Current off.
         EmergencyRampCurrentOffByAlarm,
@@ -10496,6 +13025,16 @@ pub mod types {
         Unknown(i16),
     }
     impl AlarmReaction {
+        /// All values with names.
+        pub const ALL: [Self; 7] = [
+            Self::EmergencyRampCurrentOffByAlarm,
+            Self::EmergencyRampCurrentOffVendor,
+            Self::StopRampCurrentOffVendor,
+            Self::CurrentOffVendor,
+            Self::CurrentOff,
+            Self::StopRampCurrentOff,
+            Self::EmergencyRampCurrentOff,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -10532,13 +13071,62 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<AlarmReaction> for i16 {
+        fn from(value: AlarmReaction) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for AlarmReaction {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for AlarmReaction {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AlarmReaction {}
+    impl core::hash::Hash for AlarmReaction {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AlarmReaction {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (
+                Self::EmergencyRampCurrentOffByAlarm,
+                "emergency ramp, current off by alarm",
+            ),
+            (
+                Self::EmergencyRampCurrentOffVendor,
+                "emergency ramp, current off (vendor)",
+            ),
+            (Self::StopRampCurrentOffVendor, "stop ramp, current off (vendor)"),
+            (Self::CurrentOffVendor, "current off (vendor)"),
+            (Self::CurrentOff, "current off"),
+            (Self::StopRampCurrentOff, "stop ramp, current off"),
+            (Self::EmergencyRampCurrentOff, "emergency ramp, current off"),
+        ];
+    }
+    impl core::fmt::Display for AlarmReaction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AlarmReaction {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity forward limit switch.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityForwardLimitSwitch {
         /// 0: active high.
         ActiveHigh,
@@ -10546,6 +13134,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityForwardLimitSwitch {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10570,13 +13160,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityForwardLimitSwitch> for u8 {
+        fn from(value: LimitSwitchPolarityForwardLimitSwitch) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityForwardLimitSwitch {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityForwardLimitSwitch {}
+    impl core::hash::Hash for LimitSwitchPolarityForwardLimitSwitch {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityForwardLimitSwitch {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityForwardLimitSwitch {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityForwardLimitSwitch {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity backward limit switch.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityBackwardLimitSwitch {
         /// 0: active high.
         ActiveHigh,
@@ -10584,6 +13207,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityBackwardLimitSwitch {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10608,13 +13233,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityBackwardLimitSwitch> for u8 {
+        fn from(value: LimitSwitchPolarityBackwardLimitSwitch) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityBackwardLimitSwitch {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityBackwardLimitSwitch {}
+    impl core::hash::Hash for LimitSwitchPolarityBackwardLimitSwitch {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityBackwardLimitSwitch {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityBackwardLimitSwitch {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityBackwardLimitSwitch {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity motor encoder index.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityMotorEncoderIndex {
         /// 0: active high.
         ActiveHigh,
@@ -10622,6 +13280,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityMotorEncoderIndex {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10646,13 +13306,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityMotorEncoderIndex> for u8 {
+        fn from(value: LimitSwitchPolarityMotorEncoderIndex) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityMotorEncoderIndex {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityMotorEncoderIndex {}
+    impl core::hash::Hash for LimitSwitchPolarityMotorEncoderIndex {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityMotorEncoderIndex {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityMotorEncoderIndex {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityMotorEncoderIndex {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity motor encoder channel A.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityMotorEncoderChannelA {
         /// 0: active high.
         ActiveHigh,
@@ -10660,6 +13353,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityMotorEncoderChannelA {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10684,13 +13379,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityMotorEncoderChannelA> for u8 {
+        fn from(value: LimitSwitchPolarityMotorEncoderChannelA) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityMotorEncoderChannelA {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityMotorEncoderChannelA {}
+    impl core::hash::Hash for LimitSwitchPolarityMotorEncoderChannelA {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityMotorEncoderChannelA {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityMotorEncoderChannelA {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityMotorEncoderChannelA {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity motor encoder channel B.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityMotorEncoderChannelB {
         /// 0: active high.
         ActiveHigh,
@@ -10698,6 +13426,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityMotorEncoderChannelB {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10722,13 +13452,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityMotorEncoderChannelB> for u8 {
+        fn from(value: LimitSwitchPolarityMotorEncoderChannelB) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityMotorEncoderChannelB {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityMotorEncoderChannelB {}
+    impl core::hash::Hash for LimitSwitchPolarityMotorEncoderChannelB {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityMotorEncoderChannelB {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityMotorEncoderChannelB {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityMotorEncoderChannelB {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity external encoder index.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityExternalEncoderIndex {
         /// 0: active high.
         ActiveHigh,
@@ -10736,6 +13499,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityExternalEncoderIndex {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10760,13 +13525,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityExternalEncoderIndex> for u8 {
+        fn from(value: LimitSwitchPolarityExternalEncoderIndex) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityExternalEncoderIndex {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityExternalEncoderIndex {}
+    impl core::hash::Hash for LimitSwitchPolarityExternalEncoderIndex {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityExternalEncoderIndex {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityExternalEncoderIndex {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityExternalEncoderIndex {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity external encoder channel A.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityExternalEncoderChannelA {
         /// 0: active high.
         ActiveHigh,
@@ -10774,6 +13572,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityExternalEncoderChannelA {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10798,13 +13598,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityExternalEncoderChannelA> for u8 {
+        fn from(value: LimitSwitchPolarityExternalEncoderChannelA) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityExternalEncoderChannelA {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityExternalEncoderChannelA {}
+    impl core::hash::Hash for LimitSwitchPolarityExternalEncoderChannelA {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityExternalEncoderChannelA {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityExternalEncoderChannelA {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityExternalEncoderChannelA {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// LimitSwitchPolarity external encoder channel B.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum LimitSwitchPolarityExternalEncoderChannelB {
         /// 0: active high.
         ActiveHigh,
@@ -10812,6 +13645,8 @@ pub mod types {
         ActiveLow,
     }
     impl LimitSwitchPolarityExternalEncoderChannelB {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10836,13 +13671,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<LimitSwitchPolarityExternalEncoderChannelB> for u8 {
+        fn from(value: LimitSwitchPolarityExternalEncoderChannelB) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for LimitSwitchPolarityExternalEncoderChannelB {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for LimitSwitchPolarityExternalEncoderChannelB {}
+    impl core::hash::Hash for LimitSwitchPolarityExternalEncoderChannelB {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for LimitSwitchPolarityExternalEncoderChannelB {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for LimitSwitchPolarityExternalEncoderChannelB {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for LimitSwitchPolarityExternalEncoderChannelB {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 0.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput0 {
         /// 0: active high.
         ActiveHigh,
@@ -10850,6 +13718,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput0 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10874,13 +13744,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput0> for u8 {
+        fn from(value: DigitalInputPolarityInput0) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput0 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput0 {}
+    impl core::hash::Hash for DigitalInputPolarityInput0 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput0 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput0 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput0 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 1.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput1 {
         /// 0: active high.
         ActiveHigh,
@@ -10888,6 +13791,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput1 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10912,13 +13817,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput1> for u8 {
+        fn from(value: DigitalInputPolarityInput1) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput1 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput1 {}
+    impl core::hash::Hash for DigitalInputPolarityInput1 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput1 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput1 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 2.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput2 {
         /// 0: active high.
         ActiveHigh,
@@ -10926,6 +13864,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput2 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10950,13 +13890,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput2> for u8 {
+        fn from(value: DigitalInputPolarityInput2) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput2 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput2 {}
+    impl core::hash::Hash for DigitalInputPolarityInput2 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput2 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput2 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput2 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 3.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput3 {
         /// 0: active high.
         ActiveHigh,
@@ -10964,6 +13937,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput3 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -10988,13 +13963,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput3> for u8 {
+        fn from(value: DigitalInputPolarityInput3) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput3 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput3 {}
+    impl core::hash::Hash for DigitalInputPolarityInput3 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput3 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput3 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput3 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 4.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput4 {
         /// 0: active high.
         ActiveHigh,
@@ -11002,6 +14010,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput4 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11026,13 +14036,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput4> for u8 {
+        fn from(value: DigitalInputPolarityInput4) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput4 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput4 {}
+    impl core::hash::Hash for DigitalInputPolarityInput4 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput4 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput4 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput4 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 5.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput5 {
         /// 0: active high.
         ActiveHigh,
@@ -11040,6 +14083,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput5 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11064,13 +14109,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput5> for u8 {
+        fn from(value: DigitalInputPolarityInput5) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput5 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput5 {}
+    impl core::hash::Hash for DigitalInputPolarityInput5 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput5 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput5 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput5 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 6.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput6 {
         /// 0: active high.
         ActiveHigh,
@@ -11078,6 +14156,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput6 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11102,13 +14182,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput6> for u8 {
+        fn from(value: DigitalInputPolarityInput6) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput6 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput6 {}
+    impl core::hash::Hash for DigitalInputPolarityInput6 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput6 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput6 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 7.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput7 {
         /// 0: active high.
         ActiveHigh,
@@ -11116,6 +14229,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput7 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11140,13 +14255,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput7> for u8 {
+        fn from(value: DigitalInputPolarityInput7) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput7 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput7 {}
+    impl core::hash::Hash for DigitalInputPolarityInput7 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput7 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput7 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput7 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 8.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput8 {
         /// 0: active high.
         ActiveHigh,
@@ -11154,6 +14302,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput8 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11178,13 +14328,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput8> for u8 {
+        fn from(value: DigitalInputPolarityInput8) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput8 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput8 {}
+    impl core::hash::Hash for DigitalInputPolarityInput8 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput8 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput8 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput8 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 9.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput9 {
         /// 0: active high.
         ActiveHigh,
@@ -11192,6 +14375,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput9 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11216,13 +14401,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput9> for u8 {
+        fn from(value: DigitalInputPolarityInput9) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput9 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput9 {}
+    impl core::hash::Hash for DigitalInputPolarityInput9 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput9 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput9 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput9 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 10.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput10 {
         /// 0: active high.
         ActiveHigh,
@@ -11230,6 +14448,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput10 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11254,13 +14474,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput10> for u8 {
+        fn from(value: DigitalInputPolarityInput10) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput10 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput10 {}
+    impl core::hash::Hash for DigitalInputPolarityInput10 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput10 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput10 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput10 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 11.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput11 {
         /// 0: active high.
         ActiveHigh,
@@ -11268,6 +14521,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput11 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11292,13 +14547,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput11> for u8 {
+        fn from(value: DigitalInputPolarityInput11) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput11 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput11 {}
+    impl core::hash::Hash for DigitalInputPolarityInput11 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput11 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput11 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput11 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 12.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput12 {
         /// 0: active high.
         ActiveHigh,
@@ -11306,6 +14594,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput12 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11330,13 +14620,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput12> for u8 {
+        fn from(value: DigitalInputPolarityInput12) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput12 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput12 {}
+    impl core::hash::Hash for DigitalInputPolarityInput12 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput12 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput12 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput12 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 13.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput13 {
         /// 0: active high.
         ActiveHigh,
@@ -11344,6 +14667,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput13 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11368,13 +14693,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput13> for u8 {
+        fn from(value: DigitalInputPolarityInput13) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput13 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput13 {}
+    impl core::hash::Hash for DigitalInputPolarityInput13 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput13 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput13 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput13 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 14.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput14 {
         /// 0: active high.
         ActiveHigh,
@@ -11382,6 +14740,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput14 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11406,13 +14766,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput14> for u8 {
+        fn from(value: DigitalInputPolarityInput14) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput14 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput14 {}
+    impl core::hash::Hash for DigitalInputPolarityInput14 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput14 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput14 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput14 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputPolarity input 15.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputPolarityInput15 {
         /// 0: active high.
         ActiveHigh,
@@ -11420,6 +14813,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalInputPolarityInput15 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11444,13 +14839,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputPolarityInput15> for u8 {
+        fn from(value: DigitalInputPolarityInput15) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalInputPolarityInput15 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputPolarityInput15 {}
+    impl core::hash::Hash for DigitalInputPolarityInput15 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputPolarityInput15 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputPolarityInput15 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputPolarityInput15 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 0.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput0 {
         /// 0: active high.
         ActiveHigh,
@@ -11458,6 +14886,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput0 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11482,13 +14912,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput0> for u8 {
+        fn from(value: DigitalOutputPolarityOutput0) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput0 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput0 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput0 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput0 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput0 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput0 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 1.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput1 {
         /// 0: active high.
         ActiveHigh,
@@ -11496,6 +14959,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput1 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11520,13 +14985,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput1> for u8 {
+        fn from(value: DigitalOutputPolarityOutput1) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput1 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput1 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput1 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput1 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput1 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 2.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput2 {
         /// 0: active high.
         ActiveHigh,
@@ -11534,6 +15032,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput2 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11558,13 +15058,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput2> for u8 {
+        fn from(value: DigitalOutputPolarityOutput2) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput2 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput2 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput2 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput2 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput2 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput2 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 3.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput3 {
         /// 0: active high.
         ActiveHigh,
@@ -11572,6 +15105,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput3 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11596,13 +15131,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput3> for u8 {
+        fn from(value: DigitalOutputPolarityOutput3) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput3 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput3 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput3 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput3 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput3 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput3 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 4.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput4 {
         /// 0: active high.
         ActiveHigh,
@@ -11610,6 +15178,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput4 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11634,13 +15204,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput4> for u8 {
+        fn from(value: DigitalOutputPolarityOutput4) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput4 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput4 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput4 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput4 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput4 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput4 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 5.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput5 {
         /// 0: active high.
         ActiveHigh,
@@ -11648,6 +15251,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput5 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11672,13 +15277,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput5> for u8 {
+        fn from(value: DigitalOutputPolarityOutput5) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput5 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput5 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput5 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput5 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput5 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput5 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 6.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput6 {
         /// 0: active high.
         ActiveHigh,
@@ -11686,6 +15324,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput6 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11710,13 +15350,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput6> for u8 {
+        fn from(value: DigitalOutputPolarityOutput6) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput6 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput6 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput6 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput6 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput6 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputPolarity output 7.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
     /// | 1 | [`ActiveLow`](Self::ActiveLow) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputPolarityOutput7 {
         /// 0: active high.
         ActiveHigh,
@@ -11724,6 +15397,8 @@ pub mod types {
         ActiveLow,
     }
     impl DigitalOutputPolarityOutput7 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::ActiveHigh, Self::ActiveLow];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -11748,6 +15423,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputPolarityOutput7> for u8 {
+        fn from(value: DigitalOutputPolarityOutput7) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputPolarityOutput7 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputPolarityOutput7 {}
+    impl core::hash::Hash for DigitalOutputPolarityOutput7 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputPolarityOutput7 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActiveHigh, "active high"),
+            (Self::ActiveLow, "active low"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputPolarityOutput7 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputPolarityOutput7 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// OutputFunction.
     ///
     /// Value type of [`RFUNO0`](super::objects::RFUNO0), [`RFUNO1`](super::objects::RFUNO1), [`RFUNO2`](super::objects::RFUNO2), [`RFUNO3`](super::objects::RFUNO3), [`RFUNO4`](super::objects::RFUNO4), [`RFUNO5`](super::objects::RFUNO5), [`RFUNO6`](super::objects::RFUNO6) and [`RFUNO7`](super::objects::RFUNO7).
@@ -11770,7 +15478,7 @@ pub mod types {
     /// | 13 | [`VirtualMotorStep`](Self::VirtualMotorStep) |  |
     /// | 14 | [`MotorDirection`](Self::MotorDirection) |  |
     /// | 15 | [`StoOutput`](Self::StoOutput) | The function number 15 exceeds the maximum 14 of Rfuno0 to Rfuno7. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum OutputFunction {
         /// 0: normal output. Name in the manual: Uscita digitale normale.
         NormalOutput,
@@ -11808,6 +15516,25 @@ pub mod types {
         Unknown(u16),
     }
     impl OutputFunction {
+        /// All values with names.
+        pub const ALL: [Self; 16] = [
+            Self::NormalOutput,
+            Self::DriveEnabled,
+            Self::DriveAlarm,
+            Self::Homed,
+            Self::MotorMoving,
+            Self::TaskRunning,
+            Self::I2tAlarm,
+            Self::InPosition,
+            Self::ReallyMoving,
+            Self::MovingInTheoryAndReally,
+            Self::ExternalBrake,
+            Self::MovedWhileDisabled,
+            Self::InPositionAndNotMovedWhileDisabled,
+            Self::VirtualMotorStep,
+            Self::MotorDirection,
+            Self::StoOutput,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -11862,6 +15589,61 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<OutputFunction> for u16 {
+        fn from(value: OutputFunction) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for OutputFunction {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for OutputFunction {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for OutputFunction {}
+    impl core::hash::Hash for OutputFunction {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for OutputFunction {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NormalOutput, "normal output"),
+            (Self::DriveEnabled, "drive enabled"),
+            (Self::DriveAlarm, "drive alarm"),
+            (Self::Homed, "homed"),
+            (Self::MotorMoving, "motor moving"),
+            (Self::TaskRunning, "task running"),
+            (Self::I2tAlarm, "I2t alarm"),
+            (Self::InPosition, "in position"),
+            (Self::ReallyMoving, "really moving"),
+            (Self::MovingInTheoryAndReally, "moving in theory and really"),
+            (Self::ExternalBrake, "external brake"),
+            (Self::MovedWhileDisabled, "moved while disabled"),
+            (
+                Self::InPositionAndNotMovedWhileDisabled,
+                "in position and not moved while disabled",
+            ),
+            (Self::VirtualMotorStep, "virtual motor step"),
+            (Self::MotorDirection, "motor direction"),
+            (Self::StoOutput, "STO output"),
+        ];
+    }
+    impl core::fmt::Display for OutputFunction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for OutputFunction {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// InputFunction.
     ///
     /// Note for 13: Functions 7 to 13 select a task number of seven bits, but the maximum of Rtasknum is 63, which needs only six bits. Assumed: the task number has all seven bits, as printed (the manual does not state the effect of bit 6 of the task number). Manual: COMANDI MOVIMENTO; INGRESSI/USCITE DIGITALI.
@@ -11893,7 +15675,7 @@ pub mod types {
     /// | 20 | [`Gear`](Self::Gear) |  |
     /// | 21 | [`Direction`](Self::Direction) | Inverts the direction of jogging. |
     /// | 22 | [`ResumePosition`](Self::ResumePosition) | Requires an encoder. The manual does not describe this function. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum InputFunction {
         /// 0: normal input. Name in the manual: Ingresso digitale normale.
         NormalInput,
@@ -11945,6 +15727,32 @@ pub mod types {
         Unknown(u16),
     }
     impl InputFunction {
+        /// All values with names.
+        pub const ALL: [Self; 23] = [
+            Self::NormalInput,
+            Self::EnableOrDisableDrive,
+            Self::JogForward,
+            Self::JogBackward,
+            Self::Go,
+            Self::Gor,
+            Self::Home,
+            Self::TaskNumberBit0,
+            Self::TaskNumberBit1,
+            Self::TaskNumberBit2,
+            Self::TaskNumberBit3,
+            Self::TaskNumberBit4,
+            Self::TaskNumberBit5,
+            Self::TaskNumberBit6,
+            Self::StartTask,
+            Self::ResetAlarms,
+            Self::LineUpPosition,
+            Self::CurrentReduction,
+            Self::Abort,
+            Self::Stop,
+            Self::Gear,
+            Self::Direction,
+            Self::ResumePosition,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12013,6 +15821,65 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<InputFunction> for u16 {
+        fn from(value: InputFunction) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for InputFunction {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for InputFunction {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for InputFunction {}
+    impl core::hash::Hash for InputFunction {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for InputFunction {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NormalInput, "normal input"),
+            (Self::EnableOrDisableDrive, "enable or disable drive"),
+            (Self::JogForward, "jog forward"),
+            (Self::JogBackward, "jog backward"),
+            (Self::Go, "GO"),
+            (Self::Gor, "GOR"),
+            (Self::Home, "home"),
+            (Self::TaskNumberBit0, "task number bit 0"),
+            (Self::TaskNumberBit1, "task number bit 1"),
+            (Self::TaskNumberBit2, "task number bit 2"),
+            (Self::TaskNumberBit3, "task number bit 3"),
+            (Self::TaskNumberBit4, "task number bit 4"),
+            (Self::TaskNumberBit5, "task number bit 5"),
+            (Self::TaskNumberBit6, "task number bit 6"),
+            (Self::StartTask, "start task"),
+            (Self::ResetAlarms, "reset alarms"),
+            (Self::LineUpPosition, "line up position"),
+            (Self::CurrentReduction, "current reduction"),
+            (Self::Abort, "abort"),
+            (Self::Stop, "stop"),
+            (Self::Gear, "gear"),
+            (Self::Direction, "direction"),
+            (Self::ResumePosition, "resume position"),
+        ];
+    }
+    impl core::fmt::Display for InputFunction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for InputFunction {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalInputLevel.
     ///
     /// Value type of [`RDIGINPLEV`](super::objects::RDIGINPLEV).
@@ -12021,7 +15888,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`_12V`](Self::_12V) | Threshold for 24 V inputs. Rtrginp24v contains the threshold voltage. |
     /// | 1 | [`_2_5V`](Self::_2_5V) | Threshold for 5 V inputs. Rtrginp5v contains the threshold voltage. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalInputLevel {
         /// 0: 12 V. Threshold for 24 V inputs. Rtrginp24v contains the threshold voltage. Name in the manual: Trigger a 12V.
         _12V,
@@ -12031,6 +15898,8 @@ pub mod types {
         Unknown(u16),
     }
     impl DigitalInputLevel {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::_12V, Self::_2_5V];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12057,13 +15926,51 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalInputLevel> for u16 {
+        fn from(value: DigitalInputLevel) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for DigitalInputLevel {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for DigitalInputLevel {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalInputLevel {}
+    impl core::hash::Hash for DigitalInputLevel {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalInputLevel {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::_12V, "12 V"),
+            (Self::_2_5V, "2.5 V"),
+        ];
+    }
+    impl core::fmt::Display for DigitalInputLevel {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalInputLevel {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 0.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput0 {
         /// 0: disabled.
         Disabled,
@@ -12071,6 +15978,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput0 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12095,13 +16004,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput0> for u8 {
+        fn from(value: DigitalOutputEnableOutput0) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput0 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput0 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput0 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput0 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput0 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput0 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 1.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput1 {
         /// 0: disabled.
         Disabled,
@@ -12109,6 +16051,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput1 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12133,13 +16077,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput1> for u8 {
+        fn from(value: DigitalOutputEnableOutput1) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput1 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput1 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput1 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput1 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput1 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 2.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput2 {
         /// 0: disabled.
         Disabled,
@@ -12147,6 +16124,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput2 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12171,13 +16150,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput2> for u8 {
+        fn from(value: DigitalOutputEnableOutput2) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput2 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput2 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput2 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput2 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput2 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput2 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 3.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput3 {
         /// 0: disabled.
         Disabled,
@@ -12185,6 +16197,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput3 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12209,13 +16223,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput3> for u8 {
+        fn from(value: DigitalOutputEnableOutput3) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput3 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput3 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput3 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput3 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput3 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput3 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 4.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput4 {
         /// 0: disabled.
         Disabled,
@@ -12223,6 +16270,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput4 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12247,13 +16296,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput4> for u8 {
+        fn from(value: DigitalOutputEnableOutput4) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput4 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput4 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput4 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput4 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput4 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput4 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 5.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput5 {
         /// 0: disabled.
         Disabled,
@@ -12261,6 +16343,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput5 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12285,13 +16369,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput5> for u8 {
+        fn from(value: DigitalOutputEnableOutput5) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput5 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput5 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput5 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput5 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput5 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput5 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 6.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput6 {
         /// 0: disabled.
         Disabled,
@@ -12299,6 +16416,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput6 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12323,13 +16442,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput6> for u8 {
+        fn from(value: DigitalOutputEnableOutput6) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput6 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput6 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput6 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput6 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput6 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 7.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput7 {
         /// 0: disabled.
         Disabled,
@@ -12337,6 +16489,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput7 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12361,13 +16515,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput7> for u8 {
+        fn from(value: DigitalOutputEnableOutput7) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput7 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput7 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput7 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput7 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput7 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput7 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DigitalOutputEnable output 8.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Disabled`](Self::Disabled) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DigitalOutputEnableOutput8 {
         /// 0: disabled.
         Disabled,
@@ -12375,6 +16562,8 @@ pub mod types {
         Enabled,
     }
     impl DigitalOutputEnableOutput8 {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Disabled, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12399,6 +16588,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DigitalOutputEnableOutput8> for u8 {
+        fn from(value: DigitalOutputEnableOutput8) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DigitalOutputEnableOutput8 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DigitalOutputEnableOutput8 {}
+    impl core::hash::Hash for DigitalOutputEnableOutput8 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DigitalOutputEnableOutput8 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for DigitalOutputEnableOutput8 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DigitalOutputEnableOutput8 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// FeedbackEncoder.
     ///
     /// Value type of [`RENCMOTFBK`](super::objects::RENCMOTFBK).
@@ -12409,7 +16631,7 @@ pub mod types {
     /// | 1 | [`Encoder2`](Self::Encoder2) |
     /// | 2 | [`Encoder3`](Self::Encoder3) |
     /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum FeedbackEncoder {
         /// 0: encoder 1.
         Encoder1,
@@ -12423,6 +16645,13 @@ pub mod types {
         Unknown(u16),
     }
     impl FeedbackEncoder {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::Encoder3,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12453,6 +16682,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<FeedbackEncoder> for u16 {
+        fn from(value: FeedbackEncoder) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for FeedbackEncoder {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for FeedbackEncoder {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for FeedbackEncoder {}
+    impl core::hash::Hash for FeedbackEncoder {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for FeedbackEncoder {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::Encoder3, "encoder 3"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for FeedbackEncoder {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for FeedbackEncoder {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// EncoderModel.
     ///
     /// Value type of [`RENC1CODE`](super::objects::RENC1CODE), [`RENC2CODE`](super::objects::RENC2CODE) and [`RENC3CODE`](super::objects::RENC3CODE).
@@ -12464,7 +16733,7 @@ pub mod types {
     /// | 10 | [`To0512L05C`](Self::To0512L05C) |
     /// | 11 | [`To0512P24C`](Self::To0512P24C) |
     /// | 12 | [`To1000L05C`](Self::To1000L05C) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EncoderModel {
         /// 0: custom. Name in the manual: CUSTOM.
         Custom,
@@ -12480,6 +16749,14 @@ pub mod types {
         Unknown(u16),
     }
     impl EncoderModel {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Custom,
+            Self::TC,
+            Self::To0512L05C,
+            Self::To0512P24C,
+            Self::To1000L05C,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12512,6 +16789,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<EncoderModel> for u16 {
+        fn from(value: EncoderModel) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for EncoderModel {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for EncoderModel {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for EncoderModel {}
+    impl core::hash::Hash for EncoderModel {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for EncoderModel {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Custom, "custom"),
+            (Self::TC, "T-C"),
+            (Self::To0512L05C, "TO0512L05C"),
+            (Self::To0512P24C, "TO0512P24C"),
+            (Self::To1000L05C, "TO1000L05C"),
+        ];
+    }
+    impl core::fmt::Display for EncoderModel {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for EncoderModel {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// EncoderMode.
     ///
     /// Value type of [`REXTENCMODE`](super::objects::REXTENCMODE), [`RENC1MODE`](super::objects::RENC1MODE) and [`RENC2MODE`](super::objects::RENC2MODE).
@@ -12522,7 +16840,7 @@ pub mod types {
     /// | 1 | [`QuadratureBackward`](Self::QuadratureBackward) |  |
     /// | 2 | [`StepAndDirection`](Self::StepAndDirection) | The drive counts each step pulse once. |
     /// | 3 | [`StepAndDirectionDoubled`](Self::StepAndDirectionDoubled) | The drive counts each step pulse twice. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EncoderMode {
         /// 0: quadrature forward. Name in the manual: Quadratura avanti.
         QuadratureForward,
@@ -12536,6 +16854,13 @@ pub mod types {
         Unknown(u16),
     }
     impl EncoderMode {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::QuadratureForward,
+            Self::QuadratureBackward,
+            Self::StepAndDirection,
+            Self::StepAndDirectionDoubled,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12566,13 +16891,53 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<EncoderMode> for u16 {
+        fn from(value: EncoderMode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for EncoderMode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for EncoderMode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for EncoderMode {}
+    impl core::hash::Hash for EncoderMode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for EncoderMode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::QuadratureForward, "quadrature forward"),
+            (Self::QuadratureBackward, "quadrature backward"),
+            (Self::StepAndDirection, "step and direction"),
+            (Self::StepAndDirectionDoubled, "step and direction doubled"),
+        ];
+    }
+    impl core::fmt::Display for EncoderMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for EncoderMode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AbsoluteEncoderMode complement.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Normal`](Self::Normal) |
     /// | 1 | [`Complement`](Self::Complement) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AbsoluteEncoderModeComplement {
         /// 0: normal.
         Normal,
@@ -12580,6 +16945,8 @@ pub mod types {
         Complement,
     }
     impl AbsoluteEncoderModeComplement {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Normal, Self::Complement];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12604,13 +16971,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<AbsoluteEncoderModeComplement> for u8 {
+        fn from(value: AbsoluteEncoderModeComplement) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for AbsoluteEncoderModeComplement {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AbsoluteEncoderModeComplement {}
+    impl core::hash::Hash for AbsoluteEncoderModeComplement {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AbsoluteEncoderModeComplement {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Normal, "normal"),
+            (Self::Complement, "complement"),
+        ];
+    }
+    impl core::fmt::Display for AbsoluteEncoderModeComplement {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AbsoluteEncoderModeComplement {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AbsoluteEncoderMode code.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Gray`](Self::Gray) |
     /// | 1 | [`Binary`](Self::Binary) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AbsoluteEncoderModeCode {
         /// 0: Gray.
         Gray,
@@ -12618,6 +17018,8 @@ pub mod types {
         Binary,
     }
     impl AbsoluteEncoderModeCode {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Gray, Self::Binary];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -12642,6 +17044,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<AbsoluteEncoderModeCode> for u8 {
+        fn from(value: AbsoluteEncoderModeCode) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for AbsoluteEncoderModeCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AbsoluteEncoderModeCode {}
+    impl core::hash::Hash for AbsoluteEncoderModeCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AbsoluteEncoderModeCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Gray, "Gray"),
+            (Self::Binary, "binary"),
+        ];
+    }
+    impl core::fmt::Display for AbsoluteEncoderModeCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AbsoluteEncoderModeCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AbsoluteEncoderMode alignment.
     ///
     /// | Value | Name |
@@ -12650,7 +17085,7 @@ pub mod types {
     /// | 1 | [`Left`](Self::Left) |
     /// | 2 | [`Centred`](Self::Centred) |
     /// | 3 | [`Free`](Self::Free) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AbsoluteEncoderModeAlignment {
         /// 0: right.
         Right,
@@ -12662,6 +17097,8 @@ pub mod types {
         Free,
     }
     impl AbsoluteEncoderModeAlignment {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [Self::Right, Self::Left, Self::Centred, Self::Free];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -12690,6 +17127,41 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<AbsoluteEncoderModeAlignment> for u8 {
+        fn from(value: AbsoluteEncoderModeAlignment) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for AbsoluteEncoderModeAlignment {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AbsoluteEncoderModeAlignment {}
+    impl core::hash::Hash for AbsoluteEncoderModeAlignment {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AbsoluteEncoderModeAlignment {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Right, "right"),
+            (Self::Left, "left"),
+            (Self::Centred, "centred"),
+            (Self::Free, "free"),
+        ];
+    }
+    impl core::fmt::Display for AbsoluteEncoderModeAlignment {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AbsoluteEncoderModeAlignment {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AbsoluteEncoderModel.
     ///
     /// Value type of [`RENCABSCODE`](super::objects::RENCABSCODE).
@@ -12701,7 +17173,7 @@ pub mod types {
     /// | 10 | [`Tm1611B05C`](Self::Tm1611B05C) |
     /// | 11 | [`Tm1611E05C`](Self::Tm1611E05C) |
     /// | 12 | [`Tm1611S05C`](Self::Tm1611S05C) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AbsoluteEncoderModel {
         /// 0: custom. Name in the manual: CUSTOM.
         Custom,
@@ -12717,6 +17189,14 @@ pub mod types {
         Unknown(u16),
     }
     impl AbsoluteEncoderModel {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Custom,
+            Self::TC,
+            Self::Tm1611B05C,
+            Self::Tm1611E05C,
+            Self::Tm1611S05C,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12747,6 +17227,47 @@ pub mod types {
         }
         fn native(self) -> u16 {
             self.raw()
+        }
+    }
+    impl From<AbsoluteEncoderModel> for u16 {
+        fn from(value: AbsoluteEncoderModel) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for AbsoluteEncoderModel {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for AbsoluteEncoderModel {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AbsoluteEncoderModel {}
+    impl core::hash::Hash for AbsoluteEncoderModel {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AbsoluteEncoderModel {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Custom, "custom"),
+            (Self::TC, "T-C"),
+            (Self::Tm1611B05C, "TM1611B05C"),
+            (Self::Tm1611E05C, "TM1611E05C"),
+            (Self::Tm1611S05C, "TM1611S05C"),
+        ];
+    }
+    impl core::fmt::Display for AbsoluteEncoderModel {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AbsoluteEncoderModel {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
         }
     }
     /// EepromCommand.
@@ -12798,7 +17319,7 @@ pub mod types {
     /// | 152 | [`SavePhasingPosition`](Self::SavePhasingPosition) | Saves the position of the absolute encoder, so that the motor encoder needs no phasing later. |
     /// | 153 | [`SaveZeroOffset`](Self::SaveZeroOffset) | Preset by software: saves the offset that sets the position of the absolute encoder to 0. |
     /// | 154 | [`ResetPhasingPosition`](Self::ResetPhasingPosition) | Clears the position that command 152 saved. The motor must be phased again after the next power-on. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EepromCommand {
         /// 0: done. No command. The register returns to this value after the execution of a command.
         Done,
@@ -12882,6 +17403,48 @@ pub mod types {
         Unknown(u16),
     }
     impl EepromCommand {
+        /// All values with names.
+        pub const ALL: [Self; 39] = [
+            Self::Done,
+            Self::LoadRegisters,
+            Self::LoadVariables,
+            Self::LoadTasks,
+            Self::LoadCurrentSensorOffsets,
+            Self::LoadMacAddress,
+            Self::LoadAbsoluteEncoderOffset,
+            Self::LoadCurrentAmplification,
+            Self::LoadInputTriggerLevels,
+            Self::LoadPwmMode,
+            Self::ReadAntaiosCommunication,
+            Self::ReadProfinetName,
+            Self::ReadExpansionModel,
+            Self::SaveRegisters,
+            Self::SaveVariables,
+            Self::SaveTasks,
+            Self::ResetRegisters,
+            Self::ResetVariables,
+            Self::ResetTasks,
+            Self::InitializeEeprom,
+            Self::SaveHardwareRevisionAndSerialNumber,
+            Self::SaveCurrentSensorOffsets,
+            Self::AcquireCurrentSensorOffsets,
+            Self::ApplyEthernetSettings,
+            Self::SaveMacAddress,
+            Self::SaveAbsoluteEncoderOffset,
+            Self::RestartFirst,
+            Self::RestartSecond,
+            Self::SaveCurrentAmplification,
+            Self::SaveInputTriggerLevels,
+            Self::SavePwmMode,
+            Self::BootModeFirst,
+            Self::BootModeSecond,
+            Self::ForceIpAddress,
+            Self::SendProfinetName,
+            Self::ResetProfinetData,
+            Self::SavePhasingPosition,
+            Self::SaveZeroOffset,
+            Self::ResetPhasingPosition,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -12982,13 +17545,91 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<EepromCommand> for u16 {
+        fn from(value: EepromCommand) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for EepromCommand {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for EepromCommand {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for EepromCommand {}
+    impl core::hash::Hash for EepromCommand {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for EepromCommand {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Done, "done"),
+            (Self::LoadRegisters, "load registers"),
+            (Self::LoadVariables, "load variables"),
+            (Self::LoadTasks, "load tasks"),
+            (Self::LoadCurrentSensorOffsets, "load current sensor offsets"),
+            (Self::LoadMacAddress, "load MAC address"),
+            (Self::LoadAbsoluteEncoderOffset, "load absolute encoder offset"),
+            (Self::LoadCurrentAmplification, "load current amplification"),
+            (Self::LoadInputTriggerLevels, "load input trigger levels"),
+            (Self::LoadPwmMode, "load PWM mode"),
+            (Self::ReadAntaiosCommunication, "read ANTAIOS communication"),
+            (Self::ReadProfinetName, "read PROFINET name"),
+            (Self::ReadExpansionModel, "read expansion model"),
+            (Self::SaveRegisters, "save registers"),
+            (Self::SaveVariables, "save variables"),
+            (Self::SaveTasks, "save tasks"),
+            (Self::ResetRegisters, "reset registers"),
+            (Self::ResetVariables, "reset variables"),
+            (Self::ResetTasks, "reset tasks"),
+            (Self::InitializeEeprom, "initialize EEPROM"),
+            (
+                Self::SaveHardwareRevisionAndSerialNumber,
+                "save hardware revision and serial number",
+            ),
+            (Self::SaveCurrentSensorOffsets, "save current sensor offsets"),
+            (Self::AcquireCurrentSensorOffsets, "acquire current sensor offsets"),
+            (Self::ApplyEthernetSettings, "apply Ethernet settings"),
+            (Self::SaveMacAddress, "save MAC address"),
+            (Self::SaveAbsoluteEncoderOffset, "save absolute encoder offset"),
+            (Self::RestartFirst, "restart first"),
+            (Self::RestartSecond, "restart second"),
+            (Self::SaveCurrentAmplification, "save current amplification"),
+            (Self::SaveInputTriggerLevels, "save input trigger levels"),
+            (Self::SavePwmMode, "save PWM mode"),
+            (Self::BootModeFirst, "boot mode first"),
+            (Self::BootModeSecond, "boot mode second"),
+            (Self::ForceIpAddress, "force IP address"),
+            (Self::SendProfinetName, "send PROFINET name"),
+            (Self::ResetProfinetData, "reset PROFINET data"),
+            (Self::SavePhasingPosition, "save phasing position"),
+            (Self::SaveZeroOffset, "save zero offset"),
+            (Self::ResetPhasingPosition, "reset phasing position"),
+        ];
+    }
+    impl core::fmt::Display for EepromCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for EepromCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// VariableCommand action.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Save`](Self::Save) |
     /// | 1 | [`Load`](Self::Load) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum VariableCommandAction {
         /// 0: save.
         Save,
@@ -12996,6 +17637,8 @@ pub mod types {
         Load,
     }
     impl VariableCommandAction {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Save, Self::Load];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -13020,6 +17663,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<VariableCommandAction> for u8 {
+        fn from(value: VariableCommandAction) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for VariableCommandAction {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for VariableCommandAction {}
+    impl core::hash::Hash for VariableCommandAction {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for VariableCommandAction {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Save, "save"),
+            (Self::Load, "load"),
+        ];
+    }
+    impl core::fmt::Display for VariableCommandAction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for VariableCommandAction {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// StartMode.
     ///
     /// Value type of [`RSTRTMODE`](super::objects::RSTRTMODE).
@@ -13029,7 +17705,7 @@ pub mod types {
     /// | 1 | [`Load`](Self::Load) | Loads the registers and sets the operating mode. |
     /// | 2 | [`LoadAndEnable`](Self::LoadAndEnable) | Loads the registers, sets the operating mode and enables the drive. |
     /// | 3 | [`LoadEnableAndRun`](Self::LoadEnableAndRun) | Loads the registers, sets the operating mode, enables the drive and runs the user program. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum StartMode {
         /// 1: load. Loads the registers and sets the operating mode. Name in the manual: Carica i registri e setta modo di funzionamento.
         Load,
@@ -13041,6 +17717,12 @@ pub mod types {
         Unknown(u16),
     }
     impl StartMode {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::Load,
+            Self::LoadAndEnable,
+            Self::LoadEnableAndRun,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13069,6 +17751,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<StartMode> for u16 {
+        fn from(value: StartMode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for StartMode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for StartMode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for StartMode {}
+    impl core::hash::Hash for StartMode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for StartMode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Load, "load"),
+            (Self::LoadAndEnable, "load and enable"),
+            (Self::LoadEnableAndRun, "load enable and run"),
+        ];
+    }
+    impl core::fmt::Display for StartMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for StartMode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Configuration.
     ///
     /// Value type of [`RSTRTCONF`](super::objects::RSTRTCONF) and [`RCONFIG`](super::objects::RCONFIG).
@@ -13091,7 +17812,7 @@ pub mod types {
     /// | 13 | [`SmartModeStepDirection`](Self::SmartModeStepDirection) |  |
     /// | 14 | [`SmitDevice`](Self::SmitDevice) | Settings for a Smit device, which the manual does not describe. |
     /// | 15 | [`OpenLoopPwm`](Self::OpenLoopPwm) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Configuration {
         /// 0: not configured. Name in the manual: Non configurato.
         NotConfigured,
@@ -13129,6 +17850,25 @@ pub mod types {
         Unknown(u16),
     }
     impl Configuration {
+        /// All values with names.
+        pub const ALL: [Self; 16] = [
+            Self::NotConfigured,
+            Self::Reserved1,
+            Self::OpenLoopSpeed,
+            Self::OpenLoopPosition,
+            Self::OpenLoopStepDirection,
+            Self::ClosedLoopTorque,
+            Self::ClosedLoopSpeed,
+            Self::ClosedLoopPosition,
+            Self::ClosedLoopStepDirection,
+            Self::ClosedLoopSpeedWithTachometer,
+            Self::Reserved10,
+            Self::SmartModeSpeed,
+            Self::SmartModePosition,
+            Self::SmartModeStepDirection,
+            Self::SmitDevice,
+            Self::OpenLoopPwm,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13183,6 +17923,58 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<Configuration> for u16 {
+        fn from(value: Configuration) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for Configuration {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for Configuration {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for Configuration {}
+    impl core::hash::Hash for Configuration {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for Configuration {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotConfigured, "not configured"),
+            (Self::Reserved1, "reserved 1"),
+            (Self::OpenLoopSpeed, "open loop speed"),
+            (Self::OpenLoopPosition, "open loop position"),
+            (Self::OpenLoopStepDirection, "open loop step direction"),
+            (Self::ClosedLoopTorque, "closed loop torque"),
+            (Self::ClosedLoopSpeed, "closed loop speed"),
+            (Self::ClosedLoopPosition, "closed loop position"),
+            (Self::ClosedLoopStepDirection, "closed loop step direction"),
+            (Self::ClosedLoopSpeedWithTachometer, "closed loop speed with tachometer"),
+            (Self::Reserved10, "reserved 10"),
+            (Self::SmartModeSpeed, "smart mode speed"),
+            (Self::SmartModePosition, "smart mode position"),
+            (Self::SmartModeStepDirection, "smart mode step direction"),
+            (Self::SmitDevice, "Smit device"),
+            (Self::OpenLoopPwm, "open loop PWM"),
+        ];
+    }
+    impl core::fmt::Display for Configuration {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for Configuration {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ControlState.
     ///
     /// Value type of [`RFOCMODE`](super::objects::RFOCMODE).
@@ -13193,7 +17985,7 @@ pub mod types {
     /// | 1 | [`OpenLoop`](Self::OpenLoop) |
     /// | 2 | [`ClosedLoop`](Self::ClosedLoop) |
     /// | 3 | [`SmartMode`](Self::SmartMode) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ControlState {
         /// 0: not initialized. Name in the manual: Non inizializzato.
         NotInitialized,
@@ -13207,6 +17999,13 @@ pub mod types {
         Unknown(u16),
     }
     impl ControlState {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::NotInitialized,
+            Self::OpenLoop,
+            Self::ClosedLoop,
+            Self::SmartMode,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13237,6 +18036,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ControlState> for u16 {
+        fn from(value: ControlState) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ControlState {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ControlState {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ControlState {}
+    impl core::hash::Hash for ControlState {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ControlState {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotInitialized, "not initialized"),
+            (Self::OpenLoop, "open loop"),
+            (Self::ClosedLoop, "closed loop"),
+            (Self::SmartMode, "smart mode"),
+        ];
+    }
+    impl core::fmt::Display for ControlState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ControlState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CurrentLevelState.
     ///
     /// Value type of [`RCURMODEACT`](super::objects::RCURMODEACT).
@@ -13248,7 +18087,7 @@ pub mod types {
     /// | 2 | [`NominalCurrent`](Self::NominalCurrent) |
     /// | 3 | [`BoostCurrent`](Self::BoostCurrent) |
     /// | 4 | [`AutomaticCurrentReduction`](Self::AutomaticCurrentReduction) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CurrentLevelState {
         /// 0: no current. Name in the manual: Corrente nulla.
         NoCurrent,
@@ -13264,6 +18103,14 @@ pub mod types {
         Unknown(u16),
     }
     impl CurrentLevelState {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::NoCurrent,
+            Self::ReducedCurrent,
+            Self::NominalCurrent,
+            Self::BoostCurrent,
+            Self::AutomaticCurrentReduction,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13296,6 +18143,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CurrentLevelState> for u16 {
+        fn from(value: CurrentLevelState) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for CurrentLevelState {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CurrentLevelState {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CurrentLevelState {}
+    impl core::hash::Hash for CurrentLevelState {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CurrentLevelState {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoCurrent, "no current"),
+            (Self::ReducedCurrent, "reduced current"),
+            (Self::NominalCurrent, "nominal current"),
+            (Self::BoostCurrent, "boost current"),
+            (Self::AutomaticCurrentReduction, "automatic current reduction"),
+        ];
+    }
+    impl core::fmt::Display for CurrentLevelState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CurrentLevelState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CurrentLevel.
     ///
     /// Value type of [`RCURMODE`](super::objects::RCURMODE).
@@ -13306,7 +18194,7 @@ pub mod types {
     /// | 1 | [`ReducedCurrent`](Self::ReducedCurrent) |
     /// | 2 | [`NominalCurrent`](Self::NominalCurrent) |
     /// | 3 | [`BoostCurrent`](Self::BoostCurrent) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CurrentLevel {
         /// 0: no current. Name in the manual: Corrente nulla.
         NoCurrent,
@@ -13320,6 +18208,13 @@ pub mod types {
         Unknown(u16),
     }
     impl CurrentLevel {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::NoCurrent,
+            Self::ReducedCurrent,
+            Self::NominalCurrent,
+            Self::BoostCurrent,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13350,6 +18245,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CurrentLevel> for u16 {
+        fn from(value: CurrentLevel) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for CurrentLevel {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CurrentLevel {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CurrentLevel {}
+    impl core::hash::Hash for CurrentLevel {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CurrentLevel {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoCurrent, "no current"),
+            (Self::ReducedCurrent, "reduced current"),
+            (Self::NominalCurrent, "nominal current"),
+            (Self::BoostCurrent, "boost current"),
+        ];
+    }
+    impl core::fmt::Display for CurrentLevel {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CurrentLevel {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// AccelerationForward.
     ///
     /// Value type of [`RSWACFW`](super::objects::RSWACFW).
@@ -13358,7 +18293,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Current`](Self::Current) |
     /// | 1 | [`Speed`](Self::Speed) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AccelerationForward {
         /// 0: current. Name in the manual: Corrente.
         Current,
@@ -13368,6 +18303,8 @@ pub mod types {
         Unknown(u16),
     }
     impl AccelerationForward {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Current, Self::Speed];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13394,6 +18331,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<AccelerationForward> for u16 {
+        fn from(value: AccelerationForward) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for AccelerationForward {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for AccelerationForward {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for AccelerationForward {}
+    impl core::hash::Hash for AccelerationForward {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for AccelerationForward {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Current, "current"),
+            (Self::Speed, "speed"),
+        ];
+    }
+    impl core::fmt::Display for AccelerationForward {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for AccelerationForward {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// PwmAlignment.
     ///
     /// Value type of [`RPWMMODE`](super::objects::RPWMMODE).
@@ -13402,7 +18377,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Centred`](Self::Centred) |
     /// | 1 | [`LeftAligned`](Self::LeftAligned) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum PwmAlignment {
         /// 0: centred. Name in the manual: Centrato.
         Centred,
@@ -13412,6 +18387,8 @@ pub mod types {
         Unknown(u16),
     }
     impl PwmAlignment {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Centred, Self::LeftAligned];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13438,10 +18415,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<PwmAlignment> for u16 {
+        fn from(value: PwmAlignment) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for PwmAlignment {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for PwmAlignment {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for PwmAlignment {}
+    impl core::hash::Hash for PwmAlignment {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for PwmAlignment {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Centred, "centred"),
+            (Self::LeftAligned, "left aligned"),
+        ];
+    }
+    impl core::fmt::Display for PwmAlignment {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for PwmAlignment {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModelCode.
     ///
     /// Value type of [`RINDTYPE`](super::objects::RINDTYPE).
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModelCode {
         /// 0: SMD30.06LIM.
         Smd30_06Lim,
@@ -13701,6 +18716,136 @@ pub mod types {
         Unknown(u16),
     }
     impl ModelCode {
+        /// All values with names.
+        pub const ALL: [Self; 127] = [
+            Self::Smd30_06Lim,
+            Self::Smd30_06Lic,
+            Self::Smd30_06Lip,
+            Self::Smd50_06Lim,
+            Self::Smd50_06Lic,
+            Self::Smd50_06Lip,
+            Self::Smd30_06Him,
+            Self::Smd30_06Hic,
+            Self::Smd30_06Hip,
+            Self::Smd50_06Him,
+            Self::Smd50_06Hic,
+            Self::Smd50_06Hip,
+            Self::Smd10_04Lim,
+            Self::Smd10_04Lic,
+            Self::Smd10_04Lip,
+            Self::Smd10_04Him,
+            Self::Smd10_04Hic,
+            Self::Smd10_04Hip,
+            Self::Smd50_06Ls,
+            Self::Smd50_06Hs,
+            Self::Smd30_06Ls,
+            Self::Smd30_06Hs,
+            Self::Smd10_04Ls,
+            Self::Smd10_04Hs,
+            Self::Smd10_04Lum,
+            Self::Smd10_04Hum,
+            Self::Smd104u,
+            Self::Smd30_06Lie,
+            Self::Smd50_06Lie,
+            Self::Smd30_06Hie,
+            Self::Smd50_06Hie,
+            Self::Smd10_04Lie,
+            Self::Smd10_04Hie,
+            Self::Smd11_04Lim,
+            Self::Smd11_04Lic,
+            Self::Smd11_04Lip,
+            Self::Smd11_04Ls,
+            Self::Smd11_04Lum,
+            Self::Smd11_04Lie,
+            Self::Smd11_04Him,
+            Self::Smd11_04Hic,
+            Self::Smd11_04Hip,
+            Self::Smd11_04Hs,
+            Self::Smd11_04Hum,
+            Self::Smd11_04Hie,
+            Self::Smd114u,
+            Self::Smd51_06Lim,
+            Self::Smd51_06Lic,
+            Self::Smd51_06Lip,
+            Self::Smd51_06Him,
+            Self::Smd51_06Hic,
+            Self::Smd51_06Hip,
+            Self::Smd51_06Ls,
+            Self::Smd51_06Hs,
+            Self::Smd51_06Lie,
+            Self::Smd51_06Hie,
+            Self::Smd51_06Lum,
+            Self::Smd51_06Hum,
+            Self::Smd51_06Lit,
+            Self::Smd51_06Hit,
+            Self::Smd11_04Lit,
+            Self::Smd11_04Hit,
+            Self::Smd31_06Lim,
+            Self::Smd31_06Lic,
+            Self::Smd31_06Lip,
+            Self::Smd31_06Him,
+            Self::Smd31_06Hic,
+            Self::Smd31_06Hip,
+            Self::Smd31_06Ls,
+            Self::Smd31_06Hs,
+            Self::Smd31_06Lie,
+            Self::Smd31_06Hie,
+            Self::Smd31_06Lum,
+            Self::Smd31_06Hum,
+            Self::Smd31_06Lit,
+            Self::Smd31_06Hit,
+            Self::Smd12_04Lim,
+            Self::Smd12_04Lic,
+            Self::Smd12_04Lip,
+            Self::Smd12_04Ls,
+            Self::Smd12_04Lum,
+            Self::Smd12_04Lie,
+            Self::Smd12_04Him,
+            Self::Smd12_04Hic,
+            Self::Smd12_04Hip,
+            Self::Smd12_04Hs,
+            Self::Smd12_04Hum,
+            Self::Smd12_04Hie,
+            Self::Smd12_04Lit,
+            Self::Smd12_04Hit,
+            Self::Smd22_04Lim,
+            Self::Smd22_04Lic,
+            Self::Smd22_04Lip,
+            Self::Smd22_04Him,
+            Self::Smd22_04Hic,
+            Self::Smd22_04Hip,
+            Self::Smd22_04Ls,
+            Self::Smd22_04Hs,
+            Self::Smd22_04Lie,
+            Self::Smd22_04Hie,
+            Self::Smd22_04Lum,
+            Self::Smd22_04Hum,
+            Self::Smd22_04Lit,
+            Self::Smd22_04Hit,
+            Self::Smd1204Hin,
+            Self::Smd1204Lin,
+            Self::Smd5106Hin,
+            Self::Smd5106Lin,
+            Self::Smd2204Hin,
+            Self::Smd2204Lin,
+            Self::Smd5206Lim,
+            Self::Smd5206Lic,
+            Self::Smd5206Lip,
+            Self::Smd5206Him,
+            Self::Smd5206Hic,
+            Self::Smd5206Hip,
+            Self::Smd5206Ls,
+            Self::Smd5206Hs,
+            Self::Smd5206Lie,
+            Self::Smd5206Hie,
+            Self::Smd5206Lum,
+            Self::Smd5206Hum,
+            Self::Smd5206Lit,
+            Self::Smd5206Hit,
+            Self::Smd5206Hin,
+            Self::Smd5206Lin,
+            Self::SeeRindfamily,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -13977,13 +19122,176 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModelCode> for u16 {
+        fn from(value: ModelCode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ModelCode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModelCode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModelCode {}
+    impl core::hash::Hash for ModelCode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModelCode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Smd30_06Lim, "SMD30.06LIM"),
+            (Self::Smd30_06Lic, "SMD30.06LIC"),
+            (Self::Smd30_06Lip, "SMD30.06LIP"),
+            (Self::Smd50_06Lim, "SMD50.06LIM"),
+            (Self::Smd50_06Lic, "SMD50.06LIC"),
+            (Self::Smd50_06Lip, "SMD50.06LIP"),
+            (Self::Smd30_06Him, "SMD30.06HIM"),
+            (Self::Smd30_06Hic, "SMD30.06HIC"),
+            (Self::Smd30_06Hip, "SMD30.06HIP"),
+            (Self::Smd50_06Him, "SMD50.06HIM"),
+            (Self::Smd50_06Hic, "SMD50.06HIC"),
+            (Self::Smd50_06Hip, "SMD50.06HIP"),
+            (Self::Smd10_04Lim, "SMD10.04LIM"),
+            (Self::Smd10_04Lic, "SMD10.04LIC"),
+            (Self::Smd10_04Lip, "SMD10.04LIP"),
+            (Self::Smd10_04Him, "SMD10.04HIM"),
+            (Self::Smd10_04Hic, "SMD10.04HIC"),
+            (Self::Smd10_04Hip, "SMD10.04HIP"),
+            (Self::Smd50_06Ls, "SMD50.06LS"),
+            (Self::Smd50_06Hs, "SMD50.06HS"),
+            (Self::Smd30_06Ls, "SMD30.06LS"),
+            (Self::Smd30_06Hs, "SMD30.06HS"),
+            (Self::Smd10_04Ls, "SMD10.04LS"),
+            (Self::Smd10_04Hs, "SMD10.04HS"),
+            (Self::Smd10_04Lum, "SMD10.04LUM"),
+            (Self::Smd10_04Hum, "SMD10.04HUM"),
+            (Self::Smd104u, "SMD104u"),
+            (Self::Smd30_06Lie, "SMD30.06LIE"),
+            (Self::Smd50_06Lie, "SMD50.06LIE"),
+            (Self::Smd30_06Hie, "SMD30.06HIE"),
+            (Self::Smd50_06Hie, "SMD50.06HIE"),
+            (Self::Smd10_04Lie, "SMD10.04LIE"),
+            (Self::Smd10_04Hie, "SMD10.04HIE"),
+            (Self::Smd11_04Lim, "SMD11.04LIM"),
+            (Self::Smd11_04Lic, "SMD11.04LIC"),
+            (Self::Smd11_04Lip, "SMD11.04LIP"),
+            (Self::Smd11_04Ls, "SMD11.04LS"),
+            (Self::Smd11_04Lum, "SMD11.04LUM"),
+            (Self::Smd11_04Lie, "SMD11.04LIE"),
+            (Self::Smd11_04Him, "SMD11.04HIM"),
+            (Self::Smd11_04Hic, "SMD11.04HIC"),
+            (Self::Smd11_04Hip, "SMD11.04HIP"),
+            (Self::Smd11_04Hs, "SMD11.04HS"),
+            (Self::Smd11_04Hum, "SMD11.04HUM"),
+            (Self::Smd11_04Hie, "SMD11.04HIE"),
+            (Self::Smd114u, "SMD114u"),
+            (Self::Smd51_06Lim, "SMD51.06LIM"),
+            (Self::Smd51_06Lic, "SMD51.06LIC"),
+            (Self::Smd51_06Lip, "SMD51.06LIP"),
+            (Self::Smd51_06Him, "SMD51.06HIM"),
+            (Self::Smd51_06Hic, "SMD51.06HIC"),
+            (Self::Smd51_06Hip, "SMD51.06HIP"),
+            (Self::Smd51_06Ls, "SMD51.06LS"),
+            (Self::Smd51_06Hs, "SMD51.06HS"),
+            (Self::Smd51_06Lie, "SMD51.06LIE"),
+            (Self::Smd51_06Hie, "SMD51.06HIE"),
+            (Self::Smd51_06Lum, "SMD51.06LUM"),
+            (Self::Smd51_06Hum, "SMD51.06HUM"),
+            (Self::Smd51_06Lit, "SMD51.06LIT"),
+            (Self::Smd51_06Hit, "SMD51.06HIT"),
+            (Self::Smd11_04Lit, "SMD11.04LIT"),
+            (Self::Smd11_04Hit, "SMD11.04HIT"),
+            (Self::Smd31_06Lim, "SMD31.06LIM"),
+            (Self::Smd31_06Lic, "SMD31.06LIC"),
+            (Self::Smd31_06Lip, "SMD31.06LIP"),
+            (Self::Smd31_06Him, "SMD31.06HIM"),
+            (Self::Smd31_06Hic, "SMD31.06HIC"),
+            (Self::Smd31_06Hip, "SMD31.06HIP"),
+            (Self::Smd31_06Ls, "SMD31.06LS"),
+            (Self::Smd31_06Hs, "SMD31.06HS"),
+            (Self::Smd31_06Lie, "SMD31.06LIE"),
+            (Self::Smd31_06Hie, "SMD31.06HIE"),
+            (Self::Smd31_06Lum, "SMD31.06LUM"),
+            (Self::Smd31_06Hum, "SMD31.06HUM"),
+            (Self::Smd31_06Lit, "SMD31.06LIT"),
+            (Self::Smd31_06Hit, "SMD31.06HIT"),
+            (Self::Smd12_04Lim, "SMD12.04LIM"),
+            (Self::Smd12_04Lic, "SMD12.04LIC"),
+            (Self::Smd12_04Lip, "SMD12.04LIP"),
+            (Self::Smd12_04Ls, "SMD12.04LS"),
+            (Self::Smd12_04Lum, "SMD12.04LUM"),
+            (Self::Smd12_04Lie, "SMD12.04LIE"),
+            (Self::Smd12_04Him, "SMD12.04HIM"),
+            (Self::Smd12_04Hic, "SMD12.04HIC"),
+            (Self::Smd12_04Hip, "SMD12.04HIP"),
+            (Self::Smd12_04Hs, "SMD12.04HS"),
+            (Self::Smd12_04Hum, "SMD12.04HUM"),
+            (Self::Smd12_04Hie, "SMD12.04HIE"),
+            (Self::Smd12_04Lit, "SMD12.04LIT"),
+            (Self::Smd12_04Hit, "SMD12.04HIT"),
+            (Self::Smd22_04Lim, "SMD22.04LIM"),
+            (Self::Smd22_04Lic, "SMD22.04LIC"),
+            (Self::Smd22_04Lip, "SMD22.04LIP"),
+            (Self::Smd22_04Him, "SMD22.04HIM"),
+            (Self::Smd22_04Hic, "SMD22.04HIC"),
+            (Self::Smd22_04Hip, "SMD22.04HIP"),
+            (Self::Smd22_04Ls, "SMD22.04LS"),
+            (Self::Smd22_04Hs, "SMD22.04HS"),
+            (Self::Smd22_04Lie, "SMD22.04LIE"),
+            (Self::Smd22_04Hie, "SMD22.04HIE"),
+            (Self::Smd22_04Lum, "SMD22.04LUM"),
+            (Self::Smd22_04Hum, "SMD22.04HUM"),
+            (Self::Smd22_04Lit, "SMD22.04LIT"),
+            (Self::Smd22_04Hit, "SMD22.04HIT"),
+            (Self::Smd1204Hin, "SMD1204HIN"),
+            (Self::Smd1204Lin, "SMD1204LIN"),
+            (Self::Smd5106Hin, "SMD5106HIN"),
+            (Self::Smd5106Lin, "SMD5106LIN"),
+            (Self::Smd2204Hin, "SMD2204HIN"),
+            (Self::Smd2204Lin, "SMD2204LIN"),
+            (Self::Smd5206Lim, "SMD5206LIM"),
+            (Self::Smd5206Lic, "SMD5206LIC"),
+            (Self::Smd5206Lip, "SMD5206LIP"),
+            (Self::Smd5206Him, "SMD5206HIM"),
+            (Self::Smd5206Hic, "SMD5206HIC"),
+            (Self::Smd5206Hip, "SMD5206HIP"),
+            (Self::Smd5206Ls, "SMD5206LS"),
+            (Self::Smd5206Hs, "SMD5206HS"),
+            (Self::Smd5206Lie, "SMD5206LIE"),
+            (Self::Smd5206Hie, "SMD5206HIE"),
+            (Self::Smd5206Lum, "SMD5206LUM"),
+            (Self::Smd5206Hum, "SMD5206HUM"),
+            (Self::Smd5206Lit, "SMD5206LIT"),
+            (Self::Smd5206Hit, "SMD5206HIT"),
+            (Self::Smd5206Hin, "SMD5206HIN"),
+            (Self::Smd5206Lin, "SMD5206LIN"),
+            (Self::SeeRindfamily, "see Rindfamily"),
+        ];
+    }
+    impl core::fmt::Display for ModelCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModelCode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModelDefinition voltage.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Low`](Self::Low) |
     /// | 1 | [`High`](Self::High) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModelDefinitionVoltage {
         /// 0: low.
         Low,
@@ -13993,6 +19301,8 @@ pub mod types {
         Unknown(u8),
     }
     impl ModelDefinitionVoltage {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Low, Self::High];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -14019,6 +19329,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModelDefinitionVoltage> for u8 {
+        fn from(value: ModelDefinitionVoltage) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for ModelDefinitionVoltage {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModelDefinitionVoltage {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModelDefinitionVoltage {}
+    impl core::hash::Hash for ModelDefinitionVoltage {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModelDefinitionVoltage {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Low, "low"),
+            (Self::High, "high"),
+        ];
+    }
+    impl core::fmt::Display for ModelDefinitionVoltage {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModelDefinitionVoltage {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModelDefinition application.
     ///
     /// | Value | Name |
@@ -14026,7 +19374,7 @@ pub mod types {
     /// | 0 | [`Indexer`](Self::Indexer) |
     /// | 1 | [`StepDirection`](Self::StepDirection) |
     /// | 2 | [`Labeller`](Self::Labeller) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModelDefinitionApplication {
         /// 0: indexer.
         Indexer,
@@ -14038,6 +19386,8 @@ pub mod types {
         Unknown(u8),
     }
     impl ModelDefinitionApplication {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [Self::Indexer, Self::StepDirection, Self::Labeller];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -14066,6 +19416,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModelDefinitionApplication> for u8 {
+        fn from(value: ModelDefinitionApplication) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for ModelDefinitionApplication {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModelDefinitionApplication {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModelDefinitionApplication {}
+    impl core::hash::Hash for ModelDefinitionApplication {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModelDefinitionApplication {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Indexer, "indexer"),
+            (Self::StepDirection, "step direction"),
+            (Self::Labeller, "labeller"),
+        ];
+    }
+    impl core::fmt::Display for ModelDefinitionApplication {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModelDefinitionApplication {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModelDefinition platform.
     ///
     /// | Value | Name |
@@ -14074,7 +19463,7 @@ pub mod types {
     /// | 1 | [`Smd`](Self::Smd) |
     /// | 2 | [`Dmd`](Self::Dmd) |
     /// | 3 | [`Bmd`](Self::Bmd) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModelDefinitionPlatform {
         /// 0: undefined.
         Undefined,
@@ -14088,6 +19477,8 @@ pub mod types {
         Unknown(u8),
     }
     impl ModelDefinitionPlatform {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [Self::Undefined, Self::Smd, Self::Dmd, Self::Bmd];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -14118,6 +19509,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModelDefinitionPlatform> for u8 {
+        fn from(value: ModelDefinitionPlatform) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for ModelDefinitionPlatform {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModelDefinitionPlatform {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModelDefinitionPlatform {}
+    impl core::hash::Hash for ModelDefinitionPlatform {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModelDefinitionPlatform {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Undefined, "undefined"),
+            (Self::Smd, "SMD"),
+            (Self::Dmd, "DMD"),
+            (Self::Bmd, "BMD"),
+        ];
+    }
+    impl core::fmt::Display for ModelDefinitionPlatform {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModelDefinitionPlatform {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModelDefinition communication chip.
     ///
     /// | Value | Name |
@@ -14126,7 +19557,7 @@ pub mod types {
     /// | 1 | [`Wiznet`](Self::Wiznet) |
     /// | 2 | [`Antaios`](Self::Antaios) |
     /// | 3 | [`Vpc3`](Self::Vpc3) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModelDefinitionCommunicationChip {
         /// 0: DSP.
         Dsp,
@@ -14140,6 +19571,8 @@ pub mod types {
         Unknown(u8),
     }
     impl ModelDefinitionCommunicationChip {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [Self::Dsp, Self::Wiznet, Self::Antaios, Self::Vpc3];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -14170,6 +19603,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModelDefinitionCommunicationChip> for u8 {
+        fn from(value: ModelDefinitionCommunicationChip) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for ModelDefinitionCommunicationChip {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModelDefinitionCommunicationChip {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModelDefinitionCommunicationChip {}
+    impl core::hash::Hash for ModelDefinitionCommunicationChip {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModelDefinitionCommunicationChip {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Dsp, "DSP"),
+            (Self::Wiznet, "Wiznet"),
+            (Self::Antaios, "Antaios"),
+            (Self::Vpc3, "VPC3"),
+        ];
+    }
+    impl core::fmt::Display for ModelDefinitionCommunicationChip {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModelDefinitionCommunicationChip {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// FieldbusKind.
     ///
     /// Note for 5: The communication chip is spelled ANATAIOS in value 5 and NATAIOS in value 9, but ANTAIOS in value 3. Assumed: the communication chip is spelled Antaios (other rows use the spelling ANTAIOS for the chip). Manual: VARIE; FIELDBUS.
@@ -14191,7 +19664,7 @@ pub mod types {
     /// | 8 | [`CaNopen`](Self::CaNopen) |
     /// | 9 | [`CaNopenAntaios`](Self::CaNopenAntaios) |
     /// | 10 | [`StepDirection`](Self::StepDirection) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum FieldbusKind {
         /// 0: USB. Name in the manual: USB (xUM).
         Usb,
@@ -14219,6 +19692,20 @@ pub mod types {
         Unknown(u16),
     }
     impl FieldbusKind {
+        /// All values with names.
+        pub const ALL: [Self; 11] = [
+            Self::Usb,
+            Self::ModbusRtu,
+            Self::ModbusTcp,
+            Self::ModbusTcpAntaios,
+            Self::Profibus,
+            Self::ProfibusAntaios,
+            Self::EtherCat,
+            Self::Profinet,
+            Self::CaNopen,
+            Self::CaNopenAntaios,
+            Self::StepDirection,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14263,6 +19750,53 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<FieldbusKind> for u16 {
+        fn from(value: FieldbusKind) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for FieldbusKind {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for FieldbusKind {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for FieldbusKind {}
+    impl core::hash::Hash for FieldbusKind {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for FieldbusKind {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Usb, "USB"),
+            (Self::ModbusRtu, "Modbus RTU"),
+            (Self::ModbusTcp, "Modbus TCP"),
+            (Self::ModbusTcpAntaios, "Modbus TCP Antaios"),
+            (Self::Profibus, "Profibus"),
+            (Self::ProfibusAntaios, "Profibus Antaios"),
+            (Self::EtherCat, "EtherCAT"),
+            (Self::Profinet, "PROFINET"),
+            (Self::CaNopen, "CANopen"),
+            (Self::CaNopenAntaios, "CANopen Antaios"),
+            (Self::StepDirection, "step direction"),
+        ];
+    }
+    impl core::fmt::Display for FieldbusKind {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for FieldbusKind {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DriveOptions absolute encoder.
     ///
     /// | Value | Name |
@@ -14275,7 +19809,7 @@ pub mod types {
     /// | 5 | [`Free5`](Self::Free5) |
     /// | 6 | [`Free6`](Self::Free6) |
     /// | 7 | [`Free7`](Self::Free7) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DriveOptionsAbsoluteEncoder {
         /// 0: none.
         None,
@@ -14295,6 +19829,17 @@ pub mod types {
         Free7,
     }
     impl DriveOptionsAbsoluteEncoder {
+        /// All values with names.
+        pub const ALL: [Self; 8] = [
+            Self::None,
+            Self::Ssi,
+            Self::EnDat,
+            Self::BiSs,
+            Self::SinCos,
+            Self::Free5,
+            Self::Free6,
+            Self::Free7,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x7 {
@@ -14331,6 +19876,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<DriveOptionsAbsoluteEncoder> for u8 {
+        fn from(value: DriveOptionsAbsoluteEncoder) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for DriveOptionsAbsoluteEncoder {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for DriveOptionsAbsoluteEncoder {}
+    impl core::hash::Hash for DriveOptionsAbsoluteEncoder {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for DriveOptionsAbsoluteEncoder {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::None, "none"),
+            (Self::Ssi, "SSI"),
+            (Self::EnDat, "EnDat"),
+            (Self::BiSs, "BiSS"),
+            (Self::SinCos, "sin cos"),
+            (Self::Free5, "free 5"),
+            (Self::Free6, "free 6"),
+            (Self::Free7, "free 7"),
+        ];
+    }
+    impl core::fmt::Display for DriveOptionsAbsoluteEncoder {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for DriveOptionsAbsoluteEncoder {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// RegisterMap.
     ///
     /// Value type of [`RINDREGSET`](super::objects::RINDREGSET).
@@ -14338,7 +19922,7 @@ pub mod types {
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Revision1`](Self::Revision1) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum RegisterMap {
         /// 0: revision 1. Name in the manual: Revisione 1.
         Revision1,
@@ -14346,6 +19930,8 @@ pub mod types {
         Unknown(u16),
     }
     impl RegisterMap {
+        /// All values with names.
+        pub const ALL: [Self; 1] = [Self::Revision1];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14370,6 +19956,43 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<RegisterMap> for u16 {
+        fn from(value: RegisterMap) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for RegisterMap {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for RegisterMap {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for RegisterMap {}
+    impl core::hash::Hash for RegisterMap {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for RegisterMap {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Revision1, "revision 1"),
+        ];
+    }
+    impl core::fmt::Display for RegisterMap {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for RegisterMap {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProfibusState.
     ///
     /// Note for 0xFF: The value of the Profibus state "Fatal Error" is printed as FF, without a prefix. Assumed: the value of the Profibus state "Fatal Error" is 0xFF (FF is not a decimal number). Manual: FIELDBUS.
@@ -14383,7 +20006,7 @@ pub mod types {
     /// | 2 | [`Configuration`](Self::Configuration) |
     /// | 3 | [`DataExchange`](Self::DataExchange) |
     /// | 255 | [`FatalError`](Self::FatalError) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProfibusState {
         /// 0: disabled. Name in the manual: Disabilitato.
         Disabled,
@@ -14399,6 +20022,14 @@ pub mod types {
         Unknown(u16),
     }
     impl ProfibusState {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::Disabled,
+            Self::Parameterisation,
+            Self::Configuration,
+            Self::DataExchange,
+            Self::FatalError,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14431,6 +20062,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProfibusState> for u16 {
+        fn from(value: ProfibusState) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProfibusState {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProfibusState {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProfibusState {}
+    impl core::hash::Hash for ProfibusState {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProfibusState {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::Parameterisation, "parameterisation"),
+            (Self::Configuration, "configuration"),
+            (Self::DataExchange, "data exchange"),
+            (Self::FatalError, "fatal error"),
+        ];
+    }
+    impl core::fmt::Display for ProfibusState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProfibusState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProfibusBitRate.
     ///
     /// Value type of [`RPROFIBAUD`](super::objects::RPROFIBAUD).
@@ -14449,7 +20121,7 @@ pub mod types {
     /// | 9 | [`_3000KbitS`](Self::_3000KbitS) | 3000 kbit/s. |
     /// | 10 | [`_6000KbitS`](Self::_6000KbitS) | 6000 kbit/s. |
     /// | 11 | [`_12000KbitS`](Self::_12000KbitS) | 12000 kbit/s. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProfibusBitRate {
         /// 0: automatic. Name in the manual: Auto baud-rate.
         Automatic,
@@ -14479,6 +20151,21 @@ pub mod types {
         Unknown(u16),
     }
     impl ProfibusBitRate {
+        /// All values with names.
+        pub const ALL: [Self; 12] = [
+            Self::Automatic,
+            Self::_9_6KbitS,
+            Self::_19_2KbitS,
+            Self::_31_25KbitS,
+            Self::_45_45KbitS,
+            Self::_93_75KbitS,
+            Self::_187_5KbitS,
+            Self::_500KbitS,
+            Self::_1500KbitS,
+            Self::_3000KbitS,
+            Self::_6000KbitS,
+            Self::_12000KbitS,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14525,6 +20212,54 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProfibusBitRate> for u16 {
+        fn from(value: ProfibusBitRate) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProfibusBitRate {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProfibusBitRate {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProfibusBitRate {}
+    impl core::hash::Hash for ProfibusBitRate {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProfibusBitRate {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Automatic, "automatic"),
+            (Self::_9_6KbitS, "9.6 kbit/s"),
+            (Self::_19_2KbitS, "19.2 kbit/s"),
+            (Self::_31_25KbitS, "31.25 kbit/s"),
+            (Self::_45_45KbitS, "45.45 kbit/s"),
+            (Self::_93_75KbitS, "93.75 kbit/s"),
+            (Self::_187_5KbitS, "187.5 kbit/s"),
+            (Self::_500KbitS, "500 kbit/s"),
+            (Self::_1500KbitS, "1500 kbit/s"),
+            (Self::_3000KbitS, "3000 kbit/s"),
+            (Self::_6000KbitS, "6000 kbit/s"),
+            (Self::_12000KbitS, "12000 kbit/s"),
+        ];
+    }
+    impl core::fmt::Display for ProfibusBitRate {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProfibusBitRate {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CanBaudRate.
     ///
     /// Value type of [`RCANBAUD`](super::objects::RCANBAUD).
@@ -14539,7 +20274,7 @@ pub mod types {
     /// | 5 | [`_500KbitS`](Self::_500KbitS) | 500 kbit/s. |
     /// | 6 | [`_800KbitS`](Self::_800KbitS) | 800 kbit/s. |
     /// | 7 | [`_1MbitS`](Self::_1MbitS) | 1 Mbit/s. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CanBaudRate {
         /// 0: 10 kbit/s. Name in the manual: 10Kb.
         _10KbitS,
@@ -14561,6 +20296,17 @@ pub mod types {
         Unknown(u16),
     }
     impl CanBaudRate {
+        /// All values with names.
+        pub const ALL: [Self; 8] = [
+            Self::_10KbitS,
+            Self::_20KbitS,
+            Self::_50KbitS,
+            Self::_125KbitS,
+            Self::_250KbitS,
+            Self::_500KbitS,
+            Self::_800KbitS,
+            Self::_1MbitS,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14599,6 +20345,50 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CanBaudRate> for u16 {
+        fn from(value: CanBaudRate) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for CanBaudRate {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CanBaudRate {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CanBaudRate {}
+    impl core::hash::Hash for CanBaudRate {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CanBaudRate {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::_10KbitS, "10 kbit/s"),
+            (Self::_20KbitS, "20 kbit/s"),
+            (Self::_50KbitS, "50 kbit/s"),
+            (Self::_125KbitS, "125 kbit/s"),
+            (Self::_250KbitS, "250 kbit/s"),
+            (Self::_500KbitS, "500 kbit/s"),
+            (Self::_800KbitS, "800 kbit/s"),
+            (Self::_1MbitS, "1 Mbit/s"),
+        ];
+    }
+    impl core::fmt::Display for CanBaudRate {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CanBaudRate {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CanObjectCommand.
     ///
     /// Value type of [`RCANCMD`](super::objects::RCANCMD).
@@ -14607,7 +20397,7 @@ pub mod types {
     /// |---|---|
     /// | 1 | [`Write`](Self::Write) |
     /// | 2 | [`Read`](Self::Read) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CanObjectCommand {
         /// 1: write. Name in the manual: Scrivi valore.
         Write,
@@ -14617,6 +20407,8 @@ pub mod types {
         Unknown(u16),
     }
     impl CanObjectCommand {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Write, Self::Read];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14643,6 +20435,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CanObjectCommand> for u16 {
+        fn from(value: CanObjectCommand) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for CanObjectCommand {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CanObjectCommand {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CanObjectCommand {}
+    impl core::hash::Hash for CanObjectCommand {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CanObjectCommand {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Write, "write"),
+            (Self::Read, "read"),
+        ];
+    }
+    impl core::fmt::Display for CanObjectCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CanObjectCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CanopenStatus red LED.
     ///
     /// | Value | Name |
@@ -14653,7 +20483,7 @@ pub mod types {
     /// | 5 | [`SyncError`](Self::SyncError) |
     /// | 6 | [`EventTimerError`](Self::EventTimerError) |
     /// | 7 | [`BusOff`](Self::BusOff) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CanopenStatusRedLed {
         /// 0: disabled.
         Disabled,
@@ -14671,6 +20501,15 @@ pub mod types {
         Unknown(u8),
     }
     impl CanopenStatusRedLed {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::Disabled,
+            Self::WarningLimitReached,
+            Self::ErrorControlEvent,
+            Self::SyncError,
+            Self::EventTimerError,
+            Self::BusOff,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -14705,6 +20544,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CanopenStatusRedLed> for u8 {
+        fn from(value: CanopenStatusRedLed) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for CanopenStatusRedLed {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CanopenStatusRedLed {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CanopenStatusRedLed {}
+    impl core::hash::Hash for CanopenStatusRedLed {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CanopenStatusRedLed {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Disabled, "disabled"),
+            (Self::WarningLimitReached, "warning limit reached"),
+            (Self::ErrorControlEvent, "error control event"),
+            (Self::SyncError, "sync error"),
+            (Self::EventTimerError, "event timer error"),
+            (Self::BusOff, "bus off"),
+        ];
+    }
+    impl core::fmt::Display for CanopenStatusRedLed {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CanopenStatusRedLed {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CanopenStatus green LED.
     ///
     /// | Value | Name |
@@ -14712,7 +20593,7 @@ pub mod types {
     /// | 1 | [`PreOperational`](Self::PreOperational) |
     /// | 2 | [`Stopped`](Self::Stopped) |
     /// | 5 | [`Operational`](Self::Operational) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CanopenStatusGreenLed {
         /// 1: pre-operational.
         PreOperational,
@@ -14724,6 +20605,12 @@ pub mod types {
         Unknown(u8),
     }
     impl CanopenStatusGreenLed {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [
+            Self::PreOperational,
+            Self::Stopped,
+            Self::Operational,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -14752,6 +20639,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CanopenStatusGreenLed> for u8 {
+        fn from(value: CanopenStatusGreenLed) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for CanopenStatusGreenLed {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CanopenStatusGreenLed {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CanopenStatusGreenLed {}
+    impl core::hash::Hash for CanopenStatusGreenLed {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CanopenStatusGreenLed {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::PreOperational, "pre-operational"),
+            (Self::Stopped, "stopped"),
+            (Self::Operational, "operational"),
+        ];
+    }
+    impl core::fmt::Display for CanopenStatusGreenLed {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CanopenStatusGreenLed {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// SerialBaudRate.
     ///
     /// Value type of [`RSERBAUD`](super::objects::RSERBAUD).
@@ -14766,7 +20692,7 @@ pub mod types {
     /// | 5 | [`_38400BitS`](Self::_38400BitS) | 38400 bit/s. |
     /// | 6 | [`_57600BitS`](Self::_57600BitS) | 57600 bit/s. |
     /// | 7 | [`_115200BitS`](Self::_115200BitS) | 115200 bit/s. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SerialBaudRate {
         /// 0: 1200 bit/s.
         _1200BitS,
@@ -14788,6 +20714,17 @@ pub mod types {
         Unknown(u16),
     }
     impl SerialBaudRate {
+        /// All values with names.
+        pub const ALL: [Self; 8] = [
+            Self::_1200BitS,
+            Self::_2400BitS,
+            Self::_4800BitS,
+            Self::_9600BitS,
+            Self::_19200BitS,
+            Self::_38400BitS,
+            Self::_57600BitS,
+            Self::_115200BitS,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14826,6 +20763,50 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SerialBaudRate> for u16 {
+        fn from(value: SerialBaudRate) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for SerialBaudRate {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SerialBaudRate {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SerialBaudRate {}
+    impl core::hash::Hash for SerialBaudRate {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SerialBaudRate {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::_1200BitS, "1200 bit/s"),
+            (Self::_2400BitS, "2400 bit/s"),
+            (Self::_4800BitS, "4800 bit/s"),
+            (Self::_9600BitS, "9600 bit/s"),
+            (Self::_19200BitS, "19200 bit/s"),
+            (Self::_38400BitS, "38400 bit/s"),
+            (Self::_57600BitS, "57600 bit/s"),
+            (Self::_115200BitS, "115200 bit/s"),
+        ];
+    }
+    impl core::fmt::Display for SerialBaudRate {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SerialBaudRate {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// SerialFormat.
     ///
     /// Value type of [`RSERPAR`](super::objects::RSERPAR).
@@ -14838,7 +20819,7 @@ pub mod types {
     /// | 3 | [`NoParity2StopBits`](Self::NoParity2StopBits) | no parity, 2 stop bits. |
     /// | 4 | [`EvenParity2StopBits`](Self::EvenParity2StopBits) | even parity, 2 stop bits. |
     /// | 5 | [`OddParity2StopBits`](Self::OddParity2StopBits) | odd parity, 2 stop bits. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SerialFormat {
         /// 0: no parity, 1 stop bit. Name in the manual: NONE, 1.
         NoParity1StopBit,
@@ -14856,6 +20837,15 @@ pub mod types {
         Unknown(u16),
     }
     impl SerialFormat {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::NoParity1StopBit,
+            Self::EvenParity1StopBit,
+            Self::OddParity1StopBit,
+            Self::NoParity2StopBits,
+            Self::EvenParity2StopBits,
+            Self::OddParity2StopBits,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14890,6 +20880,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SerialFormat> for u16 {
+        fn from(value: SerialFormat) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for SerialFormat {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SerialFormat {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SerialFormat {}
+    impl core::hash::Hash for SerialFormat {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SerialFormat {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoParity1StopBit, "no parity, 1 stop bit"),
+            (Self::EvenParity1StopBit, "even parity, 1 stop bit"),
+            (Self::OddParity1StopBit, "odd parity, 1 stop bit"),
+            (Self::NoParity2StopBits, "no parity, 2 stop bits"),
+            (Self::EvenParity2StopBits, "even parity, 2 stop bits"),
+            (Self::OddParity2StopBits, "odd parity, 2 stop bits"),
+        ];
+    }
+    impl core::fmt::Display for SerialFormat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SerialFormat {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// WordOrder.
     ///
     /// Value type of [`RINTMOT`](super::objects::RINTMOT) and [`RETHINTMOT`](super::objects::RETHINTMOT).
@@ -14898,7 +20930,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Intel`](Self::Intel) |
     /// | 1 | [`Motorola`](Self::Motorola) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum WordOrder {
         /// 0: Intel. Name in the manual: Intel.
         Intel,
@@ -14908,6 +20940,8 @@ pub mod types {
         Unknown(u16),
     }
     impl WordOrder {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Intel, Self::Motorola];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -14934,6 +20968,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<WordOrder> for u16 {
+        fn from(value: WordOrder) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for WordOrder {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for WordOrder {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for WordOrder {}
+    impl core::hash::Hash for WordOrder {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for WordOrder {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Intel, "Intel"),
+            (Self::Motorola, "Motorola"),
+        ];
+    }
+    impl core::fmt::Display for WordOrder {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for WordOrder {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModesOfOperationI16.
     ///
     /// Manual: MODES OF OPERATION; MODES OF OPERATION DISPLAY.
@@ -14956,7 +21028,7 @@ pub mod types {
     /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     /// | 10 to 127 | [`Unknown`](Self::Unknown) | reserved from 10. This value is reserved. Do not use it. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModesOfOperationI16 {
         /// -1: AEC velocity. Jog mode: motion at constant velocity. Manual: MODES OF OPERATION; MODES OF OPERATION DISPLAY: AEC Velocity mode (JOG).
         AecVelocity,
@@ -14976,6 +21048,16 @@ pub mod types {
         Unknown(i16),
     }
     impl ModesOfOperationI16 {
+        /// All values with names.
+        pub const ALL: [Self; 7] = [
+            Self::AecVelocity,
+            Self::Reserved0,
+            Self::ProfilePosition,
+            Self::Homing,
+            Self::InterpolatedPosition,
+            Self::CyclicSynchronousPosition,
+            Self::CyclicSynchronousVelocity,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -15012,6 +21094,49 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModesOfOperationI16> for i16 {
+        fn from(value: ModesOfOperationI16) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for ModesOfOperationI16 {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModesOfOperationI16 {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModesOfOperationI16 {}
+    impl core::hash::Hash for ModesOfOperationI16 {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModesOfOperationI16 {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::AecVelocity, "AEC velocity"),
+            (Self::Reserved0, "reserved 0"),
+            (Self::ProfilePosition, "profile position"),
+            (Self::Homing, "homing"),
+            (Self::InterpolatedPosition, "interpolated position"),
+            (Self::CyclicSynchronousPosition, "cyclic synchronous position"),
+            (Self::CyclicSynchronousVelocity, "cyclic synchronous velocity"),
+        ];
+    }
+    impl core::fmt::Display for ModesOfOperationI16 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModesOfOperationI16 {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// SocketProtocol.
     ///
     /// Value type of [`RETHPROTSOCK1`](super::objects::RETHPROTSOCK1), [`RETHPROTSOCK2`](super::objects::RETHPROTSOCK2) and [`RETHPROTSOCK3`](super::objects::RETHPROTSOCK3).
@@ -15020,7 +21145,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Tcp`](Self::Tcp) |
     /// | 1 | [`Udp`](Self::Udp) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SocketProtocol {
         /// 0: TCP.
         Tcp,
@@ -15030,6 +21155,8 @@ pub mod types {
         Unknown(u16),
     }
     impl SocketProtocol {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Tcp, Self::Udp];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -15056,13 +21183,51 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<SocketProtocol> for u16 {
+        fn from(value: SocketProtocol) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for SocketProtocol {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for SocketProtocol {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for SocketProtocol {}
+    impl core::hash::Hash for SocketProtocol {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for SocketProtocol {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Tcp, "TCP"),
+            (Self::Udp, "UDP"),
+        ];
+    }
+    impl core::fmt::Display for SocketProtocol {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for SocketProtocol {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 1 enable.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe1Enable {
         /// 0: off.
         Off,
@@ -15070,6 +21235,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeControlProbe1Enable {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15094,13 +21261,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe1Enable> for u8 {
+        fn from(value: TouchProbeControlProbe1Enable) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe1Enable {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe1Enable {}
+    impl core::hash::Hash for TouchProbeControlProbe1Enable {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe1Enable {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe1Enable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe1Enable {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 1 continuous.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`FirstEvent`](Self::FirstEvent) |
     /// | 1 | [`Continuous`](Self::Continuous) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe1Continuous {
         /// 0: first event.
         FirstEvent,
@@ -15108,6 +21308,8 @@ pub mod types {
         Continuous,
     }
     impl TouchProbeControlProbe1Continuous {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::FirstEvent, Self::Continuous];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15132,6 +21334,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe1Continuous> for u8 {
+        fn from(value: TouchProbeControlProbe1Continuous) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe1Continuous {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe1Continuous {}
+    impl core::hash::Hash for TouchProbeControlProbe1Continuous {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe1Continuous {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::FirstEvent, "first event"),
+            (Self::Continuous, "continuous"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe1Continuous {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe1Continuous {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 1 trigger.
     ///
     /// | Value | Name |
@@ -15140,7 +21375,7 @@ pub mod types {
     /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
     /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
     /// | 3 | [`Reserved`](Self::Reserved) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe1Trigger {
         /// 0: input 0.
         Input0,
@@ -15152,6 +21387,13 @@ pub mod types {
         Reserved,
     }
     impl TouchProbeControlProbe1Trigger {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Input0,
+            Self::EncoderIndex,
+            Self::ByObject60D0,
+            Self::Reserved,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -15180,13 +21422,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe1Trigger> for u8 {
+        fn from(value: TouchProbeControlProbe1Trigger) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe1Trigger {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe1Trigger {}
+    impl core::hash::Hash for TouchProbeControlProbe1Trigger {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe1Trigger {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Input0, "input 0"),
+            (Self::EncoderIndex, "encoder index"),
+            (Self::ByObject60D0, "by object 60D0"),
+            (Self::Reserved, "reserved"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe1Trigger {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe1Trigger {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 1 positive edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe1PositiveEdge {
         /// 0: off.
         Off,
@@ -15194,6 +21471,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeControlProbe1PositiveEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15218,13 +21497,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe1PositiveEdge> for u8 {
+        fn from(value: TouchProbeControlProbe1PositiveEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe1PositiveEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe1PositiveEdge {}
+    impl core::hash::Hash for TouchProbeControlProbe1PositiveEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe1PositiveEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe1PositiveEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe1PositiveEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 1 negative edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe1NegativeEdge {
         /// 0: off.
         Off,
@@ -15232,6 +21544,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeControlProbe1NegativeEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15256,6 +21570,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe1NegativeEdge> for u8 {
+        fn from(value: TouchProbeControlProbe1NegativeEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe1NegativeEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe1NegativeEdge {}
+    impl core::hash::Hash for TouchProbeControlProbe1NegativeEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe1NegativeEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe1NegativeEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe1NegativeEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 1 position.
     ///
     /// | Value | Name |
@@ -15264,7 +21611,7 @@ pub mod types {
     /// | 1 | [`Encoder1`](Self::Encoder1) |
     /// | 2 | [`Encoder2`](Self::Encoder2) |
     /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe1Position {
         /// 0: actual position.
         ActualPosition,
@@ -15276,6 +21623,13 @@ pub mod types {
         AbsoluteEncoder,
     }
     impl TouchProbeControlProbe1Position {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::ActualPosition,
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -15304,13 +21658,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe1Position> for u8 {
+        fn from(value: TouchProbeControlProbe1Position) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe1Position {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe1Position {}
+    impl core::hash::Hash for TouchProbeControlProbe1Position {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe1Position {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActualPosition, "actual position"),
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe1Position {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe1Position {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 2 enable.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe2Enable {
         /// 0: off.
         Off,
@@ -15318,6 +21707,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeControlProbe2Enable {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15342,13 +21733,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe2Enable> for u8 {
+        fn from(value: TouchProbeControlProbe2Enable) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe2Enable {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe2Enable {}
+    impl core::hash::Hash for TouchProbeControlProbe2Enable {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe2Enable {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe2Enable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe2Enable {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 2 continuous.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`FirstEvent`](Self::FirstEvent) |
     /// | 1 | [`Continuous`](Self::Continuous) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe2Continuous {
         /// 0: first event.
         FirstEvent,
@@ -15356,6 +21780,8 @@ pub mod types {
         Continuous,
     }
     impl TouchProbeControlProbe2Continuous {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::FirstEvent, Self::Continuous];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15380,6 +21806,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe2Continuous> for u8 {
+        fn from(value: TouchProbeControlProbe2Continuous) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe2Continuous {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe2Continuous {}
+    impl core::hash::Hash for TouchProbeControlProbe2Continuous {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe2Continuous {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::FirstEvent, "first event"),
+            (Self::Continuous, "continuous"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe2Continuous {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe2Continuous {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 2 trigger.
     ///
     /// | Value | Name |
@@ -15388,7 +21847,7 @@ pub mod types {
     /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
     /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
     /// | 3 | [`Reserved`](Self::Reserved) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe2Trigger {
         /// 0: input 1.
         Input1,
@@ -15400,6 +21859,13 @@ pub mod types {
         Reserved,
     }
     impl TouchProbeControlProbe2Trigger {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Input1,
+            Self::EncoderIndex,
+            Self::ByObject60D0,
+            Self::Reserved,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -15428,13 +21894,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe2Trigger> for u8 {
+        fn from(value: TouchProbeControlProbe2Trigger) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe2Trigger {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe2Trigger {}
+    impl core::hash::Hash for TouchProbeControlProbe2Trigger {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe2Trigger {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Input1, "input 1"),
+            (Self::EncoderIndex, "encoder index"),
+            (Self::ByObject60D0, "by object 60D0"),
+            (Self::Reserved, "reserved"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe2Trigger {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe2Trigger {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 2 positive edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe2PositiveEdge {
         /// 0: off.
         Off,
@@ -15442,6 +21943,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeControlProbe2PositiveEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15466,13 +21969,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe2PositiveEdge> for u8 {
+        fn from(value: TouchProbeControlProbe2PositiveEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe2PositiveEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe2PositiveEdge {}
+    impl core::hash::Hash for TouchProbeControlProbe2PositiveEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe2PositiveEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe2PositiveEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe2PositiveEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 2 negative edge.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 1 | [`Sampled`](Self::Sampled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe2NegativeEdge {
         /// 0: off.
         Off,
@@ -15480,6 +22016,8 @@ pub mod types {
         Sampled,
     }
     impl TouchProbeControlProbe2NegativeEdge {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Off, Self::Sampled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15504,6 +22042,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe2NegativeEdge> for u8 {
+        fn from(value: TouchProbeControlProbe2NegativeEdge) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe2NegativeEdge {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe2NegativeEdge {}
+    impl core::hash::Hash for TouchProbeControlProbe2NegativeEdge {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe2NegativeEdge {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "off"),
+            (Self::Sampled, "sampled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe2NegativeEdge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe2NegativeEdge {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeControl probe 2 position.
     ///
     /// | Value | Name |
@@ -15512,7 +22083,7 @@ pub mod types {
     /// | 1 | [`Encoder1`](Self::Encoder1) |
     /// | 2 | [`Encoder2`](Self::Encoder2) |
     /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeControlProbe2Position {
         /// 0: actual position.
         ActualPosition,
@@ -15524,6 +22095,13 @@ pub mod types {
         AbsoluteEncoder,
     }
     impl TouchProbeControlProbe2Position {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::ActualPosition,
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
@@ -15552,13 +22130,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeControlProbe2Position> for u8 {
+        fn from(value: TouchProbeControlProbe2Position) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeControlProbe2Position {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeControlProbe2Position {}
+    impl core::hash::Hash for TouchProbeControlProbe2Position {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeControlProbe2Position {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActualPosition, "actual position"),
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeControlProbe2Position {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeControlProbe2Position {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusBeforeV6 probe 1 enabled.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusBeforeV6Probe1Enabled {
         /// 0: switched off.
         SwitchedOff,
@@ -15566,6 +22179,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeStatusBeforeV6Probe1Enabled {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SwitchedOff, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15590,13 +22205,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusBeforeV6Probe1Enabled> for u8 {
+        fn from(value: TouchProbeStatusBeforeV6Probe1Enabled) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusBeforeV6Probe1Enabled {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusBeforeV6Probe1Enabled {}
+    impl core::hash::Hash for TouchProbeStatusBeforeV6Probe1Enabled {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusBeforeV6Probe1Enabled {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SwitchedOff, "switched off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusBeforeV6Probe1Enabled {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusBeforeV6Probe1Enabled {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusBeforeV6 probe 1 value stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusBeforeV6Probe1ValueStored {
         /// 0: no value.
         NoValue,
@@ -15604,6 +22252,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusBeforeV6Probe1ValueStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15628,13 +22278,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusBeforeV6Probe1ValueStored> for u8 {
+        fn from(value: TouchProbeStatusBeforeV6Probe1ValueStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusBeforeV6Probe1ValueStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusBeforeV6Probe1ValueStored {}
+    impl core::hash::Hash for TouchProbeStatusBeforeV6Probe1ValueStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusBeforeV6Probe1ValueStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusBeforeV6Probe1ValueStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusBeforeV6Probe1ValueStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusBeforeV6 probe 2 enabled.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusBeforeV6Probe2Enabled {
         /// 0: switched off.
         SwitchedOff,
@@ -15642,6 +22325,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeStatusBeforeV6Probe2Enabled {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SwitchedOff, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15666,13 +22351,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusBeforeV6Probe2Enabled> for u8 {
+        fn from(value: TouchProbeStatusBeforeV6Probe2Enabled) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusBeforeV6Probe2Enabled {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusBeforeV6Probe2Enabled {}
+    impl core::hash::Hash for TouchProbeStatusBeforeV6Probe2Enabled {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusBeforeV6Probe2Enabled {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SwitchedOff, "switched off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusBeforeV6Probe2Enabled {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusBeforeV6Probe2Enabled {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusBeforeV6 probe 2 value stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusBeforeV6Probe2ValueStored {
         /// 0: no value.
         NoValue,
@@ -15680,6 +22398,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusBeforeV6Probe2ValueStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15702,6 +22422,39 @@ pub mod types {
         }
         fn native(self) -> u8 {
             self.raw()
+        }
+    }
+    impl From<TouchProbeStatusBeforeV6Probe2ValueStored> for u8 {
+        fn from(value: TouchProbeStatusBeforeV6Probe2ValueStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusBeforeV6Probe2ValueStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusBeforeV6Probe2ValueStored {}
+    impl core::hash::Hash for TouchProbeStatusBeforeV6Probe2ValueStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusBeforeV6Probe2ValueStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusBeforeV6Probe2ValueStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusBeforeV6Probe2ValueStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
         }
     }
     /// TouchProbeInput.
@@ -15739,7 +22492,7 @@ pub mod types {
     /// | 4 | [`Input3ByCode4`](Self::Input3ByCode4) |  |
     /// | 5 | [`Encoder1IndexByCode5`](Self::Encoder1IndexByCode5) |  |
     /// | 6 | [`Encoder1SoftwareZero`](Self::Encoder1SoftwareZero) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeInput {
         /// -20: encoder 2 index. Name in the manual: Trigger da TOP encoder 2.
         Encoder2Index,
@@ -15799,6 +22552,36 @@ pub mod types {
         Unknown(i16),
     }
     impl TouchProbeInput {
+        /// All values with names.
+        pub const ALL: [Self; 27] = [
+            Self::Encoder2Index,
+            Self::Bls,
+            Self::Fls,
+            Self::Encoder1Index,
+            Self::Input15,
+            Self::Input14,
+            Self::Input13,
+            Self::Input12,
+            Self::Input11,
+            Self::Input10,
+            Self::Input9,
+            Self::Input8,
+            Self::Input7,
+            Self::Input6,
+            Self::Input5,
+            Self::Input4,
+            Self::Input3,
+            Self::Input2,
+            Self::Input1,
+            Self::Input0,
+            Self::Reserved,
+            Self::Input0ByCode1,
+            Self::Input1ByCode2,
+            Self::Input2ByCode3,
+            Self::Input3ByCode4,
+            Self::Encoder1IndexByCode5,
+            Self::Encoder1SoftwareZero,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
@@ -15875,13 +22658,76 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeInput> for i16 {
+        fn from(value: TouchProbeInput) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i16> for TouchProbeInput {
+        fn from(raw: i16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for TouchProbeInput {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeInput {}
+    impl core::hash::Hash for TouchProbeInput {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeInput {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Encoder2Index, "encoder 2 index"),
+            (Self::Bls, "BLS"),
+            (Self::Fls, "FLS"),
+            (Self::Encoder1Index, "encoder 1 index"),
+            (Self::Input15, "input 15"),
+            (Self::Input14, "input 14"),
+            (Self::Input13, "input 13"),
+            (Self::Input12, "input 12"),
+            (Self::Input11, "input 11"),
+            (Self::Input10, "input 10"),
+            (Self::Input9, "input 9"),
+            (Self::Input8, "input 8"),
+            (Self::Input7, "input 7"),
+            (Self::Input6, "input 6"),
+            (Self::Input5, "input 5"),
+            (Self::Input4, "input 4"),
+            (Self::Input3, "input 3"),
+            (Self::Input2, "input 2"),
+            (Self::Input1, "input 1"),
+            (Self::Input0, "input 0"),
+            (Self::Reserved, "reserved"),
+            (Self::Input0ByCode1, "input 0 by code 1"),
+            (Self::Input1ByCode2, "input 1 by code 2"),
+            (Self::Input2ByCode3, "input 2 by code 3"),
+            (Self::Input3ByCode4, "input 3 by code 4"),
+            (Self::Encoder1IndexByCode5, "encoder 1 index by code 5"),
+            (Self::Encoder1SoftwareZero, "encoder 1 software zero"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeInput {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeInput {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusV6 probe 1 enabled.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusV6Probe1Enabled {
         /// 0: switched off.
         SwitchedOff,
@@ -15889,6 +22735,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeStatusV6Probe1Enabled {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SwitchedOff, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15913,13 +22761,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusV6Probe1Enabled> for u8 {
+        fn from(value: TouchProbeStatusV6Probe1Enabled) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusV6Probe1Enabled {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusV6Probe1Enabled {}
+    impl core::hash::Hash for TouchProbeStatusV6Probe1Enabled {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusV6Probe1Enabled {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SwitchedOff, "switched off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusV6Probe1Enabled {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusV6Probe1Enabled {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusV6 probe 1 positive edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusV6Probe1PositiveEdgeStored {
         /// 0: no value.
         NoValue,
@@ -15927,6 +22808,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusV6Probe1PositiveEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15951,13 +22834,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusV6Probe1PositiveEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusV6Probe1PositiveEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusV6Probe1PositiveEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusV6Probe1PositiveEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusV6Probe1PositiveEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusV6Probe1PositiveEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusV6Probe1PositiveEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusV6Probe1PositiveEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusV6 probe 1 negative edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusV6Probe1NegativeEdgeStored {
         /// 0: no value.
         NoValue,
@@ -15965,6 +22881,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusV6Probe1NegativeEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -15989,13 +22907,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusV6Probe1NegativeEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusV6Probe1NegativeEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusV6Probe1NegativeEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusV6Probe1NegativeEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusV6Probe1NegativeEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusV6Probe1NegativeEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusV6Probe1NegativeEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusV6Probe1NegativeEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusV6 probe 2 enabled.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
     /// | 1 | [`Enabled`](Self::Enabled) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusV6Probe2Enabled {
         /// 0: switched off.
         SwitchedOff,
@@ -16003,6 +22954,8 @@ pub mod types {
         Enabled,
     }
     impl TouchProbeStatusV6Probe2Enabled {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::SwitchedOff, Self::Enabled];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -16027,13 +22980,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusV6Probe2Enabled> for u8 {
+        fn from(value: TouchProbeStatusV6Probe2Enabled) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusV6Probe2Enabled {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusV6Probe2Enabled {}
+    impl core::hash::Hash for TouchProbeStatusV6Probe2Enabled {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusV6Probe2Enabled {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SwitchedOff, "switched off"),
+            (Self::Enabled, "enabled"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusV6Probe2Enabled {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusV6Probe2Enabled {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusV6 probe 2 positive edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusV6Probe2PositiveEdgeStored {
         /// 0: no value.
         NoValue,
@@ -16041,6 +23027,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusV6Probe2PositiveEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -16065,13 +23053,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusV6Probe2PositiveEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusV6Probe2PositiveEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusV6Probe2PositiveEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusV6Probe2PositiveEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusV6Probe2PositiveEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusV6Probe2PositiveEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusV6Probe2PositiveEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusV6Probe2PositiveEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeStatusV6 probe 2 negative edge stored.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`NoValue`](Self::NoValue) |
     /// | 1 | [`Stored`](Self::Stored) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeStatusV6Probe2NegativeEdgeStored {
         /// 0: no value.
         NoValue,
@@ -16079,6 +23100,8 @@ pub mod types {
         Stored,
     }
     impl TouchProbeStatusV6Probe2NegativeEdgeStored {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::NoValue, Self::Stored];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -16103,6 +23126,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeStatusV6Probe2NegativeEdgeStored> for u8 {
+        fn from(value: TouchProbeStatusV6Probe2NegativeEdgeStored) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for TouchProbeStatusV6Probe2NegativeEdgeStored {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeStatusV6Probe2NegativeEdgeStored {}
+    impl core::hash::Hash for TouchProbeStatusV6Probe2NegativeEdgeStored {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeStatusV6Probe2NegativeEdgeStored {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoValue, "no value"),
+            (Self::Stored, "stored"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeStatusV6Probe2NegativeEdgeStored {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeStatusV6Probe2NegativeEdgeStored {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// TouchProbeSource.
     ///
     /// Value type of [`RTOUCHPROBE1SOURCE`](super::objects::RTOUCHPROBE1SOURCE) and [`RTOUCHPROBE2SOURCE`](super::objects::RTOUCHPROBE2SOURCE).
@@ -16114,7 +23170,7 @@ pub mod types {
     /// | 2 | [`Encoder2`](Self::Encoder2) |
     /// | 3 | [`Encoder3`](Self::Encoder3) |
     /// | 4 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum TouchProbeSource {
         /// 0: actual position. Name in the manual: Rposact.
         ActualPosition,
@@ -16130,6 +23186,14 @@ pub mod types {
         Unknown(u16),
     }
     impl TouchProbeSource {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::ActualPosition,
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::Encoder3,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16162,13 +23226,54 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<TouchProbeSource> for u16 {
+        fn from(value: TouchProbeSource) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for TouchProbeSource {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for TouchProbeSource {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for TouchProbeSource {}
+    impl core::hash::Hash for TouchProbeSource {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for TouchProbeSource {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::ActualPosition, "actual position"),
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::Encoder3, "encoder 3"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for TouchProbeSource {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for TouchProbeSource {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CamStartStopControl run.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Stop`](Self::Stop) |
     /// | 1 | [`Run`](Self::Run) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CamStartStopControlRun {
         /// 0: stop.
         Stop,
@@ -16176,6 +23281,8 @@ pub mod types {
         Run,
     }
     impl CamStartStopControlRun {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Stop, Self::Run];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -16200,6 +23307,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CamStartStopControlRun> for u8 {
+        fn from(value: CamStartStopControlRun) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for CamStartStopControlRun {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CamStartStopControlRun {}
+    impl core::hash::Hash for CamStartStopControlRun {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CamStartStopControlRun {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Stop, "stop"),
+            (Self::Run, "run"),
+        ];
+    }
+    impl core::fmt::Display for CamStartStopControlRun {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CamStartStopControlRun {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CamMode.
     ///
     /// Value type of [`RCAMMODESELECT`](super::objects::RCAMMODESELECT).
@@ -16208,7 +23348,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Type1`](Self::Type1) |
     /// | 1 | [`Type2`](Self::Type2) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CamMode {
         /// 0: type 1. Name in the manual: Camma Tipo1 (Blk).
         Type1,
@@ -16218,6 +23358,8 @@ pub mod types {
         Unknown(u16),
     }
     impl CamMode {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Type1, Self::Type2];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16244,6 +23386,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CamMode> for u16 {
+        fn from(value: CamMode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for CamMode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CamMode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CamMode {}
+    impl core::hash::Hash for CamMode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CamMode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Type1, "type 1"),
+            (Self::Type2, "type 2"),
+        ];
+    }
+    impl core::fmt::Display for CamMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CamMode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// CamFeedback.
     ///
     /// Value type of [`RENCCAMFBK`](super::objects::RENCCAMFBK).
@@ -16254,7 +23434,7 @@ pub mod types {
     /// | 1 | [`Encoder2`](Self::Encoder2) |
     /// | 2 | [`Encoder3`](Self::Encoder3) |
     /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum CamFeedback {
         /// 0: encoder 1.
         Encoder1,
@@ -16268,6 +23448,13 @@ pub mod types {
         Unknown(u16),
     }
     impl CamFeedback {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Encoder1,
+            Self::Encoder2,
+            Self::Encoder3,
+            Self::AbsoluteEncoder,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16298,13 +23485,53 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<CamFeedback> for u16 {
+        fn from(value: CamFeedback) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for CamFeedback {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for CamFeedback {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for CamFeedback {}
+    impl core::hash::Hash for CamFeedback {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for CamFeedback {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Encoder1, "encoder 1"),
+            (Self::Encoder2, "encoder 2"),
+            (Self::Encoder3, "encoder 3"),
+            (Self::AbsoluteEncoder, "absolute encoder"),
+        ];
+    }
+    impl core::fmt::Display for CamFeedback {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for CamFeedback {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// UserPidControl run.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Stop`](Self::Stop) |
     /// | 1 | [`Start`](Self::Start) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum UserPidControlRun {
         /// 0: stop.
         Stop,
@@ -16312,6 +23539,8 @@ pub mod types {
         Start,
     }
     impl UserPidControlRun {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Stop, Self::Start];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -16336,6 +23565,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<UserPidControlRun> for u8 {
+        fn from(value: UserPidControlRun) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for UserPidControlRun {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for UserPidControlRun {}
+    impl core::hash::Hash for UserPidControlRun {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for UserPidControlRun {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Stop, "stop"),
+            (Self::Start, "start"),
+        ];
+    }
+    impl core::fmt::Display for UserPidControlRun {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for UserPidControlRun {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// GeneratorTarget.
     ///
     /// Value type of [`RFGAPPLYTO`](super::objects::RFGAPPLYTO).
@@ -16348,7 +23610,7 @@ pub mod types {
     /// | 3 | [`Speed`](Self::Speed) |
     /// | 4 | [`Position`](Self::Position) |
     /// | 5 | [`Profile`](Self::Profile) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum GeneratorTarget {
         /// 0: none. Name in the manual: None.
         None,
@@ -16366,6 +23628,15 @@ pub mod types {
         Unknown(u16),
     }
     impl GeneratorTarget {
+        /// All values with names.
+        pub const ALL: [Self; 6] = [
+            Self::None,
+            Self::CurrentOfPhaseA,
+            Self::CurrentOfPhaseB,
+            Self::Speed,
+            Self::Position,
+            Self::Profile,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16400,6 +23671,48 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<GeneratorTarget> for u16 {
+        fn from(value: GeneratorTarget) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for GeneratorTarget {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for GeneratorTarget {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for GeneratorTarget {}
+    impl core::hash::Hash for GeneratorTarget {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for GeneratorTarget {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::None, "none"),
+            (Self::CurrentOfPhaseA, "current of phase A"),
+            (Self::CurrentOfPhaseB, "current of phase B"),
+            (Self::Speed, "speed"),
+            (Self::Position, "position"),
+            (Self::Profile, "profile"),
+        ];
+    }
+    impl core::fmt::Display for GeneratorTarget {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for GeneratorTarget {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// GeneratorCommand.
     ///
     /// Value type of [`RFGCMD`](super::objects::RFGCMD).
@@ -16408,7 +23721,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Stop`](Self::Stop) |
     /// | 1 | [`Start`](Self::Start) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum GeneratorCommand {
         /// 0: stop. Name in the manual: FG stop.
         Stop,
@@ -16418,6 +23731,8 @@ pub mod types {
         Unknown(u16),
     }
     impl GeneratorCommand {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Stop, Self::Start];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16444,6 +23759,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<GeneratorCommand> for u16 {
+        fn from(value: GeneratorCommand) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for GeneratorCommand {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for GeneratorCommand {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for GeneratorCommand {}
+    impl core::hash::Hash for GeneratorCommand {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for GeneratorCommand {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Stop, "stop"),
+            (Self::Start, "start"),
+        ];
+    }
+    impl core::fmt::Display for GeneratorCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for GeneratorCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// GeneratorMode.
     ///
     /// Value type of [`RFGMODE`](super::objects::RFGMODE).
@@ -16454,7 +23807,7 @@ pub mod types {
     /// | 1 | [`SquareWave`](Self::SquareWave) |
     /// | 2 | [`Pulse`](Self::Pulse) |
     /// | 4 | [`Profile`](Self::Profile) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum GeneratorMode {
         /// 0: sine. Name in the manual: sinusoidale.
         Sine,
@@ -16468,6 +23821,13 @@ pub mod types {
         Unknown(u16),
     }
     impl GeneratorMode {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Sine,
+            Self::SquareWave,
+            Self::Pulse,
+            Self::Profile,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16498,13 +23858,53 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<GeneratorMode> for u16 {
+        fn from(value: GeneratorMode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for GeneratorMode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for GeneratorMode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for GeneratorMode {}
+    impl core::hash::Hash for GeneratorMode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for GeneratorMode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Sine, "sine"),
+            (Self::SquareWave, "square wave"),
+            (Self::Pulse, "pulse"),
+            (Self::Profile, "profile"),
+        ];
+    }
+    impl core::fmt::Display for GeneratorMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for GeneratorMode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProgramStatus valid.
     ///
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Invalid`](Self::Invalid) |
     /// | 1 | [`Valid`](Self::Valid) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProgramStatusValid {
         /// 0: invalid.
         Invalid,
@@ -16512,6 +23912,8 @@ pub mod types {
         Valid,
     }
     impl ProgramStatusValid {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Invalid, Self::Valid];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x1 {
@@ -16536,6 +23938,39 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProgramStatusValid> for u8 {
+        fn from(value: ProgramStatusValid) -> Self {
+            value.raw()
+        }
+    }
+    impl PartialEq for ProgramStatusValid {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProgramStatusValid {}
+    impl core::hash::Hash for ProgramStatusValid {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProgramStatusValid {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Invalid, "invalid"),
+            (Self::Valid, "valid"),
+        ];
+    }
+    impl core::fmt::Display for ProgramStatusValid {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProgramStatusValid {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProgramRunMode.
     ///
     /// Value type of [`RPRGRUNMODE`](super::objects::RPRGRUNMODE).
@@ -16545,7 +23980,7 @@ pub mod types {
     /// | 0 | [`Stop`](Self::Stop) |
     /// | 1 | [`SingleStep`](Self::SingleStep) |
     /// | 2 | [`Run`](Self::Run) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProgramRunMode {
         /// 0: stop. Name in the manual: Stop.
         Stop,
@@ -16557,6 +23992,8 @@ pub mod types {
         Unknown(u16),
     }
     impl ProgramRunMode {
+        /// All values with names.
+        pub const ALL: [Self; 3] = [Self::Stop, Self::SingleStep, Self::Run];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16585,6 +24022,45 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProgramRunMode> for u16 {
+        fn from(value: ProgramRunMode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProgramRunMode {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProgramRunMode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProgramRunMode {}
+    impl core::hash::Hash for ProgramRunMode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProgramRunMode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Stop, "stop"),
+            (Self::SingleStep, "single step"),
+            (Self::Run, "run"),
+        ];
+    }
+    impl core::fmt::Display for ProgramRunMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProgramRunMode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProgramStopEvent.
     ///
     /// Value type of [`RPRGSTOPEVENT`](super::objects::RPRGSTOPEVENT).
@@ -16604,7 +24080,7 @@ pub mod types {
     /// | 10 | [`TooManyOnh`](Self::TooManyOnh) | The user program must contain fewer than 10 ONH and ONL instructions in total. |
     /// | 11 | [`TooManyOnl`](Self::TooManyOnl) | The user program must contain fewer than 10 ONH and ONL instructions in total. |
     /// | 12 | [`RteWithoutOnhOrOnl`](Self::RteWithoutOnhOrOnl) | Corrupted stack of the user program. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProgramStopEvent {
         /// 0: no stop requested. Name in the manual: Nessuna richiesta di stop.
         NoStopRequested,
@@ -16636,6 +24112,22 @@ pub mod types {
         Unknown(u16),
     }
     impl ProgramStopEvent {
+        /// All values with names.
+        pub const ALL: [Self; 13] = [
+            Self::NoStopRequested,
+            Self::StoppedByHand,
+            Self::InvalidProgram,
+            Self::CounterBeyondProgram,
+            Self::CounterBeyondMemory,
+            Self::InvalidInstruction,
+            Self::EventStackOverflow,
+            Self::EndInstruction,
+            Self::TooManyNestedJsr,
+            Self::RtsWithoutJsr,
+            Self::TooManyOnh,
+            Self::TooManyOnl,
+            Self::RteWithoutOnhOrOnl,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16684,6 +24176,55 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProgramStopEvent> for u16 {
+        fn from(value: ProgramStopEvent) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProgramStopEvent {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProgramStopEvent {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProgramStopEvent {}
+    impl core::hash::Hash for ProgramStopEvent {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProgramStopEvent {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoStopRequested, "no stop requested"),
+            (Self::StoppedByHand, "stopped by hand"),
+            (Self::InvalidProgram, "invalid program"),
+            (Self::CounterBeyondProgram, "counter beyond program"),
+            (Self::CounterBeyondMemory, "counter beyond memory"),
+            (Self::InvalidInstruction, "invalid instruction"),
+            (Self::EventStackOverflow, "event stack overflow"),
+            (Self::EndInstruction, "end instruction"),
+            (Self::TooManyNestedJsr, "too many nested JSR"),
+            (Self::RtsWithoutJsr, "RTS without JSR"),
+            (Self::TooManyOnh, "too many ONH"),
+            (Self::TooManyOnl, "too many ONL"),
+            (Self::RteWithoutOnhOrOnl, "RTE without ONH or ONL"),
+        ];
+    }
+    impl core::fmt::Display for ProgramStopEvent {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProgramStopEvent {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProgramCommand.
     ///
     /// Value type of [`RPRGCMD`](super::objects::RPRGCMD).
@@ -16695,7 +24236,7 @@ pub mod types {
     /// | 129 | [`ErasePassword`](Self::ErasePassword) | Also erases the whole user program. |
     /// | 130 | [`SetPassword`](Self::SetPassword) | The new password is the value of Rprgnewpsw. |
     /// | 131 | [`EraseProgramInRam`](Self::EraseProgramInRam) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProgramCommand {
         /// 1: save program. Name in the manual: Salva programma in EEPROM.
         SaveProgram,
@@ -16711,6 +24252,14 @@ pub mod types {
         Unknown(u16),
     }
     impl ProgramCommand {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::SaveProgram,
+            Self::LoadProgram,
+            Self::ErasePassword,
+            Self::SetPassword,
+            Self::EraseProgramInRam,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16743,6 +24292,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProgramCommand> for u16 {
+        fn from(value: ProgramCommand) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProgramCommand {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProgramCommand {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProgramCommand {}
+    impl core::hash::Hash for ProgramCommand {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProgramCommand {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SaveProgram, "save program"),
+            (Self::LoadProgram, "load program"),
+            (Self::ErasePassword, "erase password"),
+            (Self::SetPassword, "set password"),
+            (Self::EraseProgramInRam, "erase program in RAM"),
+        ];
+    }
+    impl core::fmt::Display for ProgramCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProgramCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProgramProtection.
     ///
     /// Value type of [`RPRGPSWACT`](super::objects::RPRGPSWACT).
@@ -16751,7 +24341,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`Unlocked`](Self::Unlocked) |
     /// | 1 | [`Protected`](Self::Protected) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProgramProtection {
         /// 0: unlocked. Name in the manual: Programma sbloccato.
         Unlocked,
@@ -16761,6 +24351,8 @@ pub mod types {
         Unknown(u16),
     }
     impl ProgramProtection {
+        /// All values with names.
+        pub const ALL: [Self; 2] = [Self::Unlocked, Self::Protected];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16787,6 +24379,44 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProgramProtection> for u16 {
+        fn from(value: ProgramProtection) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProgramProtection {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProgramProtection {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProgramProtection {}
+    impl core::hash::Hash for ProgramProtection {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProgramProtection {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Unlocked, "unlocked"),
+            (Self::Protected, "protected"),
+        ];
+    }
+    impl core::fmt::Display for ProgramProtection {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProgramProtection {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ProgramBreakpoint.
     ///
     /// Value type of [`RPRGBPNUM`](super::objects::RPRGBPNUM).
@@ -16798,7 +24428,7 @@ pub mod types {
     /// | 2 | [`Breakpoint2`](Self::Breakpoint2) |  |
     /// | 3 | [`Breakpoint3`](Self::Breakpoint3) |  |
     /// | 4 | [`Breakpoint4`](Self::Breakpoint4) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProgramBreakpoint {
         /// 0: single step count. Number of instructions that one single step executes. Name in the manual: Istruzioni da eseguire in passo singolo.
         SingleStepCount,
@@ -16814,6 +24444,14 @@ pub mod types {
         Unknown(u16),
     }
     impl ProgramBreakpoint {
+        /// All values with names.
+        pub const ALL: [Self; 5] = [
+            Self::SingleStepCount,
+            Self::Breakpoint1,
+            Self::Breakpoint2,
+            Self::Breakpoint3,
+            Self::Breakpoint4,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
@@ -16846,6 +24484,47 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ProgramBreakpoint> for u16 {
+        fn from(value: ProgramBreakpoint) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u16> for ProgramBreakpoint {
+        fn from(raw: u16) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ProgramBreakpoint {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ProgramBreakpoint {}
+    impl core::hash::Hash for ProgramBreakpoint {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ProgramBreakpoint {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::SingleStepCount, "single step count"),
+            (Self::Breakpoint1, "breakpoint 1"),
+            (Self::Breakpoint2, "breakpoint 2"),
+            (Self::Breakpoint3, "breakpoint 3"),
+            (Self::Breakpoint4, "breakpoint 4"),
+        ];
+    }
+    impl core::fmt::Display for ProgramBreakpoint {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ProgramBreakpoint {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// DeviceType.
     ///
     /// Manual: DEVICE TYPE.
@@ -16861,7 +24540,7 @@ pub mod types {
     /// | 0–15 | [`device_profile_number`](Self::device_profile_number) | Number of the device profile: 402 for DSP-402. |
     /// | 16–23 | [`drive_type`](Self::drive_type) | Type of the drive, one bit per type. Values: [`DeviceTypeDriveType`]. |
     /// | 24–31 | [`manufacturer_specific`](Self::manufacturer_specific) | Manufacturer-specific information, always 0 on these drives. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DeviceType(u32);
     impl DeviceType {
         /// Creates a value in which all bits are 0.
@@ -16918,14 +24597,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DeviceType {
+        const LAYOUT: &'static str = "DeviceType device_profile_number:ffff ?drive_type:ff0000 manufacturer_specific:ff000000";
+    }
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "DeviceType device_profile_number:ffff ?drive_type:ff0000 manufacturer_specific:ff000000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.drive_type()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ErrorRegister.
@@ -16946,7 +24643,7 @@ pub mod types {
     /// | 5 | [`device_profile_error`](Self::device_profile_error) |  |
     /// | 6 | reserved | A write to an item sets the value 0. |
     /// | 7 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
         /// Creates a value in which all bits are 0.
@@ -17006,14 +24703,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorRegister {
+        const LAYOUT: &'static str = "ErrorRegister generic_error:1 communication_error:10 device_profile_error:20";
+    }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ErrorRegister generic_error:1 communication_error:10 device_profile_error:20",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CobIdSync.
@@ -17029,7 +24739,7 @@ pub mod types {
     /// | 29 | [`frame_format`](Self::frame_format) | 0 for 11-bit identifiers (CAN 2.0A), 1 for 29-bit identifiers (CAN 2.0B). The drive rejects a … Values: [`CobIdSyncFrameFormat`]. |
     /// | 30 | [`sync_production`](Self::sync_production) | 1 if the drive produces SYNC. The drive rejects a change of this bit. Values: [`CobIdSyncSyncProduction`]. |
     /// | 31 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CobIdSync(u32);
     impl CobIdSync {
         /// Creates a value in which all bits are 0.
@@ -17097,14 +24807,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CobIdSync {
+        const LAYOUT: &'static str = "CobIdSync identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000 ?sync_production:40000000";
+    }
     impl core::fmt::Debug for CobIdSync {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "CobIdSync identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000 ?sync_production:40000000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.frame_format(), &self.sync_production()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for CobIdSync {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CobIdSync {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CobIdSync {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CobIdEmergency.
@@ -17119,7 +24847,7 @@ pub mod types {
     /// | 11–28 | [`extended_identifier`](Self::extended_identifier) | Upper bits of a 29-bit identifier, ignored if bit 29 is 0. |
     /// | 29 | [`frame_format`](Self::frame_format) | 0 for 11-bit identifiers (CAN 2.0A), 1 for 29-bit identifiers (CAN 2.0B). The drive rejects a … Values: [`CobIdEmergencyFrameFormat`]. |
     /// | 30–31 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CobIdEmergency(u32);
     impl CobIdEmergency {
         /// Creates a value in which all bits are 0.
@@ -17178,14 +24906,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CobIdEmergency {
+        const LAYOUT: &'static str = "CobIdEmergency identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000";
+    }
     impl core::fmt::Debug for CobIdEmergency {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "CobIdEmergency identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.frame_format()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for CobIdEmergency {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CobIdEmergency {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CobIdEmergency {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ConsumerHeartbeat.
@@ -17201,7 +24947,7 @@ pub mod types {
     /// | 0–15 | [`heartbeat_time`](Self::heartbeat_time) | Heartbeat timeout in ms. The value 0 disables monitoring. |
     /// | 16–23 | [`node_id`](Self::node_id) |  |
     /// | 24–31 | reserved | A write to an item sets the value 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ConsumerHeartbeat(u32);
     impl ConsumerHeartbeat {
         /// Creates a value in which all bits are 0.
@@ -17252,14 +24998,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ConsumerHeartbeat {
+        const LAYOUT: &'static str = "ConsumerHeartbeat heartbeat_time:ffff node_id:ff0000";
+    }
     impl core::fmt::Debug for ConsumerHeartbeat {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ConsumerHeartbeat heartbeat_time:ffff node_id:ff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ConsumerHeartbeat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ConsumerHeartbeat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ConsumerHeartbeat {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// RevisionNumber.
@@ -17272,7 +25031,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–15 | [`minor`](Self::minor) | Minor revision number, which increases with firmware changes that do not affect the object … |
     /// | 16–31 | [`major`](Self::major) | Major revision number, which increases if CANopen functions are added. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
         /// Creates a value in which all bits are 0.
@@ -17320,14 +25079,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for RevisionNumber {
+        const LAYOUT: &'static str = "RevisionNumber minor:ffff major:ffff0000";
+    }
     impl core::fmt::Debug for RevisionNumber {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "RevisionNumber minor:ffff major:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CobIdPdo.
@@ -17343,7 +25115,7 @@ pub mod types {
     /// | 29 | [`frame_format`](Self::frame_format) | 0 for 11-bit identifiers (CAN 2.0A), 1 for 29-bit identifiers (CAN 2.0B). Values: [`CobIdPdoFrameFormat`]. |
     /// | 30 | [`remote_request`](Self::remote_request) | Values: [`CobIdPdoRemoteRequest`]. |
     /// | 31 | [`validity`](Self::validity) | Values: [`CobIdPdoValidity`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CobIdPdo(u32);
     impl CobIdPdo {
         /// Creates a value in which all bits are 0.
@@ -17418,14 +25190,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CobIdPdo {
+        const LAYOUT: &'static str = "CobIdPdo identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000 ?remote_request:40000000 ?validity:80000000";
+    }
     impl core::fmt::Debug for CobIdPdo {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "CobIdPdo identifier:7ff extended_identifier:1ffff800 ?frame_format:20000000 ?remote_request:40000000 ?validity:80000000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.frame_format(), &self.remote_request(), &self.validity()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for CobIdPdo {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CobIdPdo {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CobIdPdo {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// PdoMapping.
@@ -17439,7 +25229,7 @@ pub mod types {
     /// | 0–7 | [`length`](Self::length) | Length of the mapped object in bits. |
     /// | 8–15 | [`sub_index`](Self::sub_index) |  |
     /// | 16–31 | [`index`](Self::index) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct PdoMapping(u32);
     impl PdoMapping {
         /// Creates a value in which all bits are 0.
@@ -17496,14 +25286,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for PdoMapping {
+        const LAYOUT: &'static str = "PdoMapping length:ff sub_index:ff00 index:ffff0000";
+    }
     impl core::fmt::Debug for PdoMapping {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "PdoMapping length:ff sub_index:ff00 index:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for PdoMapping {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for PdoMapping {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for PdoMapping {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ErrorCode.
@@ -17516,7 +25319,7 @@ pub mod types {
     /// |---|---|
     /// | 0–7 | [`detail`](Self::detail) |
     /// | 8–15 | [`error`](Self::error) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorCode(u16);
     impl ErrorCode {
         /// Creates a value in which all bits are 0.
@@ -17564,9 +25367,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorCode {
+        const LAYOUT: &'static str = "ErrorCode detail:ff error:ff00";
+    }
     impl core::fmt::Debug for ErrorCode {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(f, self.0 as u64, "ErrorCode detail:ff error:ff00", &[])
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorCode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Controlword.
@@ -17593,7 +25414,7 @@ pub mod types {
     /// | 9 | reserved |  |
     /// | 10 | reserved |  |
     /// | 11–15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Controlword(u16);
     impl Controlword {
         /// Creates a value in which all bits are 0.
@@ -17680,14 +25501,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Controlword {
+        const LAYOUT: &'static str = "Controlword switch_on:1 !disable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80";
+    }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Controlword switch_on:1 !disable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
@@ -17814,7 +25648,7 @@ pub mod types {
     /// | 13 | [`in_homing().homing_error()`](StatuswordInHoming::homing_error) |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Statusword(u16);
     impl Statusword {
         /// Creates a value in which all bits are 0.
@@ -17964,14 +25798,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Statusword {
+        const LAYOUT: &'static str = "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 !voltage_disabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 motor_moving:100 remote:200 target_reached:400 internal_limit_active:800";
+    }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 !voltage_disabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 motor_moving:100 remote:200 target_reached:400 internal_limit_active:800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Statusword`] with the bits that are defined while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is "profile position" (1).
@@ -18066,7 +25913,7 @@ pub mod types {
     /// | 12 | [`probe_2_positive_edge`](Self::probe_2_positive_edge) | Values: [`TouchProbeFunctionProbe2PositiveEdge`]. |
     /// | 13 | [`probe_2_negative_edge`](Self::probe_2_negative_edge) | Values: [`TouchProbeFunctionProbe2NegativeEdge`]. |
     /// | 14–15 | [`probe_2_position`](Self::probe_2_position) | Position that touch probe 2 samples. Values: [`TouchProbeFunctionProbe2Position`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TouchProbeFunction(u16);
     impl TouchProbeFunction {
         /// Creates a value in which all bits are 0.
@@ -18272,12 +26119,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TouchProbeFunction {
+        const LAYOUT: &'static str = "TouchProbeFunction ?probe_1_enable:1 ?probe_1_continuous:2 ?probe_1_trigger:c ?probe_1_positive_edge:10 ?probe_1_negative_edge:20 ?probe_1_position:c0 ?probe_2_enable:100 ?probe_2_continuous:200 ?probe_2_trigger:c00 ?probe_2_positive_edge:1000 ?probe_2_negative_edge:2000 ?probe_2_position:c000";
+    }
     impl core::fmt::Debug for TouchProbeFunction {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "TouchProbeFunction ?probe_1_enable:1 ?probe_1_continuous:2 ?probe_1_trigger:c ?probe_1_positive_edge:10 ?probe_1_negative_edge:20 ?probe_1_position:c0 ?probe_2_enable:100 ?probe_2_continuous:200 ?probe_2_trigger:c00 ?probe_2_positive_edge:1000 ?probe_2_negative_edge:2000 ?probe_2_position:c000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.probe_1_enable(),
                     &self.probe_1_continuous(),
@@ -18293,6 +26143,21 @@ pub mod types {
                     &self.probe_2_position(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for TouchProbeFunction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TouchProbeFunction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TouchProbeFunction {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// TouchProbeStatus.
@@ -18313,7 +26178,7 @@ pub mod types {
     /// | 10 | [`probe_2_negative_edge_stored`](Self::probe_2_negative_edge_stored) | 1 if touch probe 2 has stored a value at the falling edge. The bit is not supported before firmware … Values: [`TouchProbeStatusProbe2NegativeEdgeStored`]. |
     /// | 11–14 | reserved |  |
     /// | 15 | [`probe_2_update`](Self::probe_2_update) | Bit that toggles with each value that touch probe 2 stores during continuous sampling. The device reacts to both edges. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TouchProbeStatus(u16);
     impl TouchProbeStatus {
         /// Creates a value in which all bits are 0.
@@ -18451,12 +26316,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TouchProbeStatus {
+        const LAYOUT: &'static str = "TouchProbeStatus ?probe_1_enabled:1 ?probe_1_positive_edge_stored:2 ?probe_1_negative_edge_stored:4 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_positive_edge_stored:200 ?probe_2_negative_edge_stored:400 probe_2_update:8000";
+    }
     impl core::fmt::Debug for TouchProbeStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "TouchProbeStatus ?probe_1_enabled:1 ?probe_1_positive_edge_stored:2 ?probe_1_negative_edge_stored:4 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_positive_edge_stored:200 ?probe_2_negative_edge_stored:400 probe_2_update:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.probe_1_enabled(),
                     &self.probe_1_positive_edge_stored(),
@@ -18466,6 +26334,21 @@ pub mod types {
                     &self.probe_2_negative_edge_stored(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for TouchProbeStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TouchProbeStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TouchProbeStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ProfileDigitalInputs.
@@ -18496,7 +26379,7 @@ pub mod types {
     /// | 29 | [`digital_input_13`](Self::digital_input_13) |  |
     /// | 30 | [`digital_input_14`](Self::digital_input_14) |  |
     /// | 31 | [`digital_input_15`](Self::digital_input_15) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ProfileDigitalInputs(u32);
     impl ProfileDigitalInputs {
         /// Creates a value in which all bits are 0.
@@ -18697,14 +26580,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ProfileDigitalInputs {
+        const LAYOUT: &'static str = "ProfileDigitalInputs negative_limit_switch:1 positive_limit_switch:2 home_switch:4 digital_input_0:10000 digital_input_1:20000 digital_input_2:40000 digital_input_3:80000 digital_input_4:100000 digital_input_5:200000 digital_input_6:400000 digital_input_7:800000 digital_input_8:1000000 digital_input_9:2000000 digital_input_10:4000000 digital_input_11:8000000 digital_input_12:10000000 digital_input_13:20000000 digital_input_14:40000000 digital_input_15:80000000";
+    }
     impl core::fmt::Debug for ProfileDigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ProfileDigitalInputs negative_limit_switch:1 positive_limit_switch:2 home_switch:4 digital_input_0:10000 digital_input_1:20000 digital_input_2:40000 digital_input_3:80000 digital_input_4:100000 digital_input_5:200000 digital_input_6:400000 digital_input_7:800000 digital_input_8:1000000 digital_input_9:2000000 digital_input_10:4000000 digital_input_11:8000000 digital_input_12:10000000 digital_input_13:20000000 digital_input_14:40000000 digital_input_15:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ProfileDigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ProfileDigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ProfileDigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ProfileDigitalOutputs.
@@ -18727,7 +26623,7 @@ pub mod types {
     /// | 22 | [`digital_output_6`](Self::digital_output_6) |
     /// | 23 | [`digital_output_7`](Self::digital_output_7) |
     /// | 24–31 | reserved |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ProfileDigitalOutputs(u32);
     impl ProfileDigitalOutputs {
         /// Creates a value in which all bits are 0.
@@ -18829,14 +26725,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ProfileDigitalOutputs {
+        const LAYOUT: &'static str = "ProfileDigitalOutputs digital_output_0:10000 digital_output_1:20000 digital_output_2:40000 digital_output_3:80000 digital_output_4:100000 digital_output_5:200000 digital_output_6:400000 digital_output_7:800000";
+    }
     impl core::fmt::Debug for ProfileDigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ProfileDigitalOutputs digital_output_0:10000 digital_output_1:20000 digital_output_2:40000 digital_output_3:80000 digital_output_4:100000 digital_output_5:200000 digital_output_6:400000 digital_output_7:800000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ProfileDigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ProfileDigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ProfileDigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// SupportedDriveModes.
@@ -18857,7 +26766,7 @@ pub mod types {
     /// | 7–15 | reserved |  |
     /// | 16 | [`aec_velocity`](Self::aec_velocity) | Mode of operation that the drive supports. |
     /// | 17–31 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct SupportedDriveModes(u32);
     impl SupportedDriveModes {
         /// Creates a value in which all bits are 0.
@@ -18950,14 +26859,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for SupportedDriveModes {
+        const LAYOUT: &'static str = "SupportedDriveModes profile_position:1 velocity:2 profile_velocity:4 profile_torque:8 homing:20 interpolated_position:40 aec_velocity:10000";
+    }
     impl core::fmt::Debug for SupportedDriveModes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "SupportedDriveModes profile_position:1 velocity:2 profile_velocity:4 profile_torque:8 homing:20 interpolated_position:40 aec_velocity:10000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for SupportedDriveModes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for SupportedDriveModes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for SupportedDriveModes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// SavedPosition.
@@ -18967,7 +26889,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`position_saved`](Self::position_saved) | 1 if the position saved at power-off is valid and is in Rposactsaved. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct SavedPosition(u16);
     impl SavedPosition {
         /// Creates a value in which all bits are 0.
@@ -19006,9 +26928,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for SavedPosition {
+        const LAYOUT: &'static str = "SavedPosition position_saved:1";
+    }
     impl core::fmt::Debug for SavedPosition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(f, self.0 as u64, "SavedPosition position_saved:1", &[])
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for SavedPosition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for SavedPosition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for SavedPosition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for SavedPosition {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for SavedPosition {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for SavedPosition {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x1)
         }
     }
     /// Status.
@@ -19033,7 +26991,7 @@ pub mod types {
     /// | 13 | [`anticlockwise`](Self::anticlockwise) |  |
     /// | 14 | [`outside_software_limits`](Self::outside_software_limits) |  |
     /// | 15 | [`homing_in_progress`](Self::homing_in_progress) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Status(u16);
     impl Status {
         /// Creates a value in which all bits are 0.
@@ -19207,14 +27165,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Status {
+        const LAYOUT: &'static str = "Status enabled:1 alarm_active:2 axis_homed:4 theoretical_motion:8 accelerating:10 constant_speed:20 decelerating:40 closed_loop_report:80 homing_failed:100 ?motor_current:200 in_position:400 following_error:800 moved_while_disabled:1000 anticlockwise:2000 outside_software_limits:4000 homing_in_progress:8000";
+    }
     impl core::fmt::Debug for Status {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "Status enabled:1 alarm_active:2 axis_homed:4 theoretical_motion:8 accelerating:10 constant_speed:20 decelerating:40 closed_loop_report:80 homing_failed:100 ?motor_current:200 in_position:400 following_error:800 moved_while_disabled:1000 anticlockwise:2000 outside_software_limits:4000 homing_in_progress:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.motor_current()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for Status {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Status {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Status {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Status1.
@@ -19241,7 +27217,7 @@ pub mod types {
     /// | 13 | [`rextencvel_updated`](Self::rextencvel_updated) | 1 if a new value of the external encoder velocity is available in Rextencvel. |
     /// | 14 | [`rextencotovel_updated`](Self::rextencotovel_updated) | 1 if a new value of the velocity from the external encoder index is available in Rextencotovel. |
     /// | 15 | [`sto_active`](Self::sto_active) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Status1(u16);
     impl Status1 {
         /// Creates a value in which all bits are 0.
@@ -19415,14 +27391,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Status1 {
+        const LAYOUT: &'static str = "Status1 alarms_in_buffer:1 warning_present:2 power_off_signal:4 stop_in_progress:8 task_in_progress:10 lower_software_limit_hit:20 upper_software_limit_hit:40 backward_limit_switch_latched:80 forward_limit_switch_latched:100 voltage_limit:200 regulators_saturated:400 current_limit_active:800 encoder_phasing_in_progress:1000 rextencvel_updated:2000 rextencotovel_updated:4000 sto_active:8000";
+    }
     impl core::fmt::Debug for Status1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Status1 alarms_in_buffer:1 warning_present:2 power_off_signal:4 stop_in_progress:8 task_in_progress:10 lower_software_limit_hit:20 upper_software_limit_hit:40 backward_limit_switch_latched:80 forward_limit_switch_latched:100 voltage_limit:200 regulators_saturated:400 current_limit_active:800 encoder_phasing_in_progress:1000 rextencvel_updated:2000 rextencotovel_updated:4000 sto_active:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Status1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Status1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Status1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for Status1 {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for Status1 {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for Status1 {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFFFF)
         }
     }
     /// ClosedLoopStatus.
@@ -19447,7 +27454,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ClosedLoopStatus(u16);
     impl ClosedLoopStatus {
         /// Creates a value in which all bits are 0.
@@ -19567,14 +27574,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ClosedLoopStatus {
+        const LAYOUT: &'static str = "ClosedLoopStatus encoder_phased:1 theoretical_motion:2 in_position:4 position_alarm:8 following_alarm:10 positioning_timeout:40 real_motion:80 current_limit:100 speed_limit:200 acceleration_limit:400";
+    }
     impl core::fmt::Debug for ClosedLoopStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ClosedLoopStatus encoder_phased:1 theoretical_motion:2 in_position:4 position_alarm:8 following_alarm:10 positioning_timeout:40 real_motion:80 current_limit:100 speed_limit:200 acceleration_limit:400",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ClosedLoopStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ClosedLoopStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ClosedLoopStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ModeFlags1.
@@ -19599,7 +27619,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ModeFlags1(u16);
     impl ModeFlags1 {
         /// Creates a value in which all bits are 0.
@@ -19665,14 +27685,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ModeFlags1 {
+        const LAYOUT: &'static str = "ModeFlags1 wait_for_end_of_movement:1 update_jog_immediately:2 cam_table_positioning:4 clear_closed_loop_deviation:1000";
+    }
     impl core::fmt::Debug for ModeFlags1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ModeFlags1 wait_for_end_of_movement:1 update_jog_immediately:2 cam_table_positioning:4 clear_closed_loop_deviation:1000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ModeFlags1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ModeFlags1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ModeFlags1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ModeFlags.
@@ -19701,7 +27734,7 @@ pub mod types {
     /// | 17 | [`take_encoder_position_at_current_on`](Self::take_encoder_position_at_current_on) | 1: in SmartMode, the drive sets the position demand to the encoder position when the current is … |
     /// | 18 | [`hold_requested_position_at_current_off`](Self::hold_requested_position_at_current_off) | 1: in SmartMode, the position demand does not follow the encoder while the current is off. The … |
     /// | 19 | [`usb_port_parameters`](Self::usb_port_parameters) | Source of the USB port parameters: fixed or from registers. The port has no slave address in either … Values: [`ModeFlagsUsbPortParameters`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ModeFlags(u32);
     impl ModeFlags {
         /// Creates a value in which all bits are 0.
@@ -19964,12 +27997,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ModeFlags {
+        const LAYOUT: &'static str = "ModeFlags wait_for_end_of_movement:1 update_jog_velocity_immediately:2 lower_limit_enabled:4 upper_limit_enabled:8 backward_limit_switch_enabled:10 forward_limit_switch_enabled:20 ?actual_position_after_homing:40 ?motor_encoder_after_homing:80 ?external_encoder_after_homing:100 ?actual_position_after_home_offset:200 ?motor_encoder_after_home_offset:400 ?external_encoder_after_home_offset:800 automatic_offset_correction:1000 automatic_current_pid_correction:2000 unidirectional_gear:4000 gear_forward_only:8000 gear_backward_only:10000 take_encoder_position_at_current_on:20000 hold_requested_position_at_current_off:40000 ?usb_port_parameters:80000";
+    }
     impl core::fmt::Debug for ModeFlags {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "ModeFlags wait_for_end_of_movement:1 update_jog_velocity_immediately:2 lower_limit_enabled:4 upper_limit_enabled:8 backward_limit_switch_enabled:10 forward_limit_switch_enabled:20 ?actual_position_after_homing:40 ?motor_encoder_after_homing:80 ?external_encoder_after_homing:100 ?actual_position_after_home_offset:200 ?motor_encoder_after_home_offset:400 ?external_encoder_after_home_offset:800 automatic_offset_correction:1000 automatic_current_pid_correction:2000 unidirectional_gear:4000 gear_forward_only:8000 gear_backward_only:10000 take_encoder_position_at_current_on:20000 hold_requested_position_at_current_off:40000 ?usb_port_parameters:80000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.actual_position_after_homing(),
                     &self.motor_encoder_after_homing(),
@@ -19980,6 +28016,21 @@ pub mod types {
                     &self.usb_port_parameters(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for ModeFlags {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ModeFlags {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ModeFlags {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// HardwareConfig.
@@ -20003,7 +28054,7 @@ pub mod types {
     /// | 11 | [`pwm_range`](Self::pwm_range) | Values: [`HardwareConfigPwmRange`]. |
     /// | 12 | [`realign_entering_interpolation`](Self::realign_entering_interpolation) | 1 realigns the position when the interpolated mode begins, for Nardi CANopen masters. |
     /// | 13 | [`realign_in_interpolation`](Self::realign_in_interpolation) | 1 realigns Rposact and Rposactreq in the interpolated mode, for Sipro CANopen masters. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct HardwareConfig(u16);
     impl HardwareConfig {
         /// Creates a value in which all bits are 0.
@@ -20161,12 +28212,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for HardwareConfig {
+        const LAYOUT: &'static str = "HardwareConfig motor_encoder_direction:2 motor_direction:4 reset_encoder_phased_flag:8 analog_input_0_bipolar:10 ?motor_encoder_kind:20 ssi_encoder_preset:40 ?ssi_encoder_complement:80 ?ssi_encoder_code:100 ?ssi_encoder_alignment:600 ?pwm_range:800 realign_entering_interpolation:1000 realign_in_interpolation:2000";
+    }
     impl core::fmt::Debug for HardwareConfig {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "HardwareConfig motor_encoder_direction:2 motor_direction:4 reset_encoder_phased_flag:8 analog_input_0_bipolar:10 ?motor_encoder_kind:20 ssi_encoder_preset:40 ?ssi_encoder_complement:80 ?ssi_encoder_code:100 ?ssi_encoder_alignment:600 ?pwm_range:800 realign_entering_interpolation:1000 realign_in_interpolation:2000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.motor_encoder_kind(),
                     &self.ssi_encoder_complement(),
@@ -20175,6 +28229,21 @@ pub mod types {
                     &self.pwm_range(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for HardwareConfig {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for HardwareConfig {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for HardwareConfig {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Command.
@@ -20199,7 +28268,7 @@ pub mod types {
     /// | 13 | [`task`](Self::task) | The device clears the bit automatically. |
     /// | 14 | [`bestop`](Self::bestop) | Stops the axis when a bit has a given state or at an edge of an encoder index. Rbestpflg selects … The device clears the bit automatically. |
     /// | 15 | [`shift_stop`](Self::shift_stop) | The device clears the bit automatically. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Command(u16);
     impl Command {
         /// Creates a value in which all bits are 0.
@@ -20373,14 +28442,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Command {
+        const LAYOUT: &'static str = "Command disable_drive:1 enable_drive:2 abort:4 stop:8 estop:10 jog_clockwise:20 jog_anticlockwise:40 new_set_point_go:80 new_set_point_gor:100 home:200 gear:400 cam_start_stop:800 cam:1000 task:2000 bestop:4000 shift_stop:8000";
+    }
     impl core::fmt::Debug for Command {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Command disable_drive:1 enable_drive:2 abort:4 stop:8 estop:10 jog_clockwise:20 jog_anticlockwise:40 new_set_point_go:80 new_set_point_gor:100 home:200 gear:400 cam_start_stop:800 cam:1000 task:2000 bestop:4000 shift_stop:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Command {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Command {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Command {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for Command {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for Command {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for Command {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFFFF)
         }
     }
     /// Command1.
@@ -20405,7 +28505,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Command1(u16);
     impl Command1 {
         /// Creates a value in which all bits are 0.
@@ -20501,14 +28601,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Command1 {
+        const LAYOUT: &'static str = "Command1 current_step_on_phase_a:1 test_phases:2 winding_mode:4 smit_mode:8 realign_positions_in_smart_mode:10 step_direction_cam_mode:40 regain_motor_position_in_smart_mode:80";
+    }
     impl core::fmt::Debug for Command1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Command1 current_step_on_phase_a:1 test_phases:2 winding_mode:4 smit_mode:8 realign_positions_in_smart_mode:10 step_direction_cam_mode:40 regain_motor_position_in_smart_mode:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Command1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Command1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Command1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CommandState.
@@ -20533,7 +28646,7 @@ pub mod types {
     /// | 13 | [`task_mode`](Self::task_mode) |
     /// | 14 | [`bestop_active`](Self::bestop_active) |
     /// | 15 | reserved |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CommandState(u16);
     impl CommandState {
         /// Creates a value in which all bits are 0.
@@ -20680,14 +28793,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CommandState {
+        const LAYOUT: &'static str = "CommandState positioning_abort:4 stop_on_ramp:8 estop_active:10 jog_positive:20 jog_negative:40 new_set_point_go:80 new_set_point_gor:100 home:200 gear:400 cam_start_stop_mode:800 cam_mode:1000 task_mode:2000 bestop_active:4000";
+    }
     impl core::fmt::Debug for CommandState {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "CommandState positioning_abort:4 stop_on_ramp:8 estop_active:10 jog_positive:20 jog_negative:40 new_set_point_go:80 new_set_point_gor:100 home:200 gear:400 cam_start_stop_mode:800 cam_mode:1000 task_mode:2000 bestop_active:4000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for CommandState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CommandState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CommandState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CommandState1.
@@ -20711,7 +28837,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CommandState1(u16);
     impl CommandState1 {
         /// Creates a value in which all bits are 0.
@@ -20804,14 +28930,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CommandState1 {
+        const LAYOUT: &'static str = "CommandState1 current_step_done:1 phase_test_done:2 winding_mode_active:8 smit_mode_active:10 smart_mode_realignment_done:20 step_direction_cam_mode_active:80 smart_mode_position_regained:100";
+    }
     impl core::fmt::Debug for CommandState1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "CommandState1 current_step_done:1 phase_test_done:2 winding_mode_active:8 smit_mode_active:10 smart_mode_realignment_done:20 step_direction_cam_mode_active:80 smart_mode_position_regained:100",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for CommandState1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CommandState1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CommandState1 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// HomingStatus.
@@ -20836,7 +28975,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct HomingStatus(u16);
     impl HomingStatus {
         /// Creates a value in which all bits are 0.
@@ -20938,14 +29077,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for HomingStatus {
+        const LAYOUT: &'static str = "HomingStatus homing_in_progress:1 drive_not_enabled:2 maximum_distance_reached:4 backward_limit_switch_error:8 forward_limit_switch_error:10 interrupted:20 unknown_error:40 mechanical_stop_in_foc_open:80";
+    }
     impl core::fmt::Debug for HomingStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "HomingStatus homing_in_progress:1 drive_not_enabled:2 maximum_distance_reached:4 backward_limit_switch_error:8 forward_limit_switch_error:10 interrupted:20 unknown_error:40 mechanical_stop_in_foc_open:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for HomingStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for HomingStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for HomingStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// BestopSetup.
@@ -20961,7 +29113,7 @@ pub mod types {
     /// | 8 | [`stop_on_falling_motor_index`](Self::stop_on_falling_motor_index) | 1 stops the axis at a falling edge of the motor encoder index. |
     /// | 9 | [`stop_on_rising_external_index`](Self::stop_on_rising_external_index) | 1 stops the axis at a rising edge of the external encoder index. |
     /// | 10 | [`stop_on_falling_external_index`](Self::stop_on_falling_external_index) | 1 stops the axis at a falling edge of the external encoder index. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct BestopSetup(u16);
     impl BestopSetup {
         /// Creates a value in which all bits are 0.
@@ -21054,14 +29206,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for BestopSetup {
+        const LAYOUT: &'static str = "BestopSetup bit_number:1f ?condition:20 ?type:40 stop_on_rising_motor_index:80 stop_on_falling_motor_index:100 stop_on_rising_external_index:200 stop_on_falling_external_index:400";
+    }
     impl core::fmt::Debug for BestopSetup {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "BestopSetup bit_number:1f ?condition:20 ?type:40 stop_on_rising_motor_index:80 stop_on_falling_motor_index:100 stop_on_rising_external_index:200 stop_on_falling_external_index:400",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.condition(), &self.r#type()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for BestopSetup {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for BestopSetup {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for BestopSetup {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// EstopSetup.
@@ -21074,7 +29244,7 @@ pub mod types {
     /// | 1–4 | [`condition`](Self::condition) | Values: [`EstopSetupCondition`]. |
     /// | 5–6 | [`source`](Self::source) | Values: [`EstopSetupSource`]. |
     /// | 7 | [`destination`](Self::destination) | Values: [`EstopSetupDestination`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EstopSetup(u16);
     impl EstopSetup {
         /// Creates a value in which all bits are 0.
@@ -21131,14 +29301,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EstopSetup {
+        const LAYOUT: &'static str = "EstopSetup ?condition:1e ?source:60 ?destination:80";
+    }
     impl core::fmt::Debug for EstopSetup {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "EstopSetup ?condition:1e ?source:60 ?destination:80",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.condition(), &self.source(), &self.destination()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for EstopSetup {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EstopSetup {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EstopSetup {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Alarm.
@@ -21163,7 +29351,7 @@ pub mod types {
     /// | 13 | [`homing_error`](Self::homing_error) | The alarm cannot be masked. |
     /// | 14 | [`encoder_inverted`](Self::encoder_inverted) | Inverted counting direction of the encoder in smart mode or closed loop. The alarm cannot be masked. |
     /// | 15 | [`encoder_fault`](Self::encoder_fault) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Alarm(u16);
     impl Alarm {
         /// Creates a value in which all bits are 0.
@@ -21337,14 +29525,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Alarm {
+        const LAYOUT: &'static str = "Alarm hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 motor_encoder_phasing_error:200 phase_a_disconnected:400 phase_b_disconnected:800 positioning_timeout:1000 homing_error:2000 encoder_inverted:4000 encoder_fault:8000";
+    }
     impl core::fmt::Debug for Alarm {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Alarm hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 motor_encoder_phasing_error:200 phase_a_disconnected:400 phase_b_disconnected:800 positioning_timeout:1000 homing_error:2000 encoder_inverted:4000 encoder_fault:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Alarm {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Alarm {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Alarm {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for Alarm {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for Alarm {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for Alarm {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFFFF)
         }
     }
     /// Warning.
@@ -21369,7 +29588,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Warning(u16);
     impl Warning {
         /// Creates a value in which all bits are 0.
@@ -21516,14 +29735,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Warning {
+        const LAYOUT: &'static str = "Warning hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 current_limited_by_voltage:200 regulator_saturated:400 current_limit_active:800 positioning_timeout:1000";
+    }
     impl core::fmt::Debug for Warning {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Warning hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 current_limited_by_voltage:200 regulator_saturated:400 current_limit_active:800 positioning_timeout:1000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Warning {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Warning {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Warning {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// AlarmAcknowledge.
@@ -21534,7 +29766,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`acknowledge`](Self::acknowledge) |
     /// | 1 | [`reset_alarm_counter`](Self::reset_alarm_counter) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AlarmAcknowledge(u16);
     impl AlarmAcknowledge {
         /// Creates a value in which all bits are 0.
@@ -21582,14 +29814,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AlarmAcknowledge {
+        const LAYOUT: &'static str = "AlarmAcknowledge acknowledge:1 reset_alarm_counter:2";
+    }
     impl core::fmt::Debug for AlarmAcknowledge {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "AlarmAcknowledge acknowledge:1 reset_alarm_counter:2",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for AlarmAcknowledge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AlarmAcknowledge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AlarmAcknowledge {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for AlarmAcknowledge {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for AlarmAcknowledge {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for AlarmAcknowledge {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x3)
         }
     }
     /// Alarm32.
@@ -21624,7 +29887,7 @@ pub mod types {
     /// | 21 | [`sto_a_test_failed`](Self::sto_a_test_failed) |  |
     /// | 22 | [`sto_b_test_failed`](Self::sto_b_test_failed) |  |
     /// | 23 | [`safe_state_output_fault`](Self::safe_state_output_fault) | Fault of the output pin that signals the safe state of the drive. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Alarm32(u32);
     impl Alarm32 {
         /// Creates a value in which all bits are 0.
@@ -21852,14 +30115,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Alarm32 {
+        const LAYOUT: &'static str = "Alarm32 hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 motor_encoder_phasing_error:200 phase_a_disconnected:400 phase_b_disconnected:800 positioning_timeout:1000 homing_error:2000 encoder_inverted:4000 encoder_fault:8000 sync_missing:40000 ssp_fault:80000 logic_undervoltage:100000 sto_a_test_failed:200000 sto_b_test_failed:400000 safe_state_output_fault:800000";
+    }
     impl core::fmt::Debug for Alarm32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Alarm32 hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 motor_encoder_phasing_error:200 phase_a_disconnected:400 phase_b_disconnected:800 positioning_timeout:1000 homing_error:2000 encoder_inverted:4000 encoder_fault:8000 sync_missing:40000 ssp_fault:80000 logic_undervoltage:100000 sto_a_test_failed:200000 sto_b_test_failed:400000 safe_state_output_fault:800000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Alarm32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Alarm32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Alarm32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Warning32.
@@ -21890,7 +30166,7 @@ pub mod types {
     /// | 17 | reserved |  |
     /// | 18 | [`sync_missing`](Self::sync_missing) | The drive received no SYNC over CANopen or EtherCAT. |
     /// | 19 | [`sto_fault`](Self::sto_fault) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Warning32(u32);
     impl Warning32 {
         /// Creates a value in which all bits are 0.
@@ -22055,14 +30331,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Warning32 {
+        const LAYOUT: &'static str = "Warning32 hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 current_limited_by_voltage:200 regulator_saturated:400 current_limit_active:800 positioning_timeout:1000 sync_missing:40000 sto_fault:80000";
+    }
     impl core::fmt::Debug for Warning32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Warning32 hardware_overcurrent:1 software_overcurrent:2 i2_t:4 position_error:8 following_error:10 digital_output_overload:20 overtemperature:40 overvoltage:80 undervoltage:100 current_limited_by_voltage:200 regulator_saturated:400 current_limit_active:800 positioning_timeout:1000 sync_missing:40000 sto_fault:80000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Warning32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Warning32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Warning32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// LimitSwitches.
@@ -22079,7 +30368,7 @@ pub mod types {
     /// | 5 | [`external_encoder_index`](Self::external_encoder_index) |
     /// | 6 | [`external_encoder_channel_a`](Self::external_encoder_channel_a) |
     /// | 7 | [`external_encoder_channel_b`](Self::external_encoder_channel_b) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct LimitSwitches(u16);
     impl LimitSwitches {
         /// Creates a value in which all bits are 0.
@@ -22181,14 +30470,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for LimitSwitches {
+        const LAYOUT: &'static str = "LimitSwitches forward_limit_switch:1 backward_limit_switch:2 motor_encoder_index:4 motor_encoder_channel_a:8 motor_encoder_channel_b:10 external_encoder_index:20 external_encoder_channel_a:40 external_encoder_channel_b:80";
+    }
     impl core::fmt::Debug for LimitSwitches {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "LimitSwitches forward_limit_switch:1 backward_limit_switch:2 motor_encoder_index:4 motor_encoder_channel_a:8 motor_encoder_channel_b:10 external_encoder_index:20 external_encoder_channel_a:40 external_encoder_channel_b:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for LimitSwitches {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for LimitSwitches {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for LimitSwitches {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for LimitSwitches {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for LimitSwitches {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for LimitSwitches {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFF)
         }
     }
     /// DigitalInputs.
@@ -22213,7 +30533,7 @@ pub mod types {
     /// | 13 | [`input_13`](Self::input_13) |
     /// | 14 | [`input_14`](Self::input_14) |
     /// | 15 | [`input_15`](Self::input_15) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalInputs(u16);
     impl DigitalInputs {
         /// Creates a value in which all bits are 0.
@@ -22387,14 +30707,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalInputs {
+        const LAYOUT: &'static str = "DigitalInputs input_0:1 input_1:2 input_2:4 input_3:8 input_4:10 input_5:20 input_6:40 input_7:80 input_8:100 input_9:200 input_10:400 input_11:800 input_12:1000 input_13:2000 input_14:4000 input_15:8000";
+    }
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DigitalInputs input_0:1 input_1:2 input_2:4 input_3:8 input_4:10 input_5:20 input_6:40 input_7:80 input_8:100 input_9:200 input_10:400 input_11:800 input_12:1000 input_13:2000 input_14:4000 input_15:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalInputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for DigitalInputs {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for DigitalInputs {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for DigitalInputs {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFFFF)
         }
     }
     /// LimitSwitchPolarity.
@@ -22411,7 +30762,7 @@ pub mod types {
     /// | 5 | [`external_encoder_index`](Self::external_encoder_index) | Values: [`LimitSwitchPolarityExternalEncoderIndex`]. |
     /// | 6 | [`external_encoder_channel_a`](Self::external_encoder_channel_a) | Values: [`LimitSwitchPolarityExternalEncoderChannelA`]. |
     /// | 7 | [`external_encoder_channel_b`](Self::external_encoder_channel_b) | Values: [`LimitSwitchPolarityExternalEncoderChannelB`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct LimitSwitchPolarity(u16);
     impl LimitSwitchPolarity {
         /// Creates a value in which all bits are 0.
@@ -22567,12 +30918,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for LimitSwitchPolarity {
+        const LAYOUT: &'static str = "LimitSwitchPolarity ?forward_limit_switch:1 ?backward_limit_switch:2 ?motor_encoder_index:4 ?motor_encoder_channel_a:8 ?motor_encoder_channel_b:10 ?external_encoder_index:20 ?external_encoder_channel_a:40 ?external_encoder_channel_b:80";
+    }
     impl core::fmt::Debug for LimitSwitchPolarity {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "LimitSwitchPolarity ?forward_limit_switch:1 ?backward_limit_switch:2 ?motor_encoder_index:4 ?motor_encoder_channel_a:8 ?motor_encoder_channel_b:10 ?external_encoder_index:20 ?external_encoder_channel_a:40 ?external_encoder_channel_b:80",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.forward_limit_switch(),
                     &self.backward_limit_switch(),
@@ -22584,6 +30938,21 @@ pub mod types {
                     &self.external_encoder_channel_b(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for LimitSwitchPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for LimitSwitchPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for LimitSwitchPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// DigitalInputPolarity.
@@ -22608,7 +30977,7 @@ pub mod types {
     /// | 13 | [`input_13`](Self::input_13) | Values: [`DigitalInputPolarityInput13`]. |
     /// | 14 | [`input_14`](Self::input_14) | Values: [`DigitalInputPolarityInput14`]. |
     /// | 15 | [`input_15`](Self::input_15) | Values: [`DigitalInputPolarityInput15`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalInputPolarity(u16);
     impl DigitalInputPolarity {
         /// Creates a value in which all bits are 0.
@@ -22790,12 +31159,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalInputPolarity {
+        const LAYOUT: &'static str = "DigitalInputPolarity ?input_0:1 ?input_1:2 ?input_2:4 ?input_3:8 ?input_4:10 ?input_5:20 ?input_6:40 ?input_7:80 ?input_8:100 ?input_9:200 ?input_10:400 ?input_11:800 ?input_12:1000 ?input_13:2000 ?input_14:4000 ?input_15:8000";
+    }
     impl core::fmt::Debug for DigitalInputPolarity {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "DigitalInputPolarity ?input_0:1 ?input_1:2 ?input_2:4 ?input_3:8 ?input_4:10 ?input_5:20 ?input_6:40 ?input_7:80 ?input_8:100 ?input_9:200 ?input_10:400 ?input_11:800 ?input_12:1000 ?input_13:2000 ?input_14:4000 ?input_15:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.input_0(),
                     &self.input_1(),
@@ -22817,6 +31189,21 @@ pub mod types {
             )
         }
     }
+    impl core::fmt::LowerHex for DigitalInputPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalInputPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalInputPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
     /// DigitalOutputs.
     ///
     /// Value type of [`ROUT`](super::objects::ROUT).
@@ -22831,7 +31218,7 @@ pub mod types {
     /// | 5 | [`output_5`](Self::output_5) |
     /// | 6 | [`output_6`](Self::output_6) |
     /// | 7 | [`output_7`](Self::output_7) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalOutputs(u16);
     impl DigitalOutputs {
         /// Creates a value in which all bits are 0.
@@ -22933,14 +31320,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalOutputs {
+        const LAYOUT: &'static str = "DigitalOutputs output_0:1 output_1:2 output_2:4 output_3:8 output_4:10 output_5:20 output_6:40 output_7:80";
+    }
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "DigitalOutputs output_0:1 output_1:2 output_2:4 output_3:8 output_4:10 output_5:20 output_6:40 output_7:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for DigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalOutputs {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for DigitalOutputs {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for DigitalOutputs {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for DigitalOutputs {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFF)
         }
     }
     /// DigitalOutputPolarity.
@@ -22957,7 +31375,7 @@ pub mod types {
     /// | 5 | [`output_5`](Self::output_5) | Values: [`DigitalOutputPolarityOutput5`]. |
     /// | 6 | [`output_6`](Self::output_6) | Values: [`DigitalOutputPolarityOutput6`]. |
     /// | 7 | [`output_7`](Self::output_7) | Values: [`DigitalOutputPolarityOutput7`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalOutputPolarity(u16);
     impl DigitalOutputPolarity {
         /// Creates a value in which all bits are 0.
@@ -23059,12 +31477,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalOutputPolarity {
+        const LAYOUT: &'static str = "DigitalOutputPolarity ?output_0:1 ?output_1:2 ?output_2:4 ?output_3:8 ?output_4:10 ?output_5:20 ?output_6:40 ?output_7:80";
+    }
     impl core::fmt::Debug for DigitalOutputPolarity {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "DigitalOutputPolarity ?output_0:1 ?output_1:2 ?output_2:4 ?output_3:8 ?output_4:10 ?output_5:20 ?output_6:40 ?output_7:80",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.output_0(),
                     &self.output_1(),
@@ -23076,6 +31497,21 @@ pub mod types {
                     &self.output_7(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for DigitalOutputPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalOutputPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalOutputPolarity {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// DigitalOutputEnable.
@@ -23093,7 +31529,7 @@ pub mod types {
     /// | 6 | [`output_6`](Self::output_6) | Values: [`DigitalOutputEnableOutput6`]. |
     /// | 7 | [`output_7`](Self::output_7) | Values: [`DigitalOutputEnableOutput7`]. |
     /// | 8 | [`output_8`](Self::output_8) | Values: [`DigitalOutputEnableOutput8`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalOutputEnable(u16);
     impl DigitalOutputEnable {
         /// Creates a value in which all bits are 0.
@@ -23204,12 +31640,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DigitalOutputEnable {
+        const LAYOUT: &'static str = "DigitalOutputEnable ?output_0:1 ?output_1:2 ?output_2:4 ?output_3:8 ?output_4:10 ?output_5:20 ?output_6:40 ?output_7:80 ?output_8:100";
+    }
     impl core::fmt::Debug for DigitalOutputEnable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "DigitalOutputEnable ?output_0:1 ?output_1:2 ?output_2:4 ?output_3:8 ?output_4:10 ?output_5:20 ?output_6:40 ?output_7:80 ?output_8:100",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.output_0(),
                     &self.output_1(),
@@ -23224,6 +31663,21 @@ pub mod types {
             )
         }
     }
+    impl core::fmt::LowerHex for DigitalOutputEnable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DigitalOutputEnable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DigitalOutputEnable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
     /// AnalogInputDisable.
     ///
     /// Value type of [`RANAINPDISABLE`](super::objects::RANAINPDISABLE).
@@ -23233,7 +31687,7 @@ pub mod types {
     /// | 0 | [`disable_input_0`](Self::disable_input_0) |
     /// | 1 | [`disable_input_1`](Self::disable_input_1) |
     /// | 2 | [`disable_input_2`](Self::disable_input_2) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AnalogInputDisable(u16);
     impl AnalogInputDisable {
         /// Creates a value in which all bits are 0.
@@ -23290,14 +31744,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AnalogInputDisable {
+        const LAYOUT: &'static str = "AnalogInputDisable disable_input_0:1 disable_input_1:2 disable_input_2:4";
+    }
     impl core::fmt::Debug for AnalogInputDisable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "AnalogInputDisable disable_input_0:1 disable_input_1:2 disable_input_2:4",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for AnalogInputDisable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AnalogInputDisable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AnalogInputDisable {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for AnalogInputDisable {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for AnalogInputDisable {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for AnalogInputDisable {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x7)
         }
     }
     /// EncoderPeriods.
@@ -23309,7 +31794,7 @@ pub mod types {
     /// | 0 | [`encoder_1_has_new_period`](Self::encoder_1_has_new_period) |
     /// | 1 | [`encoder_2_has_new_period`](Self::encoder_2_has_new_period) |
     /// | 2 | [`encoder_3_has_new_period`](Self::encoder_3_has_new_period) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EncoderPeriods(u16);
     impl EncoderPeriods {
         /// Creates a value in which all bits are 0.
@@ -23366,14 +31851,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EncoderPeriods {
+        const LAYOUT: &'static str = "EncoderPeriods encoder_1_has_new_period:1 encoder_2_has_new_period:2 encoder_3_has_new_period:4";
+    }
     impl core::fmt::Debug for EncoderPeriods {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "EncoderPeriods encoder_1_has_new_period:1 encoder_2_has_new_period:2 encoder_3_has_new_period:4",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for EncoderPeriods {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EncoderPeriods {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EncoderPeriods {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for EncoderPeriods {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for EncoderPeriods {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for EncoderPeriods {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x7)
         }
     }
     /// OldEncoderPeriods.
@@ -23384,7 +31900,7 @@ pub mod types {
     /// |---|---|
     /// | 0 | [`motor_encoder_has_new_period`](Self::motor_encoder_has_new_period) |
     /// | 1 | [`external_encoder_has_new_period`](Self::external_encoder_has_new_period) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct OldEncoderPeriods(u16);
     impl OldEncoderPeriods {
         /// Creates a value in which all bits are 0.
@@ -23432,14 +31948,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for OldEncoderPeriods {
+        const LAYOUT: &'static str = "OldEncoderPeriods motor_encoder_has_new_period:1 external_encoder_has_new_period:2";
+    }
     impl core::fmt::Debug for OldEncoderPeriods {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "OldEncoderPeriods motor_encoder_has_new_period:1 external_encoder_has_new_period:2",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for OldEncoderPeriods {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for OldEncoderPeriods {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for OldEncoderPeriods {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for OldEncoderPeriods {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for OldEncoderPeriods {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for OldEncoderPeriods {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x3)
         }
     }
     /// AbsoluteEncoderMode.
@@ -23456,7 +32003,7 @@ pub mod types {
     /// | 6 | [`phase_without_moving`](Self::phase_without_moving) | 1 enables phasing of the motor without motion. |
     /// | 7 | [`hardware_preset`](Self::hardware_preset) | Type of preset that bit 7 of Rencabsctrl starts: software (0) or hardware (1). |
     /// | 8 | [`hardware_complement`](Self::hardware_complement) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AbsoluteEncoderMode(u16);
     impl AbsoluteEncoderMode {
         /// Creates a value in which all bits are 0.
@@ -23561,14 +32108,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AbsoluteEncoderMode {
+        const LAYOUT: &'static str = "AbsoluteEncoderMode ?complement:1 ?code:2 ?alignment:c enable_reading:10 check_presence_at_start:20 phase_without_moving:40 hardware_preset:80 hardware_complement:100";
+    }
     impl core::fmt::Debug for AbsoluteEncoderMode {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "AbsoluteEncoderMode ?complement:1 ?code:2 ?alignment:c enable_reading:10 check_presence_at_start:20 phase_without_moving:40 hardware_preset:80 hardware_complement:100",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.complement(), &self.code(), &self.alignment()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for AbsoluteEncoderMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AbsoluteEncoderMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AbsoluteEncoderMode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// AbsoluteEncoderControl.
@@ -23585,7 +32150,7 @@ pub mod types {
     /// | 5 | reserved |  |
     /// | 6 | reserved |  |
     /// | 7 | [`preset`](Self::preset) | 1 presets the absolute encoder. Bit 7 of Rencabsmode selects a hardware or software preset. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct AbsoluteEncoderControl(u16);
     impl AbsoluteEncoderControl {
         /// Creates a value in which all bits are 0.
@@ -23642,14 +32207,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for AbsoluteEncoderControl {
+        const LAYOUT: &'static str = "AbsoluteEncoderControl reset_phasing_valid:1 reset_zero_offset:2 preset:80";
+    }
     impl core::fmt::Debug for AbsoluteEncoderControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "AbsoluteEncoderControl reset_phasing_valid:1 reset_zero_offset:2 preset:80",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for AbsoluteEncoderControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for AbsoluteEncoderControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for AbsoluteEncoderControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// VariableCommand.
@@ -23660,7 +32238,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–7 | [`variable`](Self::variable) | Number of the variable, 1 to 128. |
     /// | 15 | [`action`](Self::action) | Values: [`VariableCommandAction`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct VariableCommand(u16);
     impl VariableCommand {
         /// Creates a value in which all bits are 0.
@@ -23708,14 +32286,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for VariableCommand {
+        const LAYOUT: &'static str = "VariableCommand variable:ff ?action:8000";
+    }
     impl core::fmt::Debug for VariableCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "VariableCommand variable:ff ?action:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.action()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for VariableCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for VariableCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for VariableCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// EepromStatus.
@@ -23740,7 +32336,7 @@ pub mod types {
     /// | 13 | [`writing_alarm_buffer_failed`](Self::writing_alarm_buffer_failed) |
     /// | 14 | [`reading_current_sensor_offsets_failed`](Self::reading_current_sensor_offsets_failed) |
     /// | 15 | [`writing_current_sensor_offsets_failed`](Self::writing_current_sensor_offsets_failed) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EepromStatus(u16);
     impl EepromStatus {
         /// Creates a value in which all bits are 0.
@@ -23920,14 +32516,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EepromStatus {
+        const LAYOUT: &'static str = "EepromStatus busy:1 invalid_command:2 reading_registers_failed:4 writing_registers_failed:8 reading_variables_failed:10 writing_variables_failed:20 reading_program_failed:40 writing_program_failed:80 reading_password_failed:100 writing_password_failed:200 reading_task_failed:400 writing_task_failed:800 reading_alarm_buffer_failed:1000 writing_alarm_buffer_failed:2000 reading_current_sensor_offsets_failed:4000 writing_current_sensor_offsets_failed:8000";
+    }
     impl core::fmt::Debug for EepromStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "EepromStatus busy:1 invalid_command:2 reading_registers_failed:4 writing_registers_failed:8 reading_variables_failed:10 writing_variables_failed:20 reading_program_failed:40 writing_program_failed:80 reading_password_failed:100 writing_password_failed:200 reading_task_failed:400 writing_task_failed:800 reading_alarm_buffer_failed:1000 writing_alarm_buffer_failed:2000 reading_current_sensor_offsets_failed:4000 writing_current_sensor_offsets_failed:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for EepromStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EepromStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EepromStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for EepromStatus {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for EepromStatus {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for EepromStatus {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFFFF)
         }
     }
     /// EepromStatus32.
@@ -23952,7 +32579,7 @@ pub mod types {
     /// | 13 | [`writing_alarm_buffer_failed`](Self::writing_alarm_buffer_failed) |
     /// | 14 | [`reading_current_sensor_offsets_failed`](Self::reading_current_sensor_offsets_failed) |
     /// | 15 | [`writing_current_sensor_offsets_failed`](Self::writing_current_sensor_offsets_failed) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EepromStatus32(u32);
     impl EepromStatus32 {
         /// Creates a value in which all bits are 0.
@@ -24132,14 +32759,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EepromStatus32 {
+        const LAYOUT: &'static str = "EepromStatus32 busy:1 invalid_command:2 reading_registers_failed:4 writing_registers_failed:8 reading_variables_failed:10 writing_variables_failed:20 reading_program_failed:40 writing_program_failed:80 reading_password_failed:100 writing_password_failed:200 reading_task_failed:400 writing_task_failed:800 reading_alarm_buffer_failed:1000 writing_alarm_buffer_failed:2000 reading_current_sensor_offsets_failed:4000 writing_current_sensor_offsets_failed:8000";
+    }
     impl core::fmt::Debug for EepromStatus32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "EepromStatus32 busy:1 invalid_command:2 reading_registers_failed:4 writing_registers_failed:8 reading_variables_failed:10 writing_variables_failed:20 reading_program_failed:40 writing_program_failed:80 reading_password_failed:100 writing_password_failed:200 reading_task_failed:400 writing_task_failed:800 reading_alarm_buffer_failed:1000 writing_alarm_buffer_failed:2000 reading_current_sensor_offsets_failed:4000 writing_current_sensor_offsets_failed:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for EepromStatus32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EepromStatus32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EepromStatus32 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for EepromStatus32 {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for EepromStatus32 {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for EepromStatus32 {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0xFFFF)
         }
     }
     /// EnableMask.
@@ -24154,7 +32812,7 @@ pub mod types {
     /// | 3 | reserved |  |
     /// | 4 | reserved |  |
     /// | 15 | [`mask_error`](Self::mask_error) | Error of the check mask for enabling the drive. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct EnableMask(u16);
     impl EnableMask {
         /// Creates a value in which all bits are 0.
@@ -24202,14 +32860,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for EnableMask {
+        const LAYOUT: &'static str = "EnableMask configuration_set:1 mask_error:8000";
+    }
     impl core::fmt::Debug for EnableMask {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "EnableMask configuration_set:1 mask_error:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for EnableMask {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for EnableMask {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for EnableMask {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// HardwareOptions.
@@ -24219,7 +32890,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`sto_present`](Self::sto_present) | 1 if the drive has safe torque off (STO). |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct HardwareOptions(u16);
     impl HardwareOptions {
         /// Creates a value in which all bits are 0.
@@ -24258,9 +32929,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for HardwareOptions {
+        const LAYOUT: &'static str = "HardwareOptions sto_present:1";
+    }
     impl core::fmt::Debug for HardwareOptions {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(f, self.0 as u64, "HardwareOptions sto_present:1", &[])
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for HardwareOptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for HardwareOptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for HardwareOptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for HardwareOptions {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for HardwareOptions {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for HardwareOptions {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x1)
         }
     }
     /// ModelDefinition.
@@ -24273,7 +32980,7 @@ pub mod types {
     /// | 3–5 | [`application`](Self::application) | Application of the drive. The third value is printed as "Etichettatrice" (labeling machine). Values: [`ModelDefinitionApplication`]. |
     /// | 6–8 | [`platform`](Self::platform) | Values: [`ModelDefinitionPlatform`]. |
     /// | 9–11 | [`communication_chip`](Self::communication_chip) | Values: [`ModelDefinitionCommunicationChip`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ModelDefinition(u16);
     impl ModelDefinition {
         /// Creates a value in which all bits are 0.
@@ -24344,12 +33051,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ModelDefinition {
+        const LAYOUT: &'static str = "ModelDefinition ?voltage:7 ?application:38 ?platform:1c0 ?communication_chip:e00";
+    }
     impl core::fmt::Debug for ModelDefinition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "ModelDefinition ?voltage:7 ?application:38 ?platform:1c0 ?communication_chip:e00",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.voltage(),
                     &self.application(),
@@ -24357,6 +33067,21 @@ pub mod types {
                     &self.communication_chip(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for ModelDefinition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ModelDefinition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ModelDefinition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// DriveOptions.
@@ -24368,7 +33093,7 @@ pub mod types {
     /// | Bits | Name | Meaning |
     /// |---|---|---|
     /// | 0–2 | [`absolute_encoder`](Self::absolute_encoder) | Values: [`DriveOptionsAbsoluteEncoder`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DriveOptions(u16);
     impl DriveOptions {
         /// Creates a value in which all bits are 0.
@@ -24410,14 +33135,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for DriveOptions {
+        const LAYOUT: &'static str = "DriveOptions ?absolute_encoder:7";
+    }
     impl core::fmt::Debug for DriveOptions {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "DriveOptions ?absolute_encoder:7",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.absolute_encoder()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for DriveOptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for DriveOptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for DriveOptions {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CanopenStatus.
@@ -24428,7 +33171,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0–3 | [`red_led`](Self::red_led) | Values: [`CanopenStatusRedLed`]. |
     /// | 4–7 | [`green_led`](Self::green_led) | Values: [`CanopenStatusGreenLed`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CanopenStatus(u16);
     impl CanopenStatus {
         /// Creates a value in which all bits are 0.
@@ -24476,14 +33219,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CanopenStatus {
+        const LAYOUT: &'static str = "CanopenStatus ?red_led:f ?green_led:f0";
+    }
     impl core::fmt::Debug for CanopenStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "CanopenStatus ?red_led:f ?green_led:f0",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.red_led(), &self.green_led()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for CanopenStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CanopenStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CanopenStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// Ds402Compatibility.
@@ -24494,7 +33255,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`current_off_on_controlword_xxx7`](Self::current_off_on_controlword_xxx7) | 1 switches the motor current off at a Controlword of the form xxx7 (hexadecimal, x is any digit). … |
     /// | 1 | [`csp_and_csv_on_controlword_xxx_f`](Self::csp_and_csv_on_controlword_xxx_f) | 1 activates CSP and CSV at a Controlword of the form xxxF (hexadecimal, x is any digit). For Omron … |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Ds402Compatibility(u16);
     impl Ds402Compatibility {
         /// Creates a value in which all bits are 0.
@@ -24542,14 +33303,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Ds402Compatibility {
+        const LAYOUT: &'static str = "Ds402Compatibility current_off_on_controlword_xxx7:1 csp_and_csv_on_controlword_xxx_f:2";
+    }
     impl core::fmt::Debug for Ds402Compatibility {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Ds402Compatibility current_off_on_controlword_xxx7:1 csp_and_csv_on_controlword_xxx_f:2",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Ds402Compatibility {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Ds402Compatibility {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Ds402Compatibility {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for Ds402Compatibility {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for Ds402Compatibility {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for Ds402Compatibility {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x3)
         }
     }
     /// ModuloCommand.
@@ -24565,7 +33357,7 @@ pub mod types {
     /// | 4 | [`encoder_2_wraps`](Self::encoder_2_wraps) |  |
     /// | 5 | [`encoder_3_wraps`](Self::encoder_3_wraps) |  |
     /// | 6 | [`absolute_encoder_wraps`](Self::absolute_encoder_wraps) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ModuloCommand(u16);
     impl ModuloCommand {
         /// Creates a value in which all bits are 0.
@@ -24658,14 +33450,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ModuloCommand {
+        const LAYOUT: &'static str = "ModuloCommand always_forward:1 always_backward:2 shortest_way:4 encoder_1_wraps:8 encoder_2_wraps:10 encoder_3_wraps:20 absolute_encoder_wraps:40";
+    }
     impl core::fmt::Debug for ModuloCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ModuloCommand always_forward:1 always_backward:2 shortest_way:4 encoder_1_wraps:8 encoder_2_wraps:10 encoder_3_wraps:20 absolute_encoder_wraps:40",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ModuloCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ModuloCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ModuloCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for ModuloCommand {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for ModuloCommand {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for ModuloCommand {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x7F)
         }
     }
     /// LineUpCommand.
@@ -24679,7 +33502,7 @@ pub mod types {
     /// | 2 | [`encoder_2`](Self::encoder_2) | 1 copies Rlineupextenc to Rextenc. The device clears the bit automatically. |
     /// | 3 | [`encoder_3`](Self::encoder_3) | The device clears the bit automatically. |
     /// | 4 | [`absolute_encoder`](Self::absolute_encoder) | The device clears the bit automatically. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct LineUpCommand(u16);
     impl LineUpCommand {
         /// Creates a value in which all bits are 0.
@@ -24754,14 +33577,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for LineUpCommand {
+        const LAYOUT: &'static str = "LineUpCommand positioner:1 encoder_1:2 encoder_2:4 encoder_3:8 absolute_encoder:10";
+    }
     impl core::fmt::Debug for LineUpCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "LineUpCommand positioner:1 encoder_1:2 encoder_2:4 encoder_3:8 absolute_encoder:10",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for LineUpCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for LineUpCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for LineUpCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for LineUpCommand {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for LineUpCommand {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for LineUpCommand {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x1F)
         }
     }
     /// LineUpDefinition.
@@ -24773,7 +33627,7 @@ pub mod types {
     /// | 0 | [`axis_position`](Self::axis_position) |
     /// | 1 | [`motor_encoder`](Self::motor_encoder) |
     /// | 2 | [`external_encoder`](Self::external_encoder) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct LineUpDefinition(u16);
     impl LineUpDefinition {
         /// Creates a value in which all bits are 0.
@@ -24830,14 +33684,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for LineUpDefinition {
+        const LAYOUT: &'static str = "LineUpDefinition axis_position:1 motor_encoder:2 external_encoder:4";
+    }
     impl core::fmt::Debug for LineUpDefinition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "LineUpDefinition axis_position:1 motor_encoder:2 external_encoder:4",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for LineUpDefinition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for LineUpDefinition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for LineUpDefinition {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for LineUpDefinition {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for LineUpDefinition {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for LineUpDefinition {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x7)
         }
     }
     /// TouchProbeControl.
@@ -24858,7 +33743,7 @@ pub mod types {
     /// | 12 | [`probe_2_positive_edge`](Self::probe_2_positive_edge) | Values: [`TouchProbeControlProbe2PositiveEdge`]. |
     /// | 13 | [`probe_2_negative_edge`](Self::probe_2_negative_edge) | Values: [`TouchProbeControlProbe2NegativeEdge`]. |
     /// | 14–15 | [`probe_2_position`](Self::probe_2_position) | Values: [`TouchProbeControlProbe2Position`]. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TouchProbeControl(u16);
     impl TouchProbeControl {
         /// Creates a value in which all bits are 0.
@@ -25054,12 +33939,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TouchProbeControl {
+        const LAYOUT: &'static str = "TouchProbeControl ?probe_1_enable:1 ?probe_1_continuous:2 ?probe_1_trigger:c ?probe_1_positive_edge:10 ?probe_1_negative_edge:20 ?probe_1_position:c0 ?probe_2_enable:100 ?probe_2_continuous:200 ?probe_2_trigger:c00 ?probe_2_positive_edge:1000 ?probe_2_negative_edge:2000 ?probe_2_position:c000";
+    }
     impl core::fmt::Debug for TouchProbeControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "TouchProbeControl ?probe_1_enable:1 ?probe_1_continuous:2 ?probe_1_trigger:c ?probe_1_positive_edge:10 ?probe_1_negative_edge:20 ?probe_1_position:c0 ?probe_2_enable:100 ?probe_2_continuous:200 ?probe_2_trigger:c00 ?probe_2_positive_edge:1000 ?probe_2_negative_edge:2000 ?probe_2_position:c000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.probe_1_enable(),
                     &self.probe_1_continuous(),
@@ -25075,6 +33963,21 @@ pub mod types {
                     &self.probe_2_position(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for TouchProbeControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TouchProbeControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TouchProbeControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// TouchProbeStatusBeforeV6.
@@ -25099,7 +34002,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | [`probe_2_update`](Self::probe_2_update) | Bit that toggles with each value that touch probe 2 stores during continuous sampling. The device reacts to both edges. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TouchProbeStatusBeforeV6(u16);
     impl TouchProbeStatusBeforeV6 {
         /// Creates a value in which all bits are 0.
@@ -25207,12 +34110,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TouchProbeStatusBeforeV6 {
+        const LAYOUT: &'static str = "TouchProbeStatusBeforeV6 ?probe_1_enabled:1 ?probe_1_value_stored:2 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_value_stored:200 probe_2_update:8000";
+    }
     impl core::fmt::Debug for TouchProbeStatusBeforeV6 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "TouchProbeStatusBeforeV6 ?probe_1_enabled:1 ?probe_1_value_stored:2 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_value_stored:200 probe_2_update:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.probe_1_enabled(),
                     &self.probe_1_value_stored(),
@@ -25220,6 +34126,21 @@ pub mod types {
                     &self.probe_2_value_stored(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for TouchProbeStatusBeforeV6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TouchProbeStatusBeforeV6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TouchProbeStatusBeforeV6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// TouchProbeStatusV6.
@@ -25246,7 +34167,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | [`probe_2_update`](Self::probe_2_update) | Bit that toggles with each value that touch probe 2 stores during continuous sampling. The device reacts to both edges. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct TouchProbeStatusV6(u16);
     impl TouchProbeStatusV6 {
         /// Creates a value in which all bits are 0.
@@ -25386,12 +34307,15 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for TouchProbeStatusV6 {
+        const LAYOUT: &'static str = "TouchProbeStatusV6 ?probe_1_enabled:1 ?probe_1_positive_edge_stored:2 ?probe_1_negative_edge_stored:4 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_positive_edge_stored:200 ?probe_2_negative_edge_stored:400 probe_2_update:8000";
+    }
     impl core::fmt::Debug for TouchProbeStatusV6 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "TouchProbeStatusV6 ?probe_1_enabled:1 ?probe_1_positive_edge_stored:2 ?probe_1_negative_edge_stored:4 probe_1_update:80 ?probe_2_enabled:100 ?probe_2_positive_edge_stored:200 ?probe_2_negative_edge_stored:400 probe_2_update:8000",
+                <Self as rt::BitField>::LAYOUT,
                 &[
                     &self.probe_1_enabled(),
                     &self.probe_1_positive_edge_stored(),
@@ -25401,6 +34325,21 @@ pub mod types {
                     &self.probe_2_negative_edge_stored(),
                 ],
             )
+        }
+    }
+    impl core::fmt::LowerHex for TouchProbeStatusV6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for TouchProbeStatusV6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for TouchProbeStatusV6 {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CamControl.
@@ -25425,7 +34364,7 @@ pub mod types {
     /// | 13 | reserved |  |
     /// | 14 | reserved |  |
     /// | 15 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CamControl(u16);
     impl CamControl {
         /// Creates a value in which all bits are 0.
@@ -25473,9 +34412,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CamControl {
+        const LAYOUT: &'static str = "CamControl reset:1 single_turn:2";
+    }
     impl core::fmt::Debug for CamControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(f, self.0 as u64, "CamControl reset:1 single_turn:2", &[])
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for CamControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CamControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CamControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CamStatus.
@@ -25500,7 +34457,7 @@ pub mod types {
     /// | 13 | reserved |
     /// | 14 | reserved |
     /// | 15 | reserved |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CamStatus(u16);
     impl CamStatus {
         /// Creates a value in which all bits are 0.
@@ -25575,14 +34532,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CamStatus {
+        const LAYOUT: &'static str = "CamStatus reset_done:1 moving:2 accelerating:4 constant_speed:8 decelerating:10";
+    }
     impl core::fmt::Debug for CamStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "CamStatus reset_done:1 moving:2 accelerating:4 constant_speed:8 decelerating:10",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for CamStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CamStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CamStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CamStartStopControl.
@@ -25599,7 +34569,7 @@ pub mod types {
     /// | 5 | reserved |  |
     /// | 6 | reserved |  |
     /// | 7 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CamStartStopControl(u16);
     impl CamStartStopControl {
         /// Creates a value in which all bits are 0.
@@ -25665,14 +34635,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CamStartStopControl {
+        const LAYOUT: &'static str = "CamStartStopControl ?run:1 disable_start_delay:2 disable_stop_delay:4 simulated_encoder:8";
+    }
     impl core::fmt::Debug for CamStartStopControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "CamStartStopControl ?run:1 disable_start_delay:2 disable_stop_delay:4 simulated_encoder:8",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.run()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for CamStartStopControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CamStartStopControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CamStartStopControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// CamStartStopStatus.
@@ -25689,7 +34677,7 @@ pub mod types {
     /// | 5 | reserved |
     /// | 6 | reserved |
     /// | 7 | reserved |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct CamStartStopStatus(u16);
     impl CamStartStopStatus {
         /// Creates a value in which all bits are 0.
@@ -25764,14 +34752,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for CamStartStopStatus {
+        const LAYOUT: &'static str = "CamStartStopStatus enabled:1 running:2 accelerating:4 constant_speed:8 decelerating:10";
+    }
     impl core::fmt::Debug for CamStartStopStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "CamStartStopStatus enabled:1 running:2 accelerating:4 constant_speed:8 decelerating:10",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for CamStartStopStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for CamStartStopStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for CamStartStopStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// WindingControl.
@@ -25786,7 +34787,7 @@ pub mod types {
     /// | 3 | [`disable_encoder_reading`](Self::disable_encoder_reading) |  |
     /// | 4 | [`reset_error`](Self::reset_error) |  |
     /// | 5 | [`start_direction`](Self::start_direction) | Direction in which yarn laying starts. The manual does not state which direction 0 and 1 select. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct WindingControl(u16);
     impl WindingControl {
         /// Creates a value in which all bits are 0.
@@ -25870,14 +34871,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for WindingControl {
+        const LAYOUT: &'static str = "WindingControl enable_winding_cam:1 enable_stop_sequence:2 enable_tying_sequence:4 disable_encoder_reading:8 reset_error:10 start_direction:20";
+    }
     impl core::fmt::Debug for WindingControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "WindingControl enable_winding_cam:1 enable_stop_sequence:2 enable_tying_sequence:4 disable_encoder_reading:8 reset_error:10 start_direction:20",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for WindingControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for WindingControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for WindingControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for WindingControl {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for WindingControl {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for WindingControl {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x3F)
         }
     }
     /// WindingStatus.
@@ -25902,7 +34934,7 @@ pub mod types {
     /// | 13 | [`accelerating`](Self::accelerating) |  |
     /// | 14 | [`constant_speed`](Self::constant_speed) |  |
     /// | 15 | [`decelerating`](Self::decelerating) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct WindingStatus(u16);
     impl WindingStatus {
         /// Creates a value in which all bits are 0.
@@ -26031,14 +35063,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for WindingStatus {
+        const LAYOUT: &'static str = "WindingStatus winding_cam_enabled:1 stop_sequence_requested:2 tying_sequence_requested:4 encoder_disabled:8 motor_direction:10 sequence_finished:20 error:40 tying_sequence_done:80 accelerating:2000 constant_speed:4000 decelerating:8000";
+    }
     impl core::fmt::Debug for WindingStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "WindingStatus winding_cam_enabled:1 stop_sequence_requested:2 tying_sequence_requested:4 encoder_disabled:8 motor_direction:10 sequence_finished:20 error:40 tying_sequence_done:80 accelerating:2000 constant_speed:4000 decelerating:8000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for WindingStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for WindingStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for WindingStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// UserPidControl.
@@ -26053,7 +35098,7 @@ pub mod types {
     /// | 3 | reserved |  |
     /// | 4 | reserved |  |
     /// | 5 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct UserPidControl(u16);
     impl UserPidControl {
         /// Creates a value in which all bits are 0.
@@ -26101,14 +35146,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for UserPidControl {
+        const LAYOUT: &'static str = "UserPidControl ?run:1 reset:2";
+    }
     impl core::fmt::Debug for UserPidControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "UserPidControl ?run:1 reset:2",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.run()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for UserPidControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for UserPidControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for UserPidControl {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ProgramStatus.
@@ -26126,7 +35189,7 @@ pub mod types {
     /// | 6 | reserved |  |
     /// | 7 | reserved |  |
     /// | 8 | reserved |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ProgramStatus(u16);
     impl ProgramStatus {
         /// Creates a value in which all bits are 0.
@@ -26174,14 +35237,32 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ProgramStatus {
+        const LAYOUT: &'static str = "ProgramStatus running:1 ?valid:2";
+    }
     impl core::fmt::Debug for ProgramStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             rt::debug_bits(
                 f,
                 self.0 as u64,
-                "ProgramStatus running:1 ?valid:2",
+                <Self as rt::BitField>::LAYOUT,
                 &[&self.valid()],
             )
+        }
+    }
+    impl core::fmt::LowerHex for ProgramStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ProgramStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ProgramStatus {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// ProgramConditionCodes.
@@ -26195,7 +35276,7 @@ pub mod types {
     /// | 2 | [`zero`](Self::zero) |  |
     /// | 3 | [`negative`](Self::negative) |  |
     /// | 4 | [`interrupts_masked`](Self::interrupts_masked) | 1 disables the instructions ONH and ONL. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ProgramConditionCodes(u16);
     impl ProgramConditionCodes {
         /// Creates a value in which all bits are 0.
@@ -26270,14 +35351,45 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ProgramConditionCodes {
+        const LAYOUT: &'static str = "ProgramConditionCodes carry:1 overflow:2 zero:4 negative:8 interrupts_masked:10";
+    }
     impl core::fmt::Debug for ProgramConditionCodes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ProgramConditionCodes carry:1 overflow:2 zero:4 negative:8 interrupts_masked:10",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ProgramConditionCodes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ProgramConditionCodes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ProgramConditionCodes {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
+        }
+    }
+    impl core::ops::BitOr for ProgramConditionCodes {
+        type Output = Self;
+        fn bitor(self, other: Self) -> Self {
+            Self(self.0 | other.0)
+        }
+    }
+    impl core::ops::BitAnd for ProgramConditionCodes {
+        type Output = Self;
+        fn bitand(self, other: Self) -> Self {
+            Self(self.0 & other.0)
+        }
+    }
+    impl core::ops::Not for ProgramConditionCodes {
+        type Output = Self;
+        fn not(self) -> Self {
+            Self(self.0 ^ 0x1F)
         }
     }
     /// ErrorFieldEntry.
@@ -26290,7 +35402,7 @@ pub mod types {
     /// |---|---|
     /// | 0–15 | [`error_code`](Self::error_code) |
     /// | 16–31 | [`additional_information`](Self::additional_information) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
         /// Creates a value in which all bits are 0.
@@ -26338,14 +35450,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for ErrorFieldEntry {
+        const LAYOUT: &'static str = "ErrorFieldEntry error_code:ffff additional_information:ffff0000";
+    }
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "ErrorFieldEntry error_code:ffff additional_information:ffff0000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// SdoIdentifier.
@@ -26360,7 +35485,7 @@ pub mod types {
     /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
     /// | 30 | [`dynamic`](Self::dynamic) | 1 if the COB-ID is assigned at run time. |
     /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct SdoIdentifier(u32);
     impl SdoIdentifier {
         /// Creates a value in which all bits are 0.
@@ -26426,14 +35551,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for SdoIdentifier {
+        const LAYOUT: &'static str = "SdoIdentifier identifier:1fffffff extended:20000000 dynamic:40000000 !valid:80000000";
+    }
     impl core::fmt::Debug for SdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "SdoIdentifier identifier:1fffffff extended:20000000 dynamic:40000000 !valid:80000000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for SdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for SdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for SdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// States of drive, read from [Statusword](super::objects::STATUSWORD).
@@ -26466,7 +35604,7 @@ pub mod types {
     /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
     /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
     /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum State {
         /// not ready to switch on: `xxxx xxxx x0xx 0000`.
         NotReadyToSwitchOn,
@@ -26514,11 +35652,28 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::NotReadyToSwitchOn => 0,
+                Self::SwitchOnDisabled => 0x40,
+                Self::ReadyToSwitchOn => 0x21,
+                Self::SwitchedOn => 0x23,
+                Self::OperationEnabled => 0x27,
+                Self::Fault => 0x8,
+                Self::FaultReactionActive => 0xF,
+                Self::QuickStopActive => 0x7,
+            }
+        }
     }
     impl Statusword {
         /// Returns the state, or `None` if the bits match no state.
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
+        }
+        /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        pub const fn from_state(state: State) -> Self {
+            Self(state.value())
         }
     }
     impl State {
@@ -26687,7 +35842,7 @@ pub mod types {
     /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | automatic | Automatic transition when the fault reaction is complete. |
     /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](DriveCommand::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](DriveCommand::EnableOperation) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum DriveCommand {
         /// shutdown: `xxxx xxxx 0xxx x110`.
         Shutdown,
@@ -26705,6 +35860,33 @@ pub mod types {
         FaultReset,
     }
     impl DriveCommand {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0x8F == 0x7 {
+                return Some(Self::DisableOperation);
+            }
+            if raw & 0x8F == 0xF {
+                return Some(Self::EnableOperation);
+            }
+            if raw & 0x87 == 0x6 {
+                return Some(Self::Shutdown);
+            }
+            if raw & 0x87 == 0x7 {
+                return Some(Self::SwitchOn);
+            }
+            if raw & 0x86 == 0x2 {
+                return Some(Self::QuickStop);
+            }
+            if raw & 0x82 == 0 {
+                return Some(Self::DisableVoltage);
+            }
+            if raw & 0x80 == 0x80 {
+                return Some(Self::FaultReset);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
@@ -26731,6 +35913,10 @@ pub mod types {
         }
     }
     impl Controlword {
+        /// Returns the command, or `None` if the bits match no command.
+        pub const fn command(self) -> Option<DriveCommand> {
+            DriveCommand::from_raw(self.0)
+        }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_command(self, command: DriveCommand) -> Self {
@@ -26930,7 +36116,7 @@ pub mod codes {
     /// | 0xFF13 | [`PowerStageErrorAxis1`](Self::PowerStageErrorAxis1) | The drive sends this code in addition to 0x5400. |
     /// | 0xFF14 | [`PowerStageErrorAxis2`](Self::PowerStageErrorAxis2) | The drive sends this code in addition to 0x5400. |
     /// | 0xFF15 | [`PowerStageErrorAxis3`](Self::PowerStageErrorAxis3) | The drive sends this code in addition to 0x5400. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Emergency {
         /// 0x0000: generic error. Manual: PRE-DEFINED ERROR FIELD.
         GenericError,
@@ -27088,7 +36274,7 @@ pub mod codes {
     /// | 0x06020000 | [`ObjectDoesNotExist`](Self::ObjectDoesNotExist) | The mapped object does not exist, or the mapping is longer than 64 bits. |
     /// | 0x06040041 | [`ObjectCannotBeMapped`](Self::ObjectCannotBeMapped) | The mapped object does not exist, or the mapping is longer than 64 bits. |
     /// | 0x06040042 | [`MappingExceedsPdoLength`](Self::MappingExceedsPdoLength) | The mapping of a PDO is longer than 64 bits. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum SdoAbort {
         /// 0x06090030: value range exceeded. Bits 29 and 30 of the COB-ID of SYNC or EMCY cannot be changed. Manual: COB-ID SYNC MESSAGE; COB-ID EMERGENCY MESSAGE.
         ValueRangeExceeded,
@@ -38190,7 +47376,7 @@ pub mod objects {
             "Standard error field 2",
             super::super::types::ErrorFieldEntry::from_raw(0),
         );
-        /// Accessors for the entries of Pre-defined Error Field: 0x1003.
+        /// Accessors for the entries of the object. Pre-defined Error Field: 0x1003.
         pub struct PreDefinedErrorFieldAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -38469,7 +47655,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Consumer Heartbeat Time: 0x1016.
+        /// Accessors for the entries of the object. Consumer Heartbeat Time: 0x1016.
         pub struct ConsumerHeartbeatTimeAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -38604,7 +47790,7 @@ pub mod objects {
             0x04,
             "Serial number",
         );
-        /// Accessors for the entries of Identity Object: 0x1018.
+        /// Accessors for the entries of the object. Identity Object: 0x1018.
         pub struct IdentityObjectAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -38726,7 +47912,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of SDO1 Parameter: 0x1200.
+        /// Accessors for the entries of the object. SDO1 Parameter: 0x1200.
         pub struct Sdo1ParameterAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -38829,7 +48015,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of RxPDO1 Communication Parameters: 0x1400.
+        /// Accessors for the entries of the object. RxPDO1 Communication Parameters: 0x1400.
         pub struct RxPdo1CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -38932,7 +48118,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of RxPDO2 Communication Parameters: 0x1401.
+        /// Accessors for the entries of the object. RxPDO2 Communication Parameters: 0x1401.
         pub struct RxPdo2CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -39035,7 +48221,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of RxPDO3 Communication Parameters: 0x1402.
+        /// Accessors for the entries of the object. RxPDO3 Communication Parameters: 0x1402.
         pub struct RxPdo3CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -39138,7 +48324,7 @@ pub mod objects {
             "Transmission type",
             super::super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of RxPDO4 Communication Parameters: 0x1403.
+        /// Accessors for the entries of the object. RxPDO4 Communication Parameters: 0x1403.
         pub struct RxPdo4CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -39329,7 +48515,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of RxPDO1 Mapping Parameters: 0x1600.
+        /// Accessors for the entries of the object. RxPDO1 Mapping Parameters: 0x1600.
         pub struct RxPdo1MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -39608,7 +48794,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of RxPDO2 Mapping Parameters: 0x1601.
+        /// Accessors for the entries of the object. RxPDO2 Mapping Parameters: 0x1601.
         pub struct RxPdo2MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -39883,7 +49069,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of RxPDO3 Mapping Parameters: 0x1602.
+        /// Accessors for the entries of the object. RxPDO3 Mapping Parameters: 0x1602.
         pub struct RxPdo3MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -40156,7 +49342,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of RxPDO4 Mapping Parameters: 0x1603.
+        /// Accessors for the entries of the object. RxPDO4 Mapping Parameters: 0x1603.
         pub struct RxPdo4MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -40385,7 +49571,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of TxPDO1 Communication Parameters: 0x1800.
+        /// Accessors for the entries of the object. TxPDO1 Communication Parameters: 0x1800.
         pub struct TxPdo1CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -40558,7 +49744,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of TxPDO2 Communication Parameters: 0x1801.
+        /// Accessors for the entries of the object. TxPDO2 Communication Parameters: 0x1801.
         pub struct TxPdo2CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -40731,7 +49917,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of TxPDO3 Communication Parameters: 0x1802.
+        /// Accessors for the entries of the object. TxPDO3 Communication Parameters: 0x1802.
         pub struct TxPdo3CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -40904,7 +50090,7 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of TxPDO4 Communication Parameters: 0x1803.
+        /// Accessors for the entries of the object. TxPDO4 Communication Parameters: 0x1803.
         pub struct TxPdo4CommunicationParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -41121,7 +50307,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of TxPDO1 Mapping Parameters: 0x1A00.
+        /// Accessors for the entries of the object. TxPDO1 Mapping Parameters: 0x1A00.
         pub struct TxPdo1MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -41392,7 +50578,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of TxPDO2 Mapping Parameters: 0x1A01.
+        /// Accessors for the entries of the object. TxPDO2 Mapping Parameters: 0x1A01.
         pub struct TxPdo2MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -41661,7 +50847,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of TxPDO3 Mapping Parameters: 0x1A02.
+        /// Accessors for the entries of the object. TxPDO3 Mapping Parameters: 0x1A02.
         pub struct TxPdo3MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -41930,7 +51116,7 @@ pub mod objects {
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of TxPDO4 Mapping Parameters: 0x1A03.
+        /// Accessors for the entries of the object. TxPDO4 Mapping Parameters: 0x1A03.
         pub struct TxPdo4MappingParametersAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -42176,7 +51362,7 @@ pub mod objects {
             rt::Flags::TPDO,
             0,
         );
-        /// Accessors for the entries of read\_write\_variable: 0x23E8.
+        /// Accessors for the entries of the object. read\_write\_variable: 0x23E8.
         pub struct ReadWriteVariableAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -42753,7 +51939,7 @@ pub mod objects {
             "rev/s",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of Homing speeds: 0x6099.
+        /// Accessors for the entries of the object. Homing speeds: 0x6099.
         pub struct HomingSpeedsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -43020,7 +52206,7 @@ pub mod objects {
             "step",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of Interpolation Data Record: 0x60C1.
+        /// Accessors for the entries of the object. Interpolation Data Record: 0x60C1.
         pub struct InterpolationDataRecordAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -43113,7 +52299,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Interpolation Time Period: 0x60C2.
+        /// Accessors for the entries of the object. Interpolation Time Period: 0x60C2.
         pub struct InterpolationTimePeriodAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -43204,7 +52390,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Interpolation Sync Definition: 0x60C3.
+        /// Accessors for the entries of the object. Interpolation Sync Definition: 0x60C3.
         pub struct InterpolationSyncDefinitionAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -43352,7 +52538,7 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of Interpolation Data Configuration: 0x60C4.
+        /// Accessors for the entries of the object. Interpolation Data Configuration: 0x60C4.
         pub struct InterpolationDataConfigurationAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -43506,7 +52692,7 @@ pub mod objects {
             rt::Flags::RPDO,
             super::super::types::ProfileDigitalOutputs::from_raw(0xFF0000),
         );
-        /// Accessors for the entries of Digital outputs: 0x60FE.
+        /// Accessors for the entries of the object. Digital outputs: 0x60FE.
         pub struct DigitalOutputsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

@@ -268,7 +268,7 @@ pub mod types {
     /// | 1 | [`Position`](Self::Position) |
     /// | 3 | [`Velocity`](Self::Velocity) |
     /// | 4 | [`Torque`](Self::Torque) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Mode {
         /// 0: Off.
         Off,
@@ -282,6 +282,13 @@ pub mod types {
         Unknown(u8),
     }
     impl Mode {
+        /// All values with names.
+        pub const ALL: [Self; 4] = [
+            Self::Off,
+            Self::Position,
+            Self::Velocity,
+            Self::Torque,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
@@ -312,6 +319,46 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<Mode> for u8 {
+        fn from(value: Mode) -> Self {
+            value.raw()
+        }
+    }
+    impl From<u8> for Mode {
+        fn from(raw: u8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for Mode {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for Mode {}
+    impl core::hash::Hash for Mode {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for Mode {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Off, "Off"),
+            (Self::Position, "Position"),
+            (Self::Velocity, "Velocity"),
+            (Self::Torque, "Torque"),
+        ];
+    }
+    impl core::fmt::Display for Mode {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for Mode {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// ModesOfOperation.
     ///
     /// Definition from CiA 402, 10.3.8.
@@ -333,7 +380,7 @@ pub mod types {
     /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
     /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | The controller supplies the commutation angle. |
     /// | 12 to 127 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModesOfOperation {
         /// 0: no mode.
         NoMode,
@@ -361,6 +408,20 @@ pub mod types {
         Unknown(i8),
     }
     impl ModesOfOperation {
+        /// All values with names.
+        pub const ALL: [Self; 11] = [
+            Self::NoMode,
+            Self::ProfilePosition,
+            Self::Velocity,
+            Self::ProfileVelocity,
+            Self::ProfileTorque,
+            Self::Homing,
+            Self::InterpolatedPosition,
+            Self::CyclicSynchronousPosition,
+            Self::CyclicSynchronousVelocity,
+            Self::CyclicSynchronousTorque,
+            Self::CyclicSynchronousTorqueWithAngle,
+        ];
         /// Returns the variant for this number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -405,6 +466,56 @@ pub mod types {
             self.raw()
         }
     }
+    impl From<ModesOfOperation> for i8 {
+        fn from(value: ModesOfOperation) -> Self {
+            value.raw()
+        }
+    }
+    impl From<i8> for ModesOfOperation {
+        fn from(raw: i8) -> Self {
+            Self::from_raw(raw)
+        }
+    }
+    impl PartialEq for ModesOfOperation {
+        fn eq(&self, other: &Self) -> bool {
+            self.raw() == other.raw()
+        }
+    }
+    impl Eq for ModesOfOperation {}
+    impl core::hash::Hash for ModesOfOperation {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&self.raw(), state);
+        }
+    }
+    impl rt::Named for ModesOfOperation {
+        const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NoMode, "no mode"),
+            (Self::ProfilePosition, "profile position"),
+            (Self::Velocity, "velocity"),
+            (Self::ProfileVelocity, "profile velocity"),
+            (Self::ProfileTorque, "profile torque"),
+            (Self::Homing, "homing"),
+            (Self::InterpolatedPosition, "interpolated position"),
+            (Self::CyclicSynchronousPosition, "cyclic synchronous position"),
+            (Self::CyclicSynchronousVelocity, "cyclic synchronous velocity"),
+            (Self::CyclicSynchronousTorque, "cyclic synchronous torque"),
+            (
+                Self::CyclicSynchronousTorqueWithAngle,
+                "cyclic synchronous torque with angle",
+            ),
+        ];
+    }
+    impl core::fmt::Display for ModesOfOperation {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            rt::display_name(*self, f)
+        }
+    }
+    impl core::str::FromStr for ModesOfOperation {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, Self::Err> {
+            rt::parse_name(text)
+        }
+    }
     /// Controlword.
     ///
     /// Definition from CiA 402, 10.3.1.
@@ -432,7 +543,7 @@ pub mod types {
     /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the previous target at the profile velocity, then moves to the new target. |
     /// | 10 | reserved | A write to an item sets the value 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Controlword(u16);
     impl Controlword {
         /// Creates a value in which all bits are 0.
@@ -546,14 +657,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Controlword {
+        const LAYOUT: &'static str = "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 manufacturer_specific:f800";
+    }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 manufacturer_specific:f800",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Controlword`] with the bits that are defined while [Modes of operation](super::objects::MODES_OF_OPERATION) is "profile position" (1).
@@ -705,7 +829,7 @@ pub mod types {
     /// | 13 | [`in_homing().homing_error()`](StatuswordInHoming::homing_error) |  |
     /// | 13 | [`in_cyclic_synchronous_position().following_error()`](StatuswordInCyclicSynchronousPosition::following_error) |  |
     /// | 14–15 | [`manufacturer_specific_14`](Self::manufacturer_specific_14) | manufacturer specific. |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Statusword(u16);
     impl Statusword {
         /// Creates a value in which all bits are 0.
@@ -886,14 +1010,27 @@ pub mod types {
             self.0
         }
     }
+    impl rt::BitField for Statusword {
+        const LAYOUT: &'static str = "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 manufacturer_specific_8:100 remote:200 target_reached:400 internal_limit_active:800 manufacturer_specific_14:c000";
+    }
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(
-                f,
-                self.0 as u64,
-                "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 manufacturer_specific_8:100 remote:200 target_reached:400 internal_limit_active:800 manufacturer_specific_14:c000",
-                &[],
-            )
+            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
+        }
+    }
+    impl core::fmt::LowerHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::LowerHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::UpperHex for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::UpperHex::fmt(&self.0, f)
+        }
+    }
+    impl core::fmt::Binary for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// View of [`Statusword`] with the bits that are defined while 0x6061 is "profile position" (1).
@@ -1072,7 +1209,7 @@ pub mod types {
     /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
     /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
     /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum State {
         /// not ready to switch on: `xxxx xxxx x0xx 0000`.
         NotReadyToSwitchOn,
@@ -1120,11 +1257,28 @@ pub mod types {
             }
             None
         }
+        /// Returns the bits that are 1 in the state.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::NotReadyToSwitchOn => 0,
+                Self::SwitchOnDisabled => 0x40,
+                Self::ReadyToSwitchOn => 0x21,
+                Self::SwitchedOn => 0x23,
+                Self::OperationEnabled => 0x27,
+                Self::QuickStopActive => 0x7,
+                Self::FaultReactionActive => 0xF,
+                Self::Fault => 0x8,
+            }
+        }
     }
     impl Statusword {
         /// Returns the state, or `None` if the bits match no state.
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
+        }
+        /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        pub const fn from_state(state: State) -> Self {
+            Self(state.value())
         }
     }
     impl State {
@@ -1277,7 +1431,7 @@ pub mod types {
     /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
     /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
     /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | automatic | Automatic transition when a fault occurs. |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Command {
         /// shutdown: `xxxx xxxx 0xxx x110`.
         Shutdown,
@@ -1295,6 +1449,33 @@ pub mod types {
         FaultReset,
     }
     impl Command {
+        /// Returns the command that these bits encode, or `None` if the bits match no command.
+        ///
+        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0x8F == 0x7 {
+                return Some(Self::SwitchOn);
+            }
+            if raw & 0x8F == 0xF {
+                return Some(Self::EnableOperation);
+            }
+            if raw & 0x8F == 0x7 {
+                return Some(Self::DisableOperation);
+            }
+            if raw & 0x87 == 0x6 {
+                return Some(Self::Shutdown);
+            }
+            if raw & 0x86 == 0x2 {
+                return Some(Self::QuickStop);
+            }
+            if raw & 0x82 == 0 {
+                return Some(Self::DisableVoltage);
+            }
+            if raw & 0x80 == 0x80 {
+                return Some(Self::FaultReset);
+            }
+            None
+        }
         /// Returns the mask of all bits that the command sets or clears.
         pub const fn mask(self) -> u16 {
             match self {
@@ -1321,6 +1502,10 @@ pub mod types {
         }
     }
     impl Controlword {
+        /// Returns the command, or `None` if the bits match no command.
+        pub const fn command(self) -> Option<Command> {
+            Command::from_raw(self.0)
+        }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
         pub const fn with_command(self, command: Command) -> Self {
@@ -1408,7 +1593,7 @@ pub mod codes {
     /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
     /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
     /// | 0xF004 | [`Control`](Self::Control) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
         ContinuousOverCurrent,
@@ -1672,7 +1857,7 @@ pub mod codes {
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
     /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Emergency {
         /// 0x0000: no error. No error is present, or an error was reset.
         NoError,
@@ -1933,7 +2118,7 @@ pub mod objects {
             "Speed",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of 0x2000.
+        /// Accessors for the entries of the object. 0x2000.
         pub struct Object2000Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -2026,7 +2211,7 @@ pub mod objects {
             "Current",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of 0x2001.
+        /// Accessors for the entries of the object. 0x2001.
         pub struct Object2001Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

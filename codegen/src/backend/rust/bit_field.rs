@@ -21,7 +21,7 @@ pub(super) struct BitFieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// The `Debug` implementation, if the options request an implementation.
+    /// The texts, if the options request them.
     pub debug: Option<DebugModel>,
     /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
@@ -36,6 +36,8 @@ pub(super) struct BitFieldModel {
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
     pub views: Vec<ViewModel>,
+    /// Mask of all flags, if the bit field consists only of flags that are set while their bits are 1.
+    pub flags: Option<String>,
 }
 
 impl BitFieldModel {
@@ -50,10 +52,10 @@ impl BitFieldModel {
     }
 }
 
-/// The `Debug` implementation of a bit field.
+/// Texts of a bit field: `Debug`, the formats of its raw bits, and the names of its flags.
 pub(super) struct DebugModel {
-    /// The `cfg` attribute of the `Debug` implementation. `None` if the implementation is unconditional.
-    pub gate: Option<String>,
+    /// The `cfg` attribute of the implementations. The list is empty if they are unconditional.
+    pub gate: Vec<String>,
     pub raw: String,
     /// Names and masks of the fields, in the format that the runtime's `debug_bits` requires. The list starts with the
     /// name of the type.
@@ -186,7 +188,7 @@ pub(super) fn model(
     docs.extend(table(&entries, fields.iter().chain(views.iter().flat_map(|view| &view.fields))));
     BitFieldModel {
         docs,
-        derives: RustOptions { debug: Presence::Never, ..options.clone() }.derives(true),
+        derives: RustOptions { debug: Presence::Never, ..options.clone() }.derives_of_integers(),
         debug: debug(name, native, &fields, options),
         base,
         native,
@@ -197,6 +199,7 @@ pub(super) fn model(
             format!("raw & {}", hexadecimal(mask(bits)))
         },
         written: written(zeros, ones),
+        flags: flags(&entries, views.is_empty()),
         allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
         views,
         fields,
@@ -266,6 +269,16 @@ fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     (zeros & !used, ones & !used)
 }
 
+/// Returns the mask of all flags. Returns `None` if a bit is not a flag or is active low, so that an operation on all bits would
+/// not be one on all flags.
+fn flags(entries: &[&BitFieldEntry], has_no_views: bool) -> Option<String> {
+    let is_flag = |entry: &&BitFieldEntry| {
+        entry.bits == 1 && matches!(entry.meaning, BitMeaning::Flag { inverted: false }) && entry.when.is_none()
+    };
+    (has_no_views && !entries.is_empty() && entries.iter().all(is_flag))
+        .then(|| hexadecimal(entries.iter().fold(0, |mask, entry| mask | 1 << entry.offset)))
+}
+
 fn written(zeros: u64, ones: u64) -> Option<String> {
     match (zeros, ones) {
         (0, 0) => None,
@@ -288,11 +301,7 @@ fn hexadecimal_or_zero(number: u64) -> String {
 }
 
 fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions) -> Option<DebugModel> {
-    let gate = match &options.debug {
-        Presence::Never => return None,
-        Presence::Always => None,
-        Presence::Feature(feature) => Some(format!("#[cfg(feature = {})]", literal::string(feature))),
-    };
+    let gate = RustOptions::gate(&options.debug)?;
     let layout: Vec<&str> = std::iter::once(name).chain(fields.iter().map(|field| field.debug.as_str())).collect();
     let values = fields.iter().filter(|field| field.prints_value);
     Some(DebugModel {

@@ -77,7 +77,15 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     };
     let listed: Vec<[String; 3]> = rows.iter().zip(&names).take(doc_table::MAX_ROWS + 1).map(row).collect();
     let table = doc_table::table(["Code", "Name", "Meaning"], &listed);
-    Some(CodeTypeModel { name: String::new(), table, derives: options.derives(true), native, variants, arms, complete })
+    Some(CodeTypeModel {
+        name: String::new(),
+        table,
+        derives: options.derives_of_integers(),
+        native,
+        variants,
+        arms,
+        complete,
+    })
 }
 
 fn span(row: &CodeRow) -> Option<Span> {

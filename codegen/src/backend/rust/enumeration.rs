@@ -7,8 +7,9 @@ use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::links::DocModule;
+use super::literal;
 use super::naming::types::NamedType;
-use super::options::RustOptions;
+use super::options::{Presence, RustOptions};
 use super::value_type;
 use crate::ir::{EnumValue, Shape, Zone};
 use crate::names::{self, Case, NameRequest};
@@ -25,6 +26,10 @@ pub(super) struct EnumerationModel {
     /// Mask of the value's bits if the enumeration has no variant `Unknown`. `None` otherwise.
     pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
+    /// The `cfg` attribute of the names, if the options request names.
+    pub texts: Option<Vec<String>>,
+    /// The `cfg` attribute of `PartialEq`, `Eq` and `Hash`, if the options request these.
+    pub equality: Option<Vec<String>>,
 }
 
 /// A named value of an enumeration.
@@ -32,6 +37,8 @@ pub(super) struct VariantModel {
     pub name: String,
     pub docs: String,
     pub value: String,
+    /// Literal of the name in the description.
+    pub title: String,
 }
 
 /// Maximum number of bits of an enumeration without the variant `Unknown`.
@@ -67,7 +74,10 @@ pub(super) fn model(
     docs.extend(table(if complete { &[] } else { all }, &values, &variants));
     EnumerationModel {
         docs,
-        derives: options.derives(true),
+        // `PartialEq` compares the numbers, so that `Unknown(1)` equals the variant for 1.
+        derives: RustOptions { partial_eq: Presence::Never, ..options.clone() }.derives(true),
+        texts: RustOptions::gate(&options.debug),
+        equality: RustOptions::gate(&options.partial_eq),
         base: named.base,
         native: named.native,
         complete: complete.then(|| format!("{:#X}", (1_u32 << named.bits) - 1).replacen("0X", "0x", 1)),
@@ -115,7 +125,7 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
             docs.push(' ');
             docs.push_str(&more);
         }
-        VariantModel { name, docs, value: number }
+        VariantModel { name, docs, value: number, title: literal::string(&value.name) }
     };
     values.iter().zip(names).map(variant).collect()
 }

@@ -57,8 +57,8 @@ pub(super) struct PatternsModel {
     /// Primitive integer that holds the bits.
     pub native: &'static str,
     pub patterns: Vec<PatternModel>,
-    /// Name of the bit field that contains the bits, and name of its method that reads the state or writes the command.
-    pub bits: Option<(String, String)>,
+    /// Name of the bit field that contains the bits, and names of its functions that read and write the state or command.
+    pub bits: Option<(String, [String; 2])>,
 }
 
 impl PatternsModel {
@@ -84,6 +84,8 @@ pub(super) struct PatternModel {
     pub value: String,
     /// True if the mask covers all bits of the integer.
     pub is_whole: bool,
+    /// Number of bits that the state or command defines.
+    pub defined_bits: u32,
 }
 
 pub(super) fn models(
@@ -94,11 +96,16 @@ pub(super) fn models(
 ) -> Vec<MachineModel> {
     let model = |named: &NamedMachine<'_>| {
         let machine = named.machine;
-        let patterns = |name, list, item, method| patterns(context, name, list, item, method, bit_fields, options);
+        let patterns = |name, list, item, methods| patterns(context, name, list, item, methods, bit_fields, options);
         // States that are values of an enumeration already have a Rust type.
         let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
-        let mut states = patterns(&named.states, own_states, &machine.status_item, &named.getter);
-        let mut commands = patterns(&named.commands, &machine.commands, &machine.control_item, &named.command_setter);
+        let mut states = patterns(&named.states, own_states, &machine.status_item, [&named.getter, &named.constructor]);
+        let mut commands = patterns(
+            &named.commands,
+            &machine.commands,
+            &machine.control_item,
+            [&named.command_getter, &named.command_setter],
+        );
         let transitions = states
             .as_ref()
             .zip(commands.as_ref())
@@ -281,7 +288,7 @@ fn patterns(
     name: &str,
     list: &[Pattern],
     item: &ItemRef,
-    method: &str,
+    methods: [&str; 2],
     bit_fields: &[(u32, BitFieldModel)],
     options: &RustOptions,
 ) -> Option<PatternsModel> {
@@ -333,14 +340,15 @@ fn patterns(
             mask,
             value,
             is_whole: u64::from(definition.mask) == maximum,
+            defined_bits: definition.mask.count_ones(),
         }
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),
         name: name.to_owned(),
         docs: Vec::new(),
-        derives: options.derives(true),
+        derives: options.derives_of_integers(),
         native,
-        bits: bits.map(|model| (model.name.clone(), method.to_owned())),
+        bits: bits.map(|model| (model.name.clone(), methods.map(str::to_owned))),
     })
 }

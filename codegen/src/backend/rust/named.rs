@@ -22,8 +22,9 @@ pub(super) struct Types {
 impl Types {
     pub(super) fn of<'a>(context: &'a Context<'_>, options: &RustOptions) -> Self {
         let names = &context.names.types;
-        let methods =
-            |machine: &'a NamedMachine<'_>| [&machine.command_setter, &machine.getter, &machine.command_getter];
+        let methods = |machine: &'a NamedMachine<'_>| {
+            [&machine.command_setter, &machine.getter, &machine.constructor, &machine.command_getter]
+        };
         let machine_methods: Vec<&str> = names.machines.iter().flat_map(methods).map(String::as_str).collect();
         let enumerations = names.enumerations.iter();
         let enumerations: Vec<_> =

@@ -73,8 +73,26 @@ impl RustOptions {
         }
     }
 
+    /// Returns the line with the attribute of a part, or `None` if the part is not generated.
+    pub(super) fn gate(presence: &Presence) -> Option<Vec<String>> {
+        match presence {
+            Presence::Never => None,
+            Presence::Always => Some(Vec::new()),
+            Presence::Feature(feature) => Some(vec![format!("#[cfg(feature = {})]", super::literal::string(feature))]),
+        }
+    }
+
     /// Returns the lines with the attributes of a generated type.
     pub(super) fn derives(&self, plain_data: bool) -> Vec<String> {
+        self.derives_with(plain_data, "PartialEq")
+    }
+
+    /// Returns the lines with the attributes of a generated type whose values are integers.
+    pub(super) fn derives_of_integers(&self) -> Vec<String> {
+        self.derives_with(true, "PartialEq, Eq, Hash")
+    }
+
+    fn derives_with(&self, plain_data: bool, equality: &'static str) -> Vec<String> {
         let mut always = if plain_data { vec!["Clone", "Copy"] } else { Vec::new() };
         let mut gated = Vec::new();
         let mut add = |presence: &Presence, paths: &'static str| match presence {
@@ -86,7 +104,7 @@ impl RustOptions {
         };
         add(&self.debug, "Debug");
         if plain_data {
-            add(&self.partial_eq, "PartialEq");
+            add(&self.partial_eq, equality);
             add(&self.defmt, "defmt::Format");
             add(&self.serde, "serde::Serialize, serde::Deserialize");
         }

@@ -12,6 +12,8 @@ pub(in crate::backend::rust) struct NamedMachine<'a> {
     pub commands: String,
     /// Name of the bit field method that returns the state.
     pub getter: String,
+    /// Name of the bit field function that returns the bits of a state.
+    pub constructor: String,
     /// Name of the bit field method that returns the command.
     pub command_getter: String,
     /// Name of the bit field method that sets the command.
@@ -42,8 +44,9 @@ pub(super) fn names<'a>(
     let mut ty = || types.next().unwrap_or_default();
     let named = machines.iter().map(|machine| {
         let (getter, command_getter) = (method(), method());
+        let constructor = names::prefixed("from_", &getter);
         let command_setter = names::prefixed("with_", &command_getter);
-        NamedMachine { machine, states: ty(), commands: ty(), getter, command_getter, command_setter }
+        NamedMachine { machine, states: ty(), commands: ty(), getter, constructor, command_getter, command_setter }
     });
     named.collect()
 }

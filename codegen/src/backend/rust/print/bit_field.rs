@@ -1,7 +1,7 @@
 //! Prints bit fields and their views.
 
 use crate::backend::rust::bit_field::{BitFieldModel, DebugModel, FieldModel, ViewModel};
-use crate::backend::rust::code::{call, line, open, seq, slice, Code};
+use crate::backend::rust::code::{call, line, open, seq, slice, Code, Doc};
 use crate::backend::rust::links;
 
 pub(in crate::backend::rust) fn write(code: &mut Code, bits: &BitFieldModel) {
@@ -16,7 +16,10 @@ pub(in crate::backend::rust) fn write(code: &mut Code, bits: &BitFieldModel) {
     code.close("}");
     conversions(code, bits);
     if let Some(debug) = &bits.debug {
-        self::debug(code, &bits.name, debug);
+        texts(code, &bits.name, debug);
+    }
+    if let Some(mask) = &bits.flags {
+        operators(code, &bits.name, mask);
     }
     bits.views.iter().for_each(|view| self::view(code, bits, view));
 }
@@ -78,12 +81,48 @@ fn conversions(code: &mut Code, bits: &BitFieldModel) {
     code.close("}");
 }
 
-fn debug(code: &mut Code, name: &str, debug: &DebugModel) {
+fn texts(code: &mut Code, name: &str, debug: &DebugModel) {
     code.lines(&debug.gate);
-    open!(code, "impl core::fmt::Debug for ", name, " {");
-    open!(code, "fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {");
+    open!(code, "impl rt::BitField for ", name, " {");
+    line!(code, "const LAYOUT: &'static str = ", debug.layout, ";");
+    code.close("}");
     let values = slice(&debug.values);
-    line!(code, call!("rt::debug_bits", "f", debug.raw, debug.layout, values));
+    format(
+        code,
+        debug,
+        "Debug",
+        name,
+        call!("rt::debug_bits", "f", debug.raw, "<Self as rt::BitField>::LAYOUT", values),
+    );
+    for name_of_trait in ["LowerHex", "UpperHex", "Binary"] {
+        format(code, debug, name_of_trait, name, call!(seq!["core::fmt::", name_of_trait, "::fmt"], "&self.0", "f"));
+    }
+}
+
+/// Writes the implementation of a trait of `core::fmt`.
+fn format(code: &mut Code, debug: &DebugModel, name_of_trait: &str, name: &str, body: Doc) {
+    code.lines(&debug.gate);
+    open!(code, "impl core::fmt::", name_of_trait, " for ", name, " {");
+    open!(code, "fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {");
+    line!(code, body);
+    code.close("}");
+    code.close("}");
+}
+
+/// Writes the operators of a bit field that consists only of flags.
+fn operators(code: &mut Code, name: &str, mask: &str) {
+    for (operator, method, sign) in [("BitOr", "bitor", "|"), ("BitAnd", "bitand", "&")] {
+        open!(code, "impl core::ops::", operator, " for ", name, " {");
+        line!(code, "type Output = Self;");
+        open!(code, "fn ", method, "(self, other: Self) -> Self {");
+        line!(code, "Self(self.0 ", sign, " other.0)");
+        code.close("}");
+        code.close("}");
+    }
+    open!(code, "impl core::ops::Not for ", name, " {");
+    line!(code, "type Output = Self;");
+    open!(code, "fn not(self) -> Self {");
+    line!(code, "Self(self.0 ^ ", mask, ")");
     code.close("}");
     code.close("}");
 }

@@ -2,9 +2,9 @@
 
 use super::{bit_field, section};
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc};
-use crate::backend::rust::enumeration::EnumerationModel;
+use crate::backend::rust::enumeration::{EnumerationModel, VariantModel};
 use crate::backend::rust::literal;
-use crate::backend::rust::machine::{MachineModel, PatternsModel};
+use crate::backend::rust::machine::{MachineModel, PatternModel, PatternsModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
 
@@ -37,6 +37,9 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     }
     code.close("}");
     open!(code, "impl ", name, " {");
+    code.doc("All values with names.");
+    let all: Vec<Doc> = enumeration.variants.iter().map(|variant| seq!["Self::", variant.name]).collect();
+    line!(code, "pub const ALL: [Self; ", all.len().to_string(), "] = ", list("[", &all, "]"), ";");
     from_raw(code, enumeration);
     code.doc("Returns the number of the variant.");
     open!(code, "pub const fn raw(self) -> ", native, " {");
@@ -57,6 +60,71 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     code.close("}");
     open!(code, "fn native(self) -> ", native, " {");
     line!(code, "self.raw()");
+    code.close("}");
+    code.close("}");
+    conversions(code, enumeration);
+    if let Some(gate) = &enumeration.equality {
+        equality(code, name, gate);
+    }
+    if let Some(gate) = &enumeration.texts {
+        texts(code, enumeration, gate);
+    }
+}
+
+/// Writes the conversions to the number and, if every number has a variant, from the number.
+fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
+    let (name, native) = (&enumeration.name, enumeration.native);
+    open!(code, "impl From<", name, "> for ", native, " {");
+    open!(code, "fn from(value: ", name, ") -> Self {");
+    line!(code, "value.raw()");
+    code.close("}");
+    code.close("}");
+    if enumeration.complete.is_none() {
+        open!(code, "impl From<", native, "> for ", name, " {");
+        open!(code, "fn from(raw: ", native, ") -> Self {");
+        line!(code, "Self::from_raw(raw)");
+        code.close("}");
+        code.close("}");
+    }
+}
+
+fn equality(code: &mut Code, name: &str, gate: &[String]) {
+    code.lines(gate);
+    open!(code, "impl PartialEq for ", name, " {");
+    open!(code, "fn eq(&self, other: &Self) -> bool {");
+    line!(code, "self.raw() == other.raw()");
+    code.close("}");
+    code.close("}");
+    code.lines(gate);
+    line!(code, "impl Eq for ", name, " {}");
+    code.lines(gate);
+    open!(code, "impl core::hash::Hash for ", name, " {");
+    open!(code, "fn hash<H: core::hash::Hasher>(&self, state: &mut H) {");
+    line!(code, "core::hash::Hash::hash(&self.raw(), state);");
+    code.close("}");
+    code.close("}");
+}
+
+/// Writes the names of the values, `Display` and `FromStr`.
+fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
+    let name = &enumeration.name;
+    code.lines(gate);
+    open!(code, "impl rt::Named for ", name, " {");
+    let named = |variant: &VariantModel| list("(", &[seq!["Self::", variant.name], variant.title.clone().into()], ")");
+    let names: Vec<Doc> = enumeration.variants.iter().map(named).collect();
+    line!(code, "const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
+    code.close("}");
+    code.lines(gate);
+    open!(code, "impl core::fmt::Display for ", name, " {");
+    open!(code, "fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {");
+    line!(code, "rt::display_name(*self, f)");
+    code.close("}");
+    code.close("}");
+    code.lines(gate);
+    open!(code, "impl core::str::FromStr for ", name, " {");
+    line!(code, "type Err = rt::UnknownName;");
+    open!(code, "fn from_str(text: &str) -> Result<Self, Self::Err> {");
+    line!(code, "rt::parse_name(text)");
     code.close("}");
     code.close("}");
 }
@@ -158,8 +226,29 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
     self::patterns(code, patterns);
     open!(code, "impl ", patterns.name, " {");
     code.doc("Returns the state that these bits encode, or `None` if the bits match no state.");
-    open!(code, "pub const fn from_raw(raw: ", patterns.native, ") -> Option<Self> {");
-    for pattern in &patterns.patterns {
+    decoder(code, patterns, patterns.patterns.iter());
+    code.doc("Returns the bits that are 1 in the state.");
+    arms(code, patterns, "value", |pattern| &pattern.value);
+    code.close("}");
+    if let Some((bits, [getter, constructor])) = &patterns.bits {
+        open!(code, "impl ", bits, " {");
+        code.doc("Returns the state, or `None` if the bits match no state.");
+        open!(code, call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, "> {");
+        line!(code, patterns.name, "::from_raw(self.0)");
+        code.close("}");
+        code.doc("Returns the bits of a state. All bits on which the state does not depend are 0.");
+        let state = seq!["state: ", patterns.name];
+        open!(code, call!(seq!["pub const fn ", constructor], state), " -> Self {");
+        line!(code, "Self(state.value())");
+        code.close("}");
+        code.close("}");
+    }
+}
+
+/// Writes the function that returns the first of the patterns that match.
+fn decoder<'p>(code: &mut Code, model: &PatternsModel, patterns: impl Iterator<Item = &'p PatternModel>) {
+    open!(code, "pub const fn from_raw(raw: ", model.native, ") -> Option<Self> {");
+    for pattern in patterns {
         let masked = if pattern.is_whole { seq![] } else { seq![" & ", pattern.mask] };
         open!(code, "if raw", masked, " == ", pattern.value, " {");
         line!(code, "return Some(Self::", pattern.name, ");");
@@ -167,40 +256,43 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
     }
     line!(code, "None");
     code.close("}");
-    code.close("}");
-    if let Some((bits, method)) = &patterns.bits {
-        open!(code, "impl ", bits, " {");
-        code.doc("Returns the state, or `None` if the bits match no state.");
-        open!(code, call!(seq!["pub const fn ", method], "self"), " -> Option<", patterns.name, "> {");
-        line!(code, patterns.name, "::from_raw(self.0)");
-        code.close("}");
-        code.close("}");
+}
+
+/// Writes a function that returns a number for each pattern.
+fn arms(code: &mut Code, patterns: &PatternsModel, function: &str, number: impl Fn(&PatternModel) -> &String) {
+    open!(code, "pub const fn ", function, "(self) -> ", patterns.native, " {");
+    open!(code, "match self {");
+    for pattern in &patterns.patterns {
+        line!(code, "Self::", pattern.name, " => ", number(pattern), ",");
     }
+    code.close("}");
+    code.close("}");
 }
 
 fn commands(code: &mut Code, patterns: &PatternsModel) {
     self::patterns(code, patterns);
-    let arms = |code: &mut Code, function: &str, value: &dyn Fn(usize) -> String| {
-        open!(code, "pub const fn ", function, "(self) -> ", patterns.native, " {");
-        open!(code, "match self {");
-        for (at, pattern) in patterns.patterns.iter().enumerate() {
-            line!(code, "Self::", pattern.name, " => ", value(at), ",");
-        }
-        code.close("}");
-        code.close("}");
-    };
     open!(code, "impl ", patterns.name, " {");
+    code.doc("Returns the command that these bits encode, or `None` if the bits match no command.");
+    code.doc("");
+    code.doc("If several commands match, the function returns the command with the most bits, and the first of several such commands.");
+    let mut by_bits: Vec<&PatternModel> = patterns.patterns.iter().collect();
+    by_bits.sort_by_key(|pattern| std::cmp::Reverse(pattern.defined_bits));
+    decoder(code, patterns, by_bits.into_iter());
     code.doc("Returns the mask of all bits that the command sets or clears.");
-    arms(code, "mask", &|at| patterns.patterns[at].mask.clone());
+    arms(code, patterns, "mask", |pattern| &pattern.mask);
     code.doc("Returns the bits that the command sets.");
-    arms(code, "value", &|at| patterns.patterns[at].value.clone());
+    arms(code, patterns, "value", |pattern| &pattern.value);
     code.close("}");
-    if let Some((bits, method)) = &patterns.bits {
+    if let Some((bits, [getter, setter])) = &patterns.bits {
         open!(code, "impl ", bits, " {");
+        code.doc("Returns the command, or `None` if the bits match no command.");
+        open!(code, call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, "> {");
+        line!(code, patterns.name, "::from_raw(self.0)");
+        code.close("}");
         code.doc("Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.");
         line!(code, "#[must_use]");
         let command = seq!["command: ", patterns.name];
-        open!(code, call!(seq!["pub const fn ", method], "self", command), " -> Self {");
+        open!(code, call!(seq!["pub const fn ", setter], "self", command), " -> Self {");
         line!(code, "Self((self.0 & !command.mask()) | command.value())");
         code.close("}");
         code.close("}");
