@@ -232,7 +232,7 @@ impl Source {
             let parts = bytes.chunks_exact(STRIDE).enumerate().map(|(number, part)| {
                 let after = |at: usize| bytes.get(number * STRIDE + at + 1);
                 let returns = memchr::memchr_iter(b'\r', part).filter(|&at| after(at) != Some(&b'\n')).count();
-                total.line_ends += (part.iter().filter(|&&byte| byte == b'\n').count() + returns) as u32;
+                total.line_ends += (memchr::memchr_iter(b'\n', part).count() + returns) as u32;
                 total.characters += characters(part);
                 total
             });
@@ -243,6 +243,9 @@ impl Source {
 
 /// Returns the number of characters that begin in `bytes`.
 fn characters(bytes: &[u8]) -> u32 {
+    if bytes.is_ascii() {
+        return bytes.len() as u32;
+    }
     bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
