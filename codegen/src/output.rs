@@ -1,7 +1,7 @@
 //! Atomic writing of files that have changed.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{Error, ErrorKind, Result, Write};
+use std::io::{BufRead, BufReader, Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -24,7 +24,7 @@ pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
     if is_no_regular_file(path) {
         return OpenOptions::new().write(true).open(path)?.write_all(content);
     }
-    if fs::read(path).is_ok_and(|bytes| bytes == content) {
+    if has_content(path, content).unwrap_or(false) {
         return Ok(());
     }
     match fs::canonicalize(path) {
@@ -33,6 +33,24 @@ pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
         Err(_) if path.is_symlink() => fs::write(path, content),
         Err(error) if error.kind() == ErrorKind::NotFound => replace(path, content),
         Err(error) => Err(error),
+    }
+}
+
+/// Returns whether a file has this content. Reads the file in parts, and only if it has the same length.
+fn has_content(path: &Path, mut content: &[u8]) -> Result<bool> {
+    let file = File::open(path)?;
+    if file.metadata()?.len() != content.len() as u64 {
+        return Ok(false);
+    }
+    let mut file = BufReader::new(file);
+    loop {
+        let part = file.fill_buf()?;
+        let length = part.len();
+        match content.strip_prefix(part) {
+            Some(rest) if length > 0 => content = rest,
+            rest => return Ok(rest.is_some_and(<[u8]>::is_empty)),
+        }
+        file.consume(length);
     }
 }
 

@@ -7,6 +7,9 @@ use std::fmt::Display;
 /// would take too much memory.
 pub fn brief(text: &str) -> &str {
     const LETTERS: usize = 64;
+    if text.len() <= LETTERS {
+        return text;
+    }
     let end = text.char_indices().nth(LETTERS).map_or(text.len(), |(at, _)| at);
     &text[..end]
 }

@@ -164,7 +164,11 @@ impl FactOrigins {
     /// Records the origin of a fact. `None` means the description itself.
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
         self.0.retain(|(recorded, _)| *recorded != fact);
-        self.0.extend(origin.map(|origin| (fact, origin)));
+        if let Some(origin) = origin {
+            // Most items have one or two origins, but a vector that grows has room for four.
+            self.0.reserve_exact(1);
+            self.0.push((fact, origin));
+        }
     }
 
     /// Creates a list in which all `facts` have the origin `rule`.

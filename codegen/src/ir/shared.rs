@@ -55,7 +55,9 @@ impl<T: PartialEq> PartialEq for SharedList<T> {
 impl<T: Eq> Eq for SharedList<T> {}
 
 impl<T> From<Vec<T>> for SharedList<T> {
-    fn from(list: Vec<T>) -> Self {
+    fn from(mut list: Vec<T>) -> Self {
+        // Most lists have one element, but a vector that grows has room for four.
+        list.shrink_to_fit();
         SharedList((!list.is_empty()).then(|| Arc::new(list)))
     }
 }

@@ -16,6 +16,7 @@ pub use span::{FileId, Origin, Position, Span};
 
 use std::borrow::Cow;
 use std::io::Read;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -28,12 +29,19 @@ pub struct Source {
     content: Arc<Content>,
     /// Folder of the files to which this source refers.
     folder: Option<PathBuf>,
-    line_starts: OnceLock<Vec<u32>>,
-    /// Number of characters before each multiple of [`STRIDE`] bytes. The list speeds up the search for a column in a long line.
-    characters: OnceLock<Vec<u32>>,
+    /// Numbers of line ends and characters before each multiple of [`STRIDE`] bytes. A list of all lines would need up to a fifth
+    /// of the size of the text.
+    counts: OnceLock<Vec<Counts>>,
 }
 
-/// Number of bytes between two entries of the list of character counts.
+/// Numbers of line ends and characters in a part of the text.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    line_ends: u32,
+    characters: u32,
+}
+
+/// Number of bytes between two entries of the list of counts.
 const STRIDE: usize = 1024;
 
 /// Maximum size of an input in bytes. The size is limited because spans contain 32-bit offsets.
@@ -54,8 +62,7 @@ impl Source {
             name: name.into(),
             content: Content::new(decode::decode(bytes)),
             folder: None,
-            line_starts: OnceLock::new(),
-            characters: OnceLock::new(),
+            counts: OnceLock::new(),
         }
     }
 
@@ -162,8 +169,7 @@ impl Source {
     ///
     /// CR LF, LF and a single CR each end a line.
     pub fn position(&self, offset: u32) -> Position {
-        let line = self.line_at(offset);
-        let start = self.line_starts()[line as usize - 1] as usize;
+        let (line, start) = self.line_start(offset as usize);
         let end = (offset as usize).clamp(start, self.text().len());
         let column = self.characters_before(end) - self.characters_before(start);
         Position { line, column: column + 1 }
@@ -171,48 +177,76 @@ impl Source {
 
     /// Returns the line number of [`Source::position`] without counting characters.
     pub fn line_at(&self, offset: u32) -> u32 {
-        self.line_starts().partition_point(|&start| start <= offset).max(1) as u32
+        self.line_start(offset as usize).0
     }
 
     /// Returns the number of characters that begin before the byte `offset`.
     fn characters_before(&self, offset: usize) -> u32 {
-        let begins = |bytes: &[u8]| bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32;
-        let counts = self.characters.get_or_init(|| {
-            let mut total = 0;
-            let chunks = self.text().as_bytes().chunks(STRIDE);
-            std::iter::once(0)
-                .chain(chunks.map(|chunk| {
-                    total += begins(chunk);
-                    total
-                }))
-                .collect()
-        });
-        let whole = (offset / STRIDE).min(counts.len() - 1);
-        counts[whole] + begins(&self.text().as_bytes()[whole * STRIDE..offset])
+        let (at, before) = self.counts_before(offset);
+        before.characters + characters(&self.text().as_bytes()[at..offset])
     }
 
     /// Returns the text of line `line` (counted from 1) without its line end.
     pub fn line(&self, line: u32) -> &str {
-        let starts = self.line_starts();
-        let index = (line as usize).saturating_sub(1);
-        let Some(&start) = starts.get(index) else { return "" };
-        let end = starts.get(index + 1).map_or(self.text().len(), |&next| next as usize);
-        self.text()[start as usize..end].trim_end_matches(['\r', '\n'])
+        let Some(start) = self.start_of_line(line.max(1)) else { return "" };
+        let length = self.text().len();
+        let end = self.line_starts(start..length).next().unwrap_or(length);
+        self.text()[start..end].trim_end_matches(['\r', '\n'])
     }
 
-    fn line_starts(&self) -> &[u32] {
-        self.line_starts.get_or_init(|| {
+    /// Returns the number of the line that contains the byte `offset`, and the offset of the start of this line.
+    fn line_start(&self, offset: usize) -> (u32, usize) {
+        let (at, before) = self.counts_before(offset);
+        let starts = self.line_starts(at..offset.min(self.text().len()));
+        let (count, start) = starts.fold((0, None), |(count, _), start| (count + 1, Some(start)));
+        let line = before.line_ends + count + 1;
+        (line, start.or_else(|| self.start_of_line(line)).unwrap_or(0))
+    }
+
+    /// Returns the offset of the start of a line, or `None` if there is no such line.
+    fn start_of_line(&self, line: u32) -> Option<usize> {
+        let Some(last) = line.checked_sub(2) else { return Some(0) };
+        // The line end before the line is in the part of the text after the last entry that does not count it.
+        let part = self.counts().partition_point(|counts| counts.line_ends <= last).saturating_sub(1);
+        let before = self.counts()[part].line_ends;
+        self.line_starts(part * STRIDE..self.text().len()).nth((last - before) as usize)
+    }
+
+    /// Returns the offsets after the line ends in a part of the text. CR LF is one line end.
+    fn line_starts(&self, part: Range<usize>) -> impl Iterator<Item = usize> + '_ {
+        let (bytes, at) = (self.text().as_bytes(), part.start);
+        let ends = memchr::memchr2_iter(b'\n', b'\r', &bytes[part]).map(move |end| at + end);
+        ends.filter(|&end| bytes[end] == b'\n' || bytes.get(end + 1) != Some(&b'\n')).map(|end| end + 1)
+    }
+
+    /// Returns the last entry of the list of counts for a multiple of [`STRIDE`] up to `offset`, and this multiple.
+    fn counts_before(&self, offset: usize) -> (usize, Counts) {
+        let entry = (offset / STRIDE).min(self.counts().len() - 1);
+        (entry * STRIDE, self.counts()[entry])
+    }
+
+    fn counts(&self) -> &[Counts] {
+        self.counts.get_or_init(|| {
             let bytes = self.text().as_bytes();
-            let mut starts = vec![0];
-            for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
-                let crlf = bytes[at] == b'\r' && bytes.get(at + 1) == Some(&b'\n');
-                if !crlf {
-                    starts.push(at as u32 + 1);
-                }
-            }
-            starts
+            let mut total = Counts::default();
+            let parts = bytes.chunks_exact(STRIDE).enumerate().map(|(number, part)| {
+                let after = |at: usize| bytes.get(number * STRIDE + at + 1);
+                let returns = memchr::memchr_iter(b'\r', part).filter(|&at| after(at) != Some(&b'\n')).count();
+                total.line_ends += (memchr::memchr_iter(b'\n', part).count() + returns) as u32;
+                total.characters += characters(part);
+                total
+            });
+            std::iter::once(Counts::default()).chain(parts).collect()
         })
     }
+}
+
+/// Returns the number of characters that begin in `bytes`.
+fn characters(bytes: &[u8]) -> u32 {
+    if bytes.is_ascii() {
+        return bytes.len() as u32;
+    }
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
 #[cfg(test)]
@@ -233,6 +267,28 @@ mod tests {
         let long = Source::new("x.xdd", "ä".repeat(5000).into_bytes());
         assert_eq!(long.position(2 * 4321), Position { line: 1, column: 4322 });
         assert_eq!(long.position(10_000), Position { line: 1, column: 5001 });
+    }
+
+    #[test]
+    fn positions_in_long_texts_are_those_of_a_list_of_lines() {
+        for line_end in ["\n", "\r", "\r\n"] {
+            // Lines from 0 to 70 characters, then lines that are longer than a part.
+            let lengths =
+                (0..5 * STRIDE).map(|number| number % 71).chain([STRIDE - 1, 3 * STRIDE, 2 * STRIDE + 1, 0, 5]);
+            let lines: Vec<String> =
+                lengths.map(|length| "\u{e4}a".repeat(length / 2) + &"z".repeat(length % 2)).collect();
+            let source = Source::new("x.xml", lines.join(line_end).into_bytes());
+            let mut start = 0;
+            for (number, line) in (1..).zip(&lines) {
+                assert_eq!(source.line(number), line);
+                for (offset, column) in [(0, 1), (line.len(), line.chars().count() as u32 + 1)] {
+                    assert_eq!(source.position((start + offset) as u32), Position { line: number, column });
+                }
+                start += line.len() + line_end.len();
+            }
+            let last = lines.len() as u32;
+            assert_eq!((source.line(last + 1), source.line_at(u32::MAX)), ("", last));
+        }
     }
 
     #[test]

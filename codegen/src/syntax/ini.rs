@@ -310,14 +310,17 @@ fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
     let mut chunks = bytes[start..].chunks_exact(8);
     for chunk in chunks.by_ref() {
         let word = words::word(chunk);
-        let signs = words::equal(word, b'=');
-        if signs != 0 && equals.is_none() {
-            equals = Some(at + words::first(signs));
+        if equals.is_none() {
+            let signs = words::equal(word, b'=');
+            equals = (signs != 0).then(|| at + words::first(signs));
         }
-        let ends = words::equal(word, b'\n') | words::equal(word, b'\r');
-        if ends != 0 {
-            let end = at + words::first(ends);
-            return (end, equals.filter(|&equals| equals < end));
+        // Line ends are control characters, and the others are rare.
+        if words::less(word, b' ') != 0 {
+            let ends = words::equal(word, b'\n') | words::equal(word, b'\r');
+            if ends != 0 {
+                let end = at + words::first(ends);
+                return (end, equals.filter(|&equals| equals < end));
+            }
         }
         at += 8;
     }

@@ -20,7 +20,6 @@ pub(super) fn equal(word: u64, byte: u8) -> u64 {
 /// Returns a mask in which the high bit of each byte is set if the byte at this position in `word` is less than `byte`.
 /// `byte` must be at most 0x80. The result can be wrong for bytes after the first match.
 #[inline]
-#[cfg_attr(not(feature = "xml"), allow(dead_code))]
 pub(super) fn less(word: u64, byte: u8) -> u64 {
     word.wrapping_sub(ONES * u64::from(byte)) & !word & HIGHS
 }

@@ -79,6 +79,18 @@ pub fn parse(text: &str, aliases: &[String]) -> Number {
     parse_number(text)
 }
 
+/// Values of the hexadecimal digits; 16 for all other bytes.
+const NIBBLES: [u8; 256] = {
+    let (mut nibbles, mut value) = ([16; 256], 0);
+    while value < 16 {
+        let digit = b"0123456789abcdef"[value];
+        nibbles[digit as usize] = value as u8;
+        nibbles[digit.to_ascii_uppercase() as usize] = value as u8;
+        value += 1;
+    }
+    nibbles
+};
+
 /// Returns the value of a plain number, or `None` for any other text. Plain numbers need no diagnostic. A plain number
 /// consists of an optional minus sign and decimal digits without a leading zero, or of `0x` and hexadecimal digits.
 /// Plain numbers have at most 15 digits.
@@ -90,14 +102,15 @@ pub fn plain(text: &str) -> Option<i64> {
             _ => None,
         })
     };
-    let nibble = |digit: &u8| match digit {
-        b'0'..=b'9' => Some(digit - b'0'),
-        _ => Some((digit | 0x20).wrapping_sub(b'a')).filter(|digit| *digit < 6).map(|digit| digit + 10),
-    };
     match text.as_bytes() {
         b"0" => Some(0),
         [b'0', b'x' | b'X', digits @ ..] if (1..=15).contains(&digits.len()) => {
-            digits.iter().try_fold(0i64, |value, digit| Some(value << 4 | i64::from(nibble(digit)?)))
+            let add = |(value, all): (i64, u8), &digit: &u8| {
+                let nibble = NIBBLES[usize::from(digit)];
+                (value << 4 | i64::from(nibble), all | nibble)
+            };
+            let (value, all) = digits.iter().fold((0, 0), add);
+            (all < 16).then_some(value)
         }
         digits @ [b'1'..=b'9', ..] if digits.len() <= 15 => decimal(digits),
         [b'-', digits @ ..] if digits.len() <= 15 && matches!(digits, [b'1'..=b'9', ..]) => {

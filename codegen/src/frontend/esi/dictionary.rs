@@ -38,6 +38,10 @@ impl<'a> Dictionary<'a> {
                 _ => reader.unknown(&list)?,
             }
         }
+        // These lists are still in memory while the items are created from them.
+        self.types.shrink_to_fit();
+        self.objects.shrink_to_fit();
+        self.subs.shrink_to_fit();
         Ok(())
     }
 

@@ -60,11 +60,13 @@ pub struct Attributes<'a> {
     file: FileId,
     /// The first names of the tag, up to [`limits::MAX_COMPARED_EXTENSIONS`], to detect duplicates.
     seen: SmallVec<[&'a str; 16]>,
+    /// Bits of the marks of the names in `seen`. Two different names rarely have the same mark.
+    marks: u64,
 }
 
 impl<'a> Attributes<'a> {
     pub(super) fn new(rest: &'a str, at: u32, file: FileId) -> Self {
-        Attributes { rest, at, file, seen: SmallVec::new() }
+        Attributes { rest, at, file, seen: SmallVec::new(), marks: 0 }
     }
 
     fn advance(&mut self, count: usize) {
@@ -128,11 +130,13 @@ impl<'a> Attributes<'a> {
         };
         let (raw, span) = (&self.rest[..length], self.span(length));
         self.advance(length + 1);
-        if self.seen.contains(&full) {
+        let mark = 1 << ((usize::from(full.as_bytes()[0]) + 7 * full.len()) % 64);
+        if self.marks & mark != 0 && self.seen.contains(&full) {
             return self.fail(name_span, format!("the attribute `{}` occurs twice", brief(full)));
         }
         if self.seen.len() < limits::MAX_COMPARED_EXTENSIONS {
             self.seen.push(full);
+            self.marks |= mark;
         }
         let (prefix, name) = name.split(full);
         Some(Ok(Attribute { name, prefix, raw, name_span, span, plain }))

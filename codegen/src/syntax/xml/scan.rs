@@ -11,6 +11,9 @@ pub(super) struct Name {
     colon: Option<usize>,
 }
 
+/// First byte after the ASCII punctuation marks that can follow a name.
+const LETTER: u8 = b'@';
+
 impl Name {
     /// Returns the name at the start of `text`, up to a blank or punctuation; `None` if there is none.
     pub fn of(text: &str) -> Option<Self> {
@@ -20,10 +23,18 @@ impl Name {
             return None;
         }
         let (mut length, mut colon) = (0, None);
-        for &byte in bytes {
+        while let Some(&byte) = bytes.get(length) {
             match byte {
                 b' ' | b'\t' | b'\n' | b'\r' | b'=' | b'/' | b'>' | b'"' | b'\'' | b'<' | b'&' => break,
                 b':' if colon.is_none() => colon = Some(length),
+                // Letters are above all punctuation marks, so eight letters are skipped at once.
+                LETTER.. => {
+                    if let Some(word) = bytes.get(length..length + 8) {
+                        let others = words::less(words::word(word), LETTER);
+                        length += if others == 0 { 8 } else { words::first(others) };
+                        continue;
+                    }
+                }
                 _ => {}
             }
             length += 1;
