@@ -9,7 +9,7 @@ const [site] = process.argv.slice(2);
 const size = (name) => statSync(path.join(site, name)).size;
 const pages = pagesOf(site);
 assert.ok(size("unknown-vendor/large/no-revision/search.js") < 300_000, `an index of ${size("unknown-vendor/large/no-revision/search.js")} bytes`);
-for (const page of pages) assert.ok(size(page) < 800_000, `${page}: ${size(page)} bytes`);
+for (const page of pages) assert.ok(size(page) < 300_000, `${page}: ${size(page)} bytes`);
 
 await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
@@ -20,9 +20,11 @@ await withBrowser(async (browser) => {
   const found = await window.search("register_1999");
   const answered = performance.now();
   assert.match(found[0], /^register 1999 register_1999/);
-  assert.equal(window.requests.length, 3 + 3 + 1, window.requests.join("\n"));
+  // The first page can load the index before the reader leaves it.
+  const others = window.requests.filter((url) => !url.endsWith("/search.js"));
+  assert.equal(others.length, 3 + 3, window.requests.join("\n"));
   await window.page.keyboard.press("Enter");
-  await window.page.waitForURL(/registers-4\.html#register_1999$/);
+  await window.page.waitForURL(/registers-\d+\.html#register_1999$/);
   await window.page.waitForFunction(() => document.querySelector(":target")?.getBoundingClientRect().top < innerHeight);
   const elements = await window.page.evaluate(() => document.querySelectorAll("*").length);
   assert.ok(elements < 50_000, `${elements} elements`);

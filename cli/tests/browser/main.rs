@@ -25,7 +25,7 @@ fn each_page_loads_with_no_error_and_no_request_to_elsewhere() {
 
 #[test]
 fn the_search_finds_what_is_typed_and_leads_there() {
-    run("search.mjs", || [sites::drives(), sites::modular()]);
+    run("search.mjs", || [sites::drives(), sites::modular(), sites::many()]);
 }
 
 #[test]

@@ -39,12 +39,16 @@ const FOUND_MODULES = [
   [DRIVE + "modules.html", "standard telegram 3", /^0x00000003 Standard telegram 3 module/, DRIVE + "modules.html#submodule-00000003"],
 ];
 
-const [site, modular] = process.argv.slice(2);
+const [site, modular, many] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   const modules = await Window.open(browser, modular);
   await finds(modules, FOUND_MODULES);
   modules.clean();
+  const lists = await Window.open(browser, many);
+  await otherPages(lists);
+  lists.clean();
   const window = await Window.open(browser, site);
+  await loadsWhenIdle(window);
   await finds(window, FOUND);
   await units(window);
   await arrows(window);
@@ -79,6 +83,35 @@ async function landed(window, what) {
     return !row || row.contains(document.activeElement) || !row.querySelector("a");
   });
   assert.ok(goesOn, `${what}: Tab does not continue from the row`);
+}
+
+// Checks that a list of devices loads the index before the reader searches. Then, a letter is answered without another request.
+async function loadsWhenIdle(window) {
+  const page = await window.go("index.html");
+  await page.waitForFunction(() => isLoaded);
+  const requests = window.requests.length;
+  assert.equal((await window.search("KP_VEL")).length, 1);
+  assert.equal(window.requests.length, requests);
+  await page.keyboard.press("Escape");
+}
+
+// Checks that the filter of a long list also finds devices on the other pages of the list.
+async function otherPages(window) {
+  const page = await window.go("index.html");
+  await page.fill("#devices", "terminal 299");
+  await page.waitForFunction(() => document.querySelector("#elsewhere li"));
+  assert.equal(await page.locator("#shown").innerText(), "0 devices on this page");
+  const links = page.locator("#elsewhere a");
+  assert.equal(await links.count(), 1);
+  await links.click();
+  assert.match(await page.locator("h1").innerText(), /^Terminal 299 /);
+  await window.go("devices-2.html");
+  await page.fill("#devices", "terminal 299");
+  assert.equal(await page.locator("#shown").innerText(), "1 device on this page");
+  assert.ok(await page.locator("#elsewhere").isHidden());
+  await page.fill("#devices", "");
+  await page.getByRole("link", { name: /Devices \(1 of 2\)$/ }).first().click();
+  await page.waitForURL(/index\.html$/);
 }
 
 // Checks that a unit finds the registers with that unit, independent of their names.

@@ -81,6 +81,28 @@ pub fn terminals() -> PathBuf {
     site
 }
 
+/// Returns a site with 300 devices, whose list needs two pages because of their long names.
+pub fn many() -> PathBuf {
+    let long = "x".repeat(1000);
+    let device = |number: usize| {
+        format!(
+            "<Device Physics=\"YY\"><Type ProductCode=\"{}\" RevisionNo=\"1\">T{number:03}</Type>\
+             <Name>Terminal {number:03} {long}</Name><GroupType>Terminals</GroupType></Device>",
+            number + 1
+        )
+    };
+    let devices: String = (0..300).map(device).collect();
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Example Terminals</Name></Vendor><Descriptions><Groups><Group>\
+         <Type>Terminals</Type><Name>Terminals</Name></Group></Groups><Devices>{devices}</Devices></Descriptions></EtherCATInfo>"
+    );
+    let (source, site) = (folder("many-source"), folder("many"));
+    let path = source.join("many.xml");
+    std::fs::write(&path, text).expect("a temporary file");
+    lexibus(|command| command.arg("docs").arg(&path).arg("--out").arg(&site), &[0]);
+    site
+}
+
 /// Returns a site with 2,000 registers of eight fields each.
 pub fn large() -> PathBuf {
     let field = |at: usize| {

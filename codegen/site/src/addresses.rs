@@ -14,9 +14,6 @@ const LONGEST: usize = 60;
 /// A device of a site: the name of its description, and its position in this description.
 pub(super) type DeviceKey = (String, usize);
 
-/// Vendor and product code of a device.
-type Product = (Option<u32>, u32);
-
 /// Revision numbers of the devices of a product.
 type Revisions = Vec<(u32, DeviceKey)>;
 
@@ -25,7 +22,8 @@ type Revisions = Vec<(u32, DeviceKey)>;
 pub(super) struct Addresses {
     /// Devices by the folder of their product and the name of their revision's folder.
     devices: BTreeMap<(String, String), Vec<DeviceKey>>,
-    products: HashMap<Product, Revisions>,
+    /// Revisions of each product, see [`product`].
+    products: HashMap<String, Revisions>,
     /// Folder of the pages that the devices of a description share.
     shared: HashMap<String, String>,
 }
@@ -35,10 +33,10 @@ impl Addresses {
     pub fn add(&mut self, name: &str, catalog: &Catalog) {
         for (at, device) in catalog.devices.iter().enumerate() {
             let (identity, key) = (&device.identity, (name.to_owned(), at));
-            if let (Some(code), Some(number)) = (identity.product_code, identity.revision_number) {
-                self.products.entry((identity.vendor_id, code)).or_default().push((number, key.clone()));
+            if let Some(number) = identity.revision_number {
+                self.products.entry(product(device)).or_default().push((number, key.clone()));
             }
-            self.devices.entry((product(device), revision(device))).or_default().push(key);
+            self.devices.entry((folder_of_product(device), revision(device))).or_default().push(key);
         }
         let vendor = catalog.devices.first().map_or_else(|| "unknown-vendor".to_owned(), vendor);
         self.shared.insert(name.to_owned(), format!("{vendor}/_files/{}", folder_name(name)));
@@ -51,7 +49,7 @@ impl Addresses {
 
     /// Returns the folder of a device, relative to the folder of the site.
     pub fn device(&self, device: &Device, key: &DeviceKey) -> String {
-        let of = (product(device), revision(device));
+        let of = (folder_of_product(device), revision(device));
         let keys = self.devices.get(&of).map_or(&[][..], Vec::as_slice);
         let folder = format!("{}/{}", of.0, of.1);
         if keys.len() < 2 {
@@ -87,7 +85,7 @@ impl Addresses {
     }
 
     fn revisions(&self, device: &Device) -> Option<&Revisions> {
-        self.products.get(&(device.identity.vendor_id, device.identity.product_code?))
+        self.products.get(&product(device))
     }
 }
 
@@ -101,9 +99,18 @@ fn vendor(device: &Device) -> String {
     }
 }
 
+/// Returns a text that is equal for the revisions of a product: vendor ID and product code. If one of them is missing or 0, which
+/// many EDS files contain instead of the device's number, the folder of the product distinguishes products.
+pub(super) fn product(device: &Device) -> String {
+    match (device.identity.vendor_id, device.identity.product_code) {
+        (Some(vendor @ 1..), Some(code @ 1..)) => format!("{vendor} {code}"),
+        _ => folder_of_product(device),
+    }
+}
+
 /// Returns the folder of a device's product in the folder of its vendor. The folder contains the product code, because
 /// products can have equal names.
-fn product(device: &Device) -> String {
+fn folder_of_product(device: &Device) -> String {
     let title = folder_name(facts::device::title(device));
     match device.identity.product_code {
         Some(code) => format!("{}/{title}-{}", vendor(device), folder_of_number(code)),
@@ -199,6 +206,18 @@ mod tests {
         assert_eq!(previous, Some(&(1, ("Y y".to_owned(), 0))));
         assert_eq!(previous, other.previous(&first.devices[2]));
         assert_eq!(one.previous(&first.devices[0]), None);
+    }
+
+    #[test]
+    fn a_product_can_change_its_name_and_many_files_lack_numbers() {
+        let mut renamed = catalog(&[("Drive", Some(7), Some(1)), ("Drive plus", Some(7), Some(2))]);
+        renamed.devices.iter_mut().for_each(|device| device.identity.vendor_id = Some(3));
+        let templates = catalog(&[("Pump", Some(0), Some(1)), ("Fan", Some(0), Some(2))]);
+        let mut addresses = Addresses::default();
+        addresses.add("renamed", &renamed);
+        addresses.add("templates", &templates);
+        assert_eq!(addresses.previous(&renamed.devices[1]), Some(&(1, ("renamed".to_owned(), 0))));
+        assert_eq!(addresses.previous(&templates.devices[1]), None);
     }
 
     #[test]

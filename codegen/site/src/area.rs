@@ -6,7 +6,7 @@ use super::anchor::Names;
 use super::diagnostics::ShownDiagnostic;
 use super::entry::{self, Doubt, Known, Row, Rows};
 use super::shared::{self, SharedDoubt};
-use super::split::Fill;
+use super::split::{self, Fill};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, area};
@@ -143,10 +143,7 @@ fn pages(part: &Part<'_>, mut filler: Filler<'_>, files: &mut Names) -> Vec<Area
     let several = areas.len();
     let about = part.groups.first().map(|(_, group)| group).filter(|group| group.index().is_none());
     let page = |(at, sections): (usize, Vec<Section>)| {
-        let title = match several {
-            1 => part.title.clone(),
-            _ => format!("{} ({} of {several})", part.title, at + 1),
-        };
+        let title = split::title(&part.title, at, several);
         let mut facts = about.map(|group| PLAIN.description(group.documentation.as_deref())).unwrap_or_default();
         facts.extend(
             about.and_then(|group| PLAIN.manual_entry(known.manual, "", group.documentation.as_deref(), &group.names)),

@@ -8,6 +8,7 @@ use super::entry::Doubt;
 use super::machines::Behaviour;
 use super::process::Frame;
 use super::protocol::Protocol;
+use super::split::Section;
 use lexibus_codegen::ir::Severity;
 
 /// An ambiguity and the elements that it affects. Several elements are affected if the source repeats a row.
@@ -33,6 +34,24 @@ pub(super) struct Ranked<'d> {
     pub assumptions: Vec<Assumption<'d>>,
 }
 
+impl<'d> Section for Ranked<'d> {
+    type Element = Assumption<'d>;
+
+    fn elements(&mut self) -> &mut Vec<Assumption<'d>> {
+        &mut self.assumptions
+    }
+
+    fn continued(&self) -> Self {
+        Ranked { severity: self.severity, assumptions: Vec::new() }
+    }
+
+    fn texts<'t>(assumption: &'t Assumption<'d>) -> impl Iterator<Item = &'t str> {
+        let Doubt { says, chosen, why, cite, .. } = assumption.doubt;
+        let elements = assumption.elements.iter().flat_map(|element| [&element.link, &element.title]);
+        [says, chosen, why, cite].into_iter().chain(elements).map(String::as_str)
+    }
+}
+
 impl Ranked<'_> {
     /// Returns a heading that describes the effect of a wrong assumption.
     pub fn heading(&self) -> &'static str {
@@ -55,8 +74,8 @@ pub(super) struct AmbiguitySources<'d> {
     pub protocol: Option<(&'d str, &'d Protocol)>,
     /// The page of state machines and procedures, if there is one.
     pub behaviour: Option<(&'d str, &'d Behaviour)>,
-    /// The page of code tables, if there is one.
-    pub codes: Option<(&'d str, &'d [Codes])>,
+    /// The pages of code tables.
+    pub codes: &'d [(String, String, Vec<Codes>)],
 }
 
 impl<'d> AmbiguitySources<'d> {
@@ -75,7 +94,8 @@ impl<'d> AmbiguitySources<'d> {
         let mut all: Vec<Assumption<'d>> = Vec::new();
         let mut known = HashMap::new();
         self.visit(&mut |link, title, doubt| {
-            let at = *known.entry(doubt).or_insert(all.len());
+            // The device's list and the element show different prefixes of the same ambiguity.
+            let at = *known.entry(Doubt { prefix: String::new(), ..doubt.clone() }).or_insert(all.len());
             if at == all.len() {
                 all.push(Assumption { elements: Vec::new(), doubt });
             }
@@ -130,7 +150,7 @@ impl<'d> AmbiguitySources<'d> {
                 .iter()
                 .for_each(|message| visit_all(file, &message.anchor, &message.name, &message.doubts));
         }
-        if let Some((file, tables)) = self.codes {
+        for (file, _, tables) in self.codes {
             tables.iter().for_each(|table| visit_all(file, &table.anchor, &table.title, &table.doubts));
         }
         with_subject.into_iter().for_each(|doubt| visitor(first.to_owned(), "Device", doubt));

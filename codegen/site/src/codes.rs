@@ -3,6 +3,7 @@
 use super::anchor::Names;
 use super::entry::{self, Doubt};
 use super::link::Relation;
+use super::split::Section;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::facts::words::capital;
@@ -30,6 +31,25 @@ pub(super) struct Code {
     pub cells: Vec<String>,
     /// Links to the items that report the code.
     pub relations: Vec<Relation>,
+}
+
+impl Section for Codes {
+    type Element = Code;
+
+    fn elements(&mut self) -> &mut Vec<Code> {
+        &mut self.rows
+    }
+
+    fn continued(&self) -> Self {
+        let (anchor, title, columns) = (self.anchor.clone(), self.title.clone(), self.columns.clone());
+        Codes { anchor, title, columns, facts: Vec::new(), doubts: Vec::new(), rows: Vec::new() }
+    }
+
+    fn texts(row: &Code) -> impl Iterator<Item = &str> {
+        let names = row.names.iter().map(|(_, name)| name);
+        let texts = [&row.anchor, &row.anchor, &row.number, &row.name, &row.facts].into_iter();
+        texts.chain(names).chain(&row.cells).map(String::as_str)
+    }
 }
 
 pub(super) fn tables(device: &Device, manual: &Manual) -> Vec<Codes> {

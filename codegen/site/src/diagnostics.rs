@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::split::{self, Section};
 use super::words::one_line;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::{Class, Code, Diagnostic};
@@ -36,6 +37,22 @@ pub(super) struct DiagnosticGroup<'d> {
     pub list: Vec<&'d ShownDiagnostic>,
 }
 
+impl<'d> Section for DiagnosticGroup<'d> {
+    type Element = &'d ShownDiagnostic;
+
+    fn elements(&mut self) -> &mut Vec<&'d ShownDiagnostic> {
+        &mut self.list
+    }
+
+    fn continued(&self) -> Self {
+        DiagnosticGroup { code: self.code, list: Vec::new() }
+    }
+
+    fn texts<'t>(diagnostic: &'t &'d ShownDiagnostic) -> impl Iterator<Item = &'t str> {
+        [&diagnostic.position, &diagnostic.text].into_iter().map(String::as_str)
+    }
+}
+
 impl DiagnosticGroup<'_> {
     /// Returns the number of diagnostics: `1 repair`, `3 warnings`.
     pub fn count(&self) -> String {
@@ -53,14 +70,14 @@ impl DiagnosticGroup<'_> {
     }
 }
 
-/// Returns the diagnostics by code, in the order of the identifiers.
-pub(super) fn by_code(list: &[ShownDiagnostic]) -> Vec<DiagnosticGroup<'_>> {
+/// Returns the diagnostics on each page by code, in the order of the identifiers.
+pub(super) fn pages(list: &[ShownDiagnostic]) -> Vec<Vec<DiagnosticGroup<'_>>> {
     let mut groups: BTreeMap<&str, DiagnosticGroup<'_>> = BTreeMap::new();
     for diagnostic in list {
         let code = diagnostic.code;
         groups.entry(code.id).or_insert(DiagnosticGroup { code, list: Vec::new() }).list.push(diagnostic);
     }
-    groups.into_values().collect()
+    split::pages(groups.into_values().collect())
 }
 
 /// The diagnostics of a compilation.

@@ -64,8 +64,10 @@ pub(super) struct Row {
 /// An ambiguity in the source.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
-    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the ambiguity is shown at its subject.
+    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the ambiguity belongs to an element of the description.
     pub subject: String,
+    /// Subject as it is shown before the ambiguity, without the name of the element that shows it.
+    pub prefix: String,
     pub severity: Severity,
     pub says: String,
     pub chosen: String,
@@ -137,7 +139,13 @@ pub(super) struct Known<'d> {
 
 /// Returns the ambiguities in `all` that are about the element with this kind and name.
 pub(super) fn about(all: &[lexibus_codegen::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
-    doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual)
+    let mut shown = doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual);
+    for doubt in &mut shown {
+        if let Some(rest) = doubt.prefix.strip_prefix(name) {
+            doubt.prefix = rest.trim_start_matches([',', ' ']).to_owned();
+        }
+    }
+    shown
 }
 
 /// Data that the rows of a page share.
@@ -173,14 +181,14 @@ impl Rows<'_> {
         let addresses = addresses.into_iter().filter(|address| address.text != number);
         // Several windows can have the same address.
         let elsewhere = link::unique(addresses.map(|address| format!("{}: {}", address.bus, address.text)));
-        let description = PLAIN.description(item.documentation.as_deref());
+        let description = words::description(&item.name, item.documentation.as_deref());
+        let names = words::names(&item.name, &item.names);
         Row {
             id,
             anchor,
             number,
             addresses: lookups,
             name: item.name.to_string(),
-            names: words::names(&item.name, &item.names),
             ty: types::name(self.types, item.ty),
             access: item.access_name(),
             default: item::default(item, self.types),
@@ -189,7 +197,8 @@ impl Rows<'_> {
             unit: item::unit(item).to_owned(),
             facts: self.facts(item, &description, definition),
             description: description.first().cloned().unwrap_or_default(),
-            translations: words::translations(item.documentation.as_deref()),
+            translations: words::translations(&item.name, &names, item.documentation.as_deref()),
+            names,
             elsewhere,
             doubts: doubts(&item.doubts, self.known.manual),
             doubts_of_type: definition
@@ -251,8 +260,10 @@ pub(super) fn doubts<'d>(
     doubts: impl IntoIterator<Item = &'d lexibus_codegen::ir::Doubt>,
     manual: &Manual,
 ) -> Vec<Doubt> {
+    let subject = |doubt: &lexibus_codegen::ir::Doubt| doubt.subject.as_deref().map(subject).unwrap_or_default();
     let doubt = |doubt: &lexibus_codegen::ir::Doubt| Doubt {
-        subject: doubt.subject.as_deref().map(subject).unwrap_or_default(),
+        subject: subject(doubt),
+        prefix: subject(doubt),
         says: sentence(&doubt.says),
         chosen: sentence(&doubt.chosen),
         why: if doubt.why.is_empty() { String::new() } else { sentence(&doubt.why) },

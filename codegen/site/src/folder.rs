@@ -23,6 +23,7 @@ use super::references::{self, Targets};
 use super::revisions::{Changes, Previous};
 use super::search::{Entry, Index};
 use super::slots::{self, ModuleLinks, Slots};
+use super::split;
 use super::Page;
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::referrers::Referrers;
@@ -71,7 +72,8 @@ struct Parts {
     process: Option<String>,
     protocol: Option<(String, Protocol)>,
     behaviour: Option<(String, machines::Behaviour)>,
-    codes: Option<(String, Vec<Codes>)>,
+    /// File, title and tables of each page of codes.
+    codes: Vec<(String, String, Vec<Codes>)>,
 }
 
 impl Parts {
@@ -83,7 +85,7 @@ impl Parts {
             process: self.process.as_deref().map(|file| (file, self.data.frames.as_slice())),
             protocol: self.protocol.as_ref().map(|(file, protocol)| (file.as_str(), protocol)),
             behaviour: self.behaviour.as_ref().map(|(file, behaviour)| (file.as_str(), behaviour)),
-            codes: self.codes.as_ref().map(|(file, tables)| (file.as_str(), tables.as_slice())),
+            codes: &self.codes,
         };
         sources.ranked()
     }
@@ -113,7 +115,7 @@ impl Parts {
         if let Some((_, behaviour)) = &mut self.behaviour {
             targets.link(behaviour);
         }
-        if let Some((_, tables)) = &mut self.codes {
+        for (_, _, tables) in &mut self.codes {
             targets.link_codes(tables);
         }
     }
@@ -162,10 +164,10 @@ impl<'a> Folder<'a> {
         self.open(self.home.clone());
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
         let modules = self.modules(catalog);
-        let diagnostics = (!self.diagnostics.list.is_empty()).then(|| self.file("Diagnostics"));
+        let diagnostics = self.numbered("Diagnostics", diagnostics::pages(&self.diagnostics.list).len());
         let first = format!("{FIRST}{}", self.format.ending());
         let mut shared = modules.files.clone();
-        shared.extend(diagnostics.iter().map(|file| (file.clone(), "Diagnostics".to_owned())));
+        shared.extend(diagnostics.iter().cloned());
         // The first module page links to all module pages.
         let many = modules.files.len().min(1)..modules.files.len();
         let list = only.is_none().then(|| (first.clone(), self.name.clone()));
@@ -189,13 +191,13 @@ impl<'a> Folder<'a> {
         let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
         let frame = self.frame(title, device_pages, &here, languages(&catalog.devices, &languages_of_modules));
         self.module_pages(&modules, &frame);
-        if let Some(file) = &diagnostics {
-            let list = std::mem::take(&mut self.diagnostics.list);
-            self.page(&frame, file, Content::Diagnostics(&diagnostics::by_code(&list)));
+        let list = std::mem::take(&mut self.diagnostics.list);
+        for ((file, _), groups) in diagnostics.iter().zip(diagnostics::pages(&list)) {
+            self.page(&frame, file, Content::Diagnostics(&groups));
         }
         if only.is_none() {
             let devices = std::mem::take(&mut self.listed.devices);
-            self.page(&frame, &first, Content::List(&devices));
+            self.page(&frame, &first, Content::List { devices: &devices, is_part: false });
             self.listed.devices = devices;
         }
     }
@@ -208,7 +210,7 @@ impl<'a> Folder<'a> {
 
     /// Adds a page to the index, with an entry for the page itself.
     fn index_page(&mut self, file: &str, kind: &'static str, title: &str, words: &str) {
-        self.index.page(&format!("{}/{file}", self.open), kind);
+        self.index.page(file, kind);
         self.index.entry(&Entry { words, ..index_entry("", "", title) });
     }
 
@@ -220,6 +222,11 @@ impl<'a> Folder<'a> {
     /// Returns an unused file name for `title`.
     fn file(&mut self, title: &str) -> String {
         self.files.file(title) + self.format.ending()
+    }
+
+    /// Returns the unused file names and the titles of `count` pages.
+    fn numbered(&mut self, title: &str, count: usize) -> Vec<(String, String)> {
+        (0..count).map(|at| (self.file(title), split::title(title, at, count))).collect()
     }
 
     /// Writes the pages of a device at this position in its catalog.
@@ -236,9 +243,9 @@ impl<'a> Folder<'a> {
         let manual = words::manual(device);
         let overview = overview::overview(catalog, device, &manual);
         let (parts, mut pages) = self.parts(device, overview, &manual);
-        let ranked = parts.assumptions(&first);
-        let assumptions = (!ranked.is_empty()).then(|| self.file("Assumptions"));
-        pages.extend(assumptions.clone().map(|file| (file, "Assumptions".to_owned())));
+        let ranked = split::pages(parts.assumptions(&first));
+        let assumptions = self.numbered("Assumptions", ranked.len());
+        pages.extend(assumptions.iter().cloned());
         let previous = Previous::of(self.addresses, device);
         let changes = previous.as_ref().map(|previous| (self.file("Changes"), previous.title()));
         pages.extend(changes.clone());
@@ -247,8 +254,8 @@ impl<'a> Folder<'a> {
         self.last = Rc::new(Links::new(links, 1..1 + parts.areas.len()));
         let languages = languages(std::slice::from_ref(device), languages_of_modules);
         let frame = Rc::new(self.frame(title.clone(), self.last.clone(), common, languages));
-        if let Some(file) = &assumptions {
-            self.page(&frame, file, Content::Assumptions(&ranked));
+        for ((file, _), ranked) in assumptions.iter().zip(&ranked) {
+            self.page(&frame, file, Content::Assumptions(ranked));
         }
         if let (Some((file, _)), Some(previous)) = (&changes, previous) {
             let key = (self.name.clone(), at);
@@ -266,7 +273,7 @@ impl<'a> Folder<'a> {
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
         let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
-        self.index.device(&listed.title, &listed.words(), listed.distinction());
+        self.index.device(&listed.title, &listed.words(), listed.distinction(), &self.open);
         self.index_page(&first, "device", &listed.title, &listed.words());
         for area in &parts.areas {
             self.page(&frame, &area.file, Content::Area(area));
@@ -274,7 +281,6 @@ impl<'a> Folder<'a> {
             index_area(&mut self.index, area);
         }
         self.further(device, &parts, &frame);
-        let assumptions = assumptions.map(|file| (file, "Assumptions".to_owned()));
         for (file, title) in assumptions.into_iter().chain(changes) {
             self.index_page(&file, "", &title, "");
         }
@@ -308,16 +314,19 @@ impl<'a> Folder<'a> {
         );
         let protocol = protocol::protocol(device, manual);
         let behaviour = machines::behaviour(device, manual);
-        let tables = codes::tables(device, manual);
+        let tables = split::pages(codes::tables(device, manual));
         let mut parts = Parts {
             overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
             behaviour: further(behaviour.is_some(), "States and procedures").zip(behaviour),
-            codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
+            codes: Vec::new(),
             areas,
             data: ProcessPart { frames, builder: builder::data(device, &usage) },
         };
+        let codes = self.numbered("Codes", tables.len());
+        pages.extend(codes.iter().cloned());
+        parts.codes = codes.into_iter().zip(tables).map(|((file, title), tables)| (file, title, tables)).collect();
         parts.link(device);
         (parts, pages)
     }
@@ -358,9 +367,9 @@ impl<'a> Folder<'a> {
                     .entry(&Entry { words: &words, ..index_entry(&sequence.anchor, "procedure", &sequence.name) });
             }
         }
-        if let Some((file, tables)) = &parts.codes {
+        for (file, title, tables) in &parts.codes {
             self.page(frame, file, Content::Codes(tables));
-            self.index_page(file, "code", "Codes", "");
+            self.index_page(file, "code", title, "");
             for (table, row) in tables.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row))) {
                 let entry = index_entry(&row.anchor, &row.number, &row.name);
                 let words = format!("{} {} {}", table.title, row.cells.join(" "), row.facts);
@@ -376,7 +385,7 @@ impl<'a> Folder<'a> {
 
     fn module_pages(&mut self, modules: &Modules, frame: &Frameset) {
         if !modules.files.is_empty() {
-            self.index.device(&frame.title, "", "");
+            self.index.device(&frame.title, "", "", &self.home);
         }
         for ((file, title), modules) in modules.pages() {
             self.page(frame, file, Content::Modules(modules));

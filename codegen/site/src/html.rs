@@ -9,6 +9,7 @@ use super::assumptions::Ranked;
 use super::bits::{self, Grids};
 use super::codes::Codes;
 use super::diagnostics::DiagnosticGroup;
+use super::list::{self, Column};
 use super::machines::Behaviour;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
@@ -24,6 +25,7 @@ const STYLE: &str = include_str!("../templates/site.css");
 /// The script. Its parts share one scope, because modules do not load from disk.
 const SCRIPT: &str = concat!(
     include_str!("../templates/script/frame.js"),
+    include_str!("../templates/script/devices.js"),
     include_str!("../templates/script/rows.js"),
     include_str!("../templates/script/value.js"),
     include_str!("../templates/script/requests.js"),
@@ -58,35 +60,16 @@ templates! {
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "changes.html" { comparison: &'p Comparison }
-    ListPage = "list.html" { devices: &'p [Listed] }
+    ListPage = "list.html" { devices: &'p [Listed], is_part: bool }
 }
 
-/// The title of a column in a list of devices, and the function that returns its text.
-type Column = (&'static str, fn(&Listed) -> &str);
-
-/// The columns of a list of devices, after the name.
-const COLUMNS: [Column; 7] = [
-    ("Order code", |device| &device.order_code),
-    // The heading of a family contains the vendor.
-    ("Vendor", |device| if device.family.is_empty() { &device.vendor } else { "" }),
-    ("Product code", |device| &device.product_code),
-    ("Revision", |device| &device.revision),
-    ("Buses", |device| &device.buses),
-    ("Profiles", |device| &device.profiles),
-    ("File", |device| &device.file),
-];
-
 impl ListPage<'_> {
-    /// Returns the columns that contain a text for at least one device.
     fn columns(&self) -> Vec<Column> {
-        let is_used = |(_, text): &Column| self.devices.iter().any(|device| !text(device).is_empty());
-        COLUMNS.into_iter().filter(is_used).collect()
+        list::columns(self.devices)
     }
 
-    /// Returns whether the device at a position is the first of its vendor and family.
     fn begins_group(&self, at: &usize) -> bool {
-        let group = |at: usize| self.devices.get(at).map(Listed::group);
-        at.checked_sub(1).is_none_or(|before| group(before) != group(*at))
+        list::begins_group(self.devices, *at)
     }
 }
 
@@ -105,6 +88,18 @@ struct SectionPart<'p> {
 #[template(ext = "html", source = "{% import \"parts.html\" as parts %}{% call parts::module(module) %}{% endcall %}")]
 struct ModulePart<'p> {
     module: &'p ModuleModel,
+}
+
+/// A row of a list, to measure its size.
+#[derive(Template)]
+#[template(
+    ext = "html",
+    source = "{% import \"parts.html\" as parts %}{% call parts::device(device, columns, root) %}{% endcall %}"
+)]
+struct DevicePart<'p> {
+    device: &'p Listed,
+    columns: &'p [Column],
+    root: &'static str,
 }
 
 /// Counts the bytes that are written.
@@ -132,6 +127,11 @@ pub(super) fn size_of_section(section: &Section) -> usize {
 /// Returns the size of a module in bytes.
 pub(super) fn size_of_module(module: &ModuleModel) -> usize {
     size(&ModulePart { module })
+}
+
+/// Returns the size of a device's row in the list of all devices in bytes.
+pub(super) fn size_of_device(device: &Listed, columns: &[Column]) -> usize {
+    size(&DevicePart { device, columns, root: "." })
 }
 
 #[derive(Template)]
@@ -185,7 +185,7 @@ impl Pages for Html {
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
             Content::Changes(comparison) => written(&ChangesPage { frame, file, comparison }),
-            Content::List(devices) => written(&ListPage { frame, file, devices }),
+            Content::List { devices, is_part } => written(&ListPage { frame, file, devices, is_part }),
         }
     }
 

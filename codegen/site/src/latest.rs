@@ -1,24 +1,30 @@
 //! The folder `latest` of each product, which leads to the newest revision.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
-use super::pages::{Listed, Pages, FIRST};
+use super::pages::{Listed, Pages, FIRST, ROOT};
 use super::Page;
 
-/// Returns a page for each product that leads to the first page of its newest revision.
+/// Returns a page in each product's folder that leads to the first page of the newest revision. If a revision has a new name, the
+/// folders of both names lead there.
 pub(super) fn pages(devices: &[Listed], format: &dyn Pages) -> Vec<Page> {
-    let mut products: BTreeMap<&str, &Listed> = BTreeMap::new();
+    let (mut folders, mut products) = (BTreeMap::new(), HashMap::new());
     for device in devices {
-        let Some(product) = device.path.rsplitn(3, '/').nth(2) else { continue };
-        let newest = products.entry(product).or_insert(device);
+        let Some(folder) = device.path.rsplitn(3, '/').nth(2) else { continue };
+        folders.insert(folder, &device.product);
+        let newest = products.entry(&device.product).or_insert(device);
         if newest.age() > device.age() {
             *newest = device;
         }
     }
-    let page = |(product, device): (&str, &Listed)| {
-        let target = format!("..{}", &device.path[product.len()..]);
-        let text = format.redirection(&device.title, &target)?;
-        Some(Page { path: format!("{product}/latest/{FIRST}{}", format.ending()), text })
+    let page = |(folder, product): (&str, &String)| {
+        let newest = products.get(product)?;
+        let target = match newest.path.strip_prefix(folder).filter(|rest| rest.starts_with('/')) {
+            Some(rest) => format!("..{rest}"),
+            None => format!("{ROOT}/{}", newest.path),
+        };
+        let text = format.redirection(&newest.title, &target)?;
+        Some(Page { path: format!("{folder}/latest/{FIRST}{}", format.ending()), text })
     };
-    products.into_iter().filter_map(page).collect()
+    folders.into_iter().filter_map(page).collect()
 }

@@ -39,6 +39,7 @@ mod html;
 mod latest;
 mod link;
 mod links;
+mod list;
 mod machines;
 mod markdown;
 mod modules;
@@ -65,6 +66,7 @@ pub use format::Format;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
 use links::Links;
+use list::ListPage;
 use pages::{Content, Frameset, Listed, ListedCatalog};
 use revisions::{Comparison, Revisions};
 use search::Index;
@@ -179,12 +181,20 @@ impl Site {
             [only] => only.first.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default(),
             _ => String::new(),
         };
-        let shared = Rc::new(Links::new(self.comparisons.clone(), 0..0));
-        let frame = Frameset { title: "Devices".to_owned(), root: ".", index, shared, ..Frameset::default() };
-        let list = format.page(&frame, &file, Content::List(&devices));
+        let columns = list::columns(&devices);
+        let lists = list::pages(&devices, |device| html::size_of_device(device, &columns), &file, format.ending());
+        let is_part = lists.len() > 1;
+        let parts = lists.iter().filter(|_| is_part).map(|list| (list.file.clone(), list.title.clone()));
+        let shared = Rc::new(Links::new(parts.chain(self.comparisons.iter().cloned()).collect(), 0..0));
         let script = || self.index.script();
-        let search: Option<&dyn Fn() -> String> = if frame.index.is_empty() { Some(&script) } else { None };
-        let mut pages = vec![Page { path: file, text: list }];
+        let search: Option<&dyn Fn() -> String> = if index.is_empty() { Some(&script) } else { None };
+        let page = |list: &ListPage| {
+            let (title, index, shared) = (list.title.clone(), index.clone(), shared.clone());
+            let frame = Frameset { title, root: ".", index, shared, ..Frameset::default() };
+            let content = Content::List { devices: &devices[list.devices.clone()], is_part };
+            Page { path: list.file.clone(), text: format.page(&frame, &list.file, content) }
+        };
+        let mut pages: Vec<Page> = lists.iter().map(page).collect();
         pages.extend(format.of_site(&self.catalogs, &self.comparisons, search));
         pages.extend(latest::pages(&devices, format));
         pages

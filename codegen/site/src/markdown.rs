@@ -11,6 +11,7 @@ use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::diagnostics::DiagnosticGroup;
 use super::diagram::ANY_STATE;
+use super::list::{self, Column};
 use super::machines::{Behaviour, Machine};
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
@@ -64,8 +65,14 @@ templates! {
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "markdown/changes.md" { comparison: &'p Comparison }
-    ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], links: PageLinks<'p> }
+    ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], columns: &'p [Column], links: PageLinks<'p> }
     SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog], comparisons: &'p [(String, String)] }
+}
+
+impl ListPage<'_> {
+    fn has_families(&self) -> bool {
+        self.devices.iter().any(|device| !device.family.is_empty())
+    }
 }
 
 /// Renders a template and reduces consecutive empty lines to one. Rendering cannot fail because the templates contain
@@ -118,7 +125,9 @@ impl Pages for Markdown {
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),
             Content::Changes(comparison) => written(&ChangesPage { comparison }),
-            Content::List(devices) => written(&ListPage { title, root: frame.root, devices, links: &links }),
+            Content::List { devices, .. } => {
+                written(&ListPage { title, root: frame.root, devices, columns: &list::columns(devices), links: &links })
+            }
         }
     }
 
@@ -200,7 +209,9 @@ mod tests {
             shared: Rc::new(Links::new(pages, 0..1000)),
             ..Frameset::default()
         };
-        let linked = |file: &str| Markdown.page(&frame, file, Content::List(&[])).matches("](modules-").count();
+        let linked = |file: &str| {
+            Markdown.page(&frame, file, Content::List { devices: &[], is_part: false }).matches("](modules-").count()
+        };
         assert_eq!(linked("index.md"), 1000);
         assert_eq!(linked("drive.md"), 21);
     }

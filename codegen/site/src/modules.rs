@@ -9,7 +9,7 @@ use super::diagnostics::ShownDiagnostics;
 use super::entry::{Calls, Known, Rows};
 use super::process::{self, About, Frame};
 use super::split;
-use super::words::{self, PLAIN};
+use super::words;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::ir::{
@@ -64,7 +64,7 @@ impl Modules {
         mut file: impl FnMut() -> String,
     ) -> Self {
         let all = models(catalog, diagnostics);
-        let ranges = split::ranges(all.iter().map(size), PAGE);
+        let ranges = split::ranges(all.iter().map(size), PAGE, split::SIZE);
         let title = |at: usize| match ranges.len() {
             1 => "Modules".to_owned(),
             count => format!("Modules ({} of {count})", at + 1),
@@ -144,8 +144,8 @@ fn sections<'g>(
 }
 
 /// Returns the facts that modules and submodules have.
-fn facts(documentation: Option<&Documentation>, identity: &Identity) -> Vec<String> {
-    let mut facts = PLAIN.description(documentation);
+fn facts(name: &str, documentation: Option<&Documentation>, identity: &Identity) -> Vec<String> {
+    let mut facts = words::description(name, documentation);
     let order = &identity.order_code;
     facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
     facts
@@ -157,13 +157,14 @@ fn module(
     parts: Vec<(String, String)>,
     diagnostics: &ShownDiagnostics,
 ) -> ModuleModel {
+    let names = words::names(&module.name, &module.names);
     ModuleModel {
         number: hex32(module.number),
         order_code: words::one_line(&module.identity.order_code),
         name: module.name.to_string(),
-        names: words::names(&module.name, &module.names),
-        facts: facts(module.documentation.as_deref(), &module.identity),
-        translations: words::translations(module.documentation.as_deref()),
+        facts: facts(&module.name, module.documentation.as_deref(), &module.identity),
+        translations: words::translations(&module.name, &names, module.documentation.as_deref()),
+        names,
         frames: process::frames(
             &module.process_data,
             &module.types,
@@ -176,7 +177,7 @@ fn module(
 }
 
 fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnostics: &ShownDiagnostics) -> ModuleModel {
-    let mut facts = facts(submodule.documentation.as_deref(), &submodule.identity);
+    let mut facts = facts(&submodule.name, submodule.documentation.as_deref(), &submodule.identity);
     facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
     facts.extend(
         submodule.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()),
@@ -184,13 +185,14 @@ fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnosti
     let image = |data: &IoData, title: &str| process::image(&data.image, &catalog.types, "", title);
     let inputs = submodule.input.as_deref().map(|data| image(data, "Inputs of the controller"));
     let outputs = submodule.output.as_deref().map(|data| image(data, "Outputs of the controller"));
+    let names = words::names(&submodule.name, &submodule.names);
     ModuleModel {
         number: hex32(submodule.ident),
         order_code: words::one_line(&submodule.identity.order_code),
         name: submodule.name.to_string(),
-        names: words::names(&submodule.name, &submodule.names),
         facts,
-        translations: words::translations(submodule.documentation.as_deref()),
+        translations: words::translations(&submodule.name, &names, submodule.documentation.as_deref()),
+        names,
         frames: inputs.into_iter().chain(outputs).collect(),
         sections: sections(submodule.records.iter(), &catalog.types, &anchor, diagnostics),
         parts: Vec::new(),

@@ -60,7 +60,7 @@ pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> O
         facts: PLAIN.description(variant.documentation.as_deref()).join(" "),
         constants: variant.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
-    let translations = words::translations(device.documentation.as_deref());
+    let translations = words::translations(&device.name, &[], device.documentation.as_deref());
     Overview {
         facts,
         translations,

@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::rc::Rc;
 
+use super::addresses;
 use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
@@ -94,7 +95,7 @@ pub(super) struct ListedCatalog {
 }
 
 /// A device in the list of all devices.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Listed {
     pub title: String,
     pub vendor: String,
@@ -104,6 +105,8 @@ pub(super) struct Listed {
     pub product_code: String,
     pub revision: String,
     revision_number: u32,
+    /// Text that is equal for the revisions of the product.
+    pub product: String,
     pub buses: String,
     /// Numbers of the device profiles.
     pub profiles: String,
@@ -134,6 +137,7 @@ impl Listed {
             product_code: hex(identity.product_code),
             revision: hex(identity.revision_number),
             revision_number: identity.revision_number.unwrap_or_default(),
+            product: addresses::product(device),
             buses: facts::device::buses(device),
             profiles: device.profiles.iter().map(u32::to_string).collect::<Vec<_>>().join(", "),
             file: file.to_owned(),
@@ -168,6 +172,14 @@ impl Listed {
         let words = [&self.order_code, &self.vendor, &self.family, &self.product_code, &self.revision, &self.buses];
         words.map(String::as_str).join(" ")
     }
+
+    /// Returns the path from a page of a list, from which `root` leads to the site's folder.
+    pub fn path_from(&self, root: &str) -> String {
+        match root {
+            "." => self.path.clone(),
+            root => format!("{root}/{}", self.path),
+        }
+    }
 }
 
 /// Sorts devices by vendor, family and title, newest revision first.
@@ -191,8 +203,11 @@ pub(super) enum Content<'p> {
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [DiagnosticGroup<'p>]),
     Changes(&'p Comparison),
-    /// A list of devices, in a catalog or in the site.
-    List(&'p [Listed]),
+    /// A list of devices, in a catalog or in the site. `is_part` is set if further pages continue the list.
+    List {
+        devices: &'p [Listed],
+        is_part: bool,
+    },
 }
 
 /// An output format, which writes the text of each page.

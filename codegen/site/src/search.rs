@@ -1,9 +1,10 @@
-//! Creates the search index. The index is a script that a page loads when the reader starts a search. In a site with
-//! many devices, many entries have the same number or text. The index stores each number and text once, so a search
-//! also checks it once.
+//! Creates the search index. The index is a script that a page loads when it is idle or when the reader starts a search. In a
+//! site with many devices, many entries are equal. The index stores each number, text, anchor and entry once, so it loads
+//! fast, and a search checks each entry once.
 
 use std::collections::HashMap;
 use std::fmt::Write;
+use std::hash::Hash;
 
 use super::words::one_line as line;
 
@@ -13,13 +14,16 @@ const WORDS: usize = 80;
 /// A search index.
 #[derive(Debug, Default)]
 pub(super) struct Index {
+    /// Devices with their pages.
     devices: Vec<Device>,
-    /// Pages of the devices with their entries.
-    pages: Vec<Page>,
-    numbers: Texts,
+    numbers: Distinct<String>,
     /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate these
     /// texts.
-    texts: Texts,
+    texts: Distinct<String>,
+    /// Anchors within a page; empty if the anchor equals the number.
+    anchors: Distinct<String>,
+    /// Entries: the positions of number, text and anchor in these lists.
+    entries: Distinct<[usize; 3]>,
 }
 
 /// A device in the index.
@@ -30,25 +34,18 @@ struct Device {
     words: String,
     /// The revision or file, which the search shows if several devices have the same title.
     distinction: String,
+    /// Folder of the pages, relative to the site's folder.
+    folder: String,
+    pages: Vec<Page>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Page {
-    path: String,
-    /// Position of the device in the list of devices.
-    device: usize,
+    file: String,
     /// Kind of the entries on the page, such as `state`. The text is empty for items, which have addresses.
     kind: &'static str,
-    entries: Vec<IndexedEntry>,
-}
-
-/// An entry in the index: its anchor, and the positions of its number and text in the lists.
-#[derive(Debug)]
-struct IndexedEntry {
-    /// Anchor within the page; empty if the anchor equals the number.
-    anchor: String,
-    number: usize,
-    text: usize,
+    /// Positions of the page's entries in the list of entries.
+    entries: Vec<usize>,
 }
 
 /// An entry to add to the index.
@@ -62,36 +59,48 @@ pub(super) struct Entry<'e> {
     pub words: &'e str,
 }
 
-/// A list of texts without duplicates, in the order of their first occurrence.
-#[derive(Debug, Default)]
-struct Texts {
-    all: Vec<String>,
-    positions: HashMap<String, usize>,
+/// A list without duplicates, in the order of their first occurrence.
+#[derive(Debug)]
+struct Distinct<T> {
+    all: Vec<T>,
+    positions: HashMap<T, usize>,
 }
 
-impl Texts {
-    fn position(&mut self, text: &str) -> usize {
-        if let Some(position) = self.positions.get(text) {
-            return *position;
-        }
-        let position = self.all.len();
-        self.all.push(text.to_owned());
-        self.positions.insert(text.to_owned(), position);
-        position
+impl<T> Default for Distinct<T> {
+    fn default() -> Self {
+        Distinct { all: Vec::new(), positions: HashMap::new() }
+    }
+}
+
+impl<T: Clone + Eq + Hash> Distinct<T> {
+    fn position(&mut self, value: T) -> usize {
+        let all = &mut self.all;
+        *self.positions.entry(value).or_insert_with_key(|value| {
+            all.push(value.clone());
+            all.len() - 1
+        })
+    }
+
+    /// Adds the values of another list. Returns their positions in this list.
+    fn add(&mut self, other: &Self) -> Vec<usize> {
+        other.all.iter().map(|value| self.position(value.clone())).collect()
     }
 }
 
 impl Index {
-    /// Adds a device. Pages that are added later belong to this device. `words` are found together with each entry of the device.
-    /// `distinction` is shown after the title if several devices have this title.
-    pub fn device(&mut self, title: &str, words: &str, distinction: &str) {
-        self.devices.push(Device { title: line(title), words: line(words), distinction: line(distinction) });
+    /// Adds a device, whose pages are in `folder`, relative to the site's folder. Pages that are added later belong to this device.
+    /// `words` are found together with each entry of the device. `distinction` is shown after the title if several devices have
+    /// this title.
+    pub fn device(&mut self, title: &str, words: &str, distinction: &str, folder: &str) {
+        let (title, words, distinction) = (line(title), line(words), line(distinction));
+        self.devices.push(Device { title, words, distinction, folder: folder.to_owned(), pages: Vec::new() });
     }
 
-    /// Adds a page of the last device. `path` is relative to the site's folder. Entries that are added later belong to this page.
-    pub fn page(&mut self, path: &str, kind: &'static str) {
-        let device = self.devices.len().saturating_sub(1);
-        self.pages.push(Page { path: path.to_owned(), device, kind, entries: Vec::new() });
+    /// Adds a page to the last device. Entries that are added later belong to this page.
+    pub fn page(&mut self, file: &str, kind: &'static str) {
+        if let Some(device) = self.devices.last_mut() {
+            device.pages.push(Page { file: file.to_owned(), kind, entries: Vec::new() });
+        }
     }
 
     /// Adds an entry to the last page.
@@ -99,60 +108,94 @@ impl Index {
         let names: Vec<String> = entry.names.iter().map(|(_, name)| line(name)).collect();
         let words: String = line(entry.words).chars().take(WORDS).collect();
         let text = [line(entry.name), names.join(" | "), line(entry.unit), words].join("\t");
-        let (number, text) = (self.numbers.position(&line(entry.number)), self.texts.position(&text));
         let anchor = if entry.anchor == entry.number { String::new() } else { line(entry.anchor) };
-        if let Some(page) = self.pages.last_mut() {
-            page.entries.push(IndexedEntry { anchor, number, text });
+        let (number, text) = (self.numbers.position(line(entry.number)), self.texts.position(text));
+        let position = self.entries.position([number, text, self.anchors.position(anchor)]);
+        if let Some(page) = self.devices.last_mut().and_then(|device| device.pages.last_mut()) {
+            page.entries.push(position);
         }
     }
 
-    /// Adds the pages and entries of another index.
+    /// Adds the devices, pages and entries of another index.
     pub fn add(&mut self, other: &Index) {
-        let numbers: Vec<usize> = other.numbers.all.iter().map(|number| self.numbers.position(number)).collect();
-        let texts: Vec<usize> = other.texts.all.iter().map(|text| self.texts.position(text)).collect();
-        let indexed = |entry: &IndexedEntry| IndexedEntry {
-            anchor: entry.anchor.clone(),
-            number: numbers[entry.number],
-            text: texts[entry.text],
-        };
-        let first = self.devices.len();
-        self.devices.extend(other.devices.iter().cloned());
-        self.pages.extend(other.pages.iter().map(|page| Page {
-            path: page.path.clone(),
-            device: first + page.device,
-            kind: page.kind,
-            entries: page.entries.iter().map(indexed).collect(),
+        let lists = [self.numbers.add(&other.numbers), self.texts.add(&other.texts), self.anchors.add(&other.anchors)];
+        let moved = |entry: &[usize; 3]| [lists[0][entry[0]], lists[1][entry[1]], lists[2][entry[2]]];
+        let entries: Vec<usize> = other.entries.all.iter().map(|entry| self.entries.position(moved(entry))).collect();
+        self.devices.extend(other.devices.iter().map(|device| {
+            let mut device = device.clone();
+            let positions = device.pages.iter_mut().flat_map(|page| &mut page.entries);
+            positions.for_each(|position| *position = entries[*position]);
+            device
         }));
     }
 
-    /// Returns the index as a script. Texts are JSON strings, so the browser does not execute them.
+    /// Returns the index as a script. All texts and numbers are in JSON strings, so the browser does not execute them. Lists of
+    /// numbers are strings, too, because a browser reads a long string faster than a long array.
     pub fn script(&self) -> String {
-        let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
+        let devices = self.devices_of_script().join(",\n");
+        let lists = [self.numbers.all.join("\n"), self.texts.all.join("\n"), self.anchors.all.join("\n")];
+        let lists = lists.map(|list| json(&list)).join(",\n");
+        format!("lexibusIndex([{devices}],\n{lists},\n\"{}\",\n\"{}\");\n", self.differences(), self.runs())
+    }
+
+    /// Returns each device: title, further words, folder, and the files and kinds of its pages.
+    fn devices_of_script(&self) -> Vec<String> {
         let mut titles: HashMap<&str, usize> = HashMap::new();
         self.devices.iter().for_each(|device| *titles.entry(&device.title).or_default() += 1);
         let shown = |Device { title, distinction, .. }: &Device| match titles.get(title.as_str()) {
             Some(2..) if !distinction.is_empty() => format!("{title} ({distinction})"),
             _ => title.clone(),
         };
-        let devices = self.devices.iter().map(|device| format!("[{},{}]", json(&shown(device)), json(&device.words)));
-        let devices = devices.collect::<Vec<_>>().join(",");
-        let pages = self.pages.iter().map(|page| format!("[{},{},{}]", json(&page.path), page.device, json(page.kind)));
-        let pages = pages.collect::<Vec<_>>().join(",");
-        let anchors: Vec<&str> =
-            self.pages.iter().flat_map(|page| &page.entries).map(|entry| entry.anchor.as_str()).collect();
-        let lists = [&self.numbers.all.join("\n"), &self.texts.all.join("\n"), &anchors.join("\n")];
-        let lists = lists.map(|list| json(list)).join(",\n");
-        let mut script = format!("lexibusIndex([{devices}],\n[{pages}],\n{lists},\n[");
-        for (at, page) in self.pages.iter().enumerate() {
-            script.push_str(if at == 0 { "[" } else { ",[" });
-            for (at, entry) in page.entries.iter().enumerate() {
-                let comma = if at == 0 { "" } else { "," };
-                let _ = write!(script, "{comma}{},{}", entry.number, entry.text);
-            }
-            script.push(']');
-        }
-        script + "]);\n"
+        let device = |device: &Device| {
+            let pages = device.pages.iter().map(|page| format!("{},{}", json(&page.file), json(page.kind)));
+            let pages = pages.collect::<Vec<_>>().join(",");
+            format!("[{},{},{},{pages}]", json(&shown(device)), json(&device.words), json(&device.folder))
+        };
+        self.devices.iter().map(device).collect()
     }
+
+    /// Returns the entries. Each of their three numbers is the difference from the entry before.
+    fn differences(&self) -> String {
+        let mut before = [0; 3];
+        let mut numbers = Vec::with_capacity(3 * self.entries.all.len());
+        for entry in &self.entries.all {
+            numbers.extend(entry.iter().zip(before).map(|(now, before)| difference(*now, before)));
+            before = *entry;
+        }
+        separated(&numbers)
+    }
+
+    /// Returns the entries of the pages as runs of consecutive entries. A page has the number of its runs, then two numbers
+    /// per run: the difference of its first entry from the end of the run before, and its length.
+    fn runs(&self) -> String {
+        let (mut end, mut numbers) = (0, Vec::new());
+        for page in self.devices.iter().flat_map(|device| &device.pages) {
+            let runs: Vec<&[usize]> = page.entries.chunk_by(|one, next| one + 1 == *next).collect();
+            numbers.push(difference(runs.len(), 0));
+            for run in runs {
+                numbers.extend([difference(run[0], end), difference(run.len(), 0)]);
+                end = run[0] + run.len();
+            }
+        }
+        separated(&numbers)
+    }
+}
+
+fn json(text: &str) -> String {
+    serde_json::to_string(text).unwrap_or_default()
+}
+
+fn difference(now: usize, before: usize) -> i64 {
+    now as i64 - before as i64
+}
+
+fn separated(numbers: &[i64]) -> String {
+    let mut text = String::new();
+    for (at, number) in numbers.iter().enumerate() {
+        let comma = if at == 0 { "" } else { "," };
+        let _ = write!(text, "{comma}{number}");
+    }
+    text
 }
 
 #[cfg(test)]
@@ -166,23 +209,28 @@ mod tests {
     #[test]
     fn indices_are_joined() {
         let (mut one, mut all) = (Index::default(), Index::default());
-        one.device("A", "Vendor", "0x00000001");
-        one.page("a.html", "");
+        one.device("A", "Vendor", "0x00000001", "a");
+        one.page("index.html", "");
         one.entry(&entry("0x6040", "Control\nword"));
         one.entry(&entry("word", "first"));
-        all.device("X", "", "");
-        all.page("x.html", "state");
+        all.device("X", "", "", "x");
+        all.page("index.html", "state");
         all.entry(&entry("0x6040", "first"));
         all.add(&one);
-        let expected = r#"lexibusIndex([["X",""],["A","Vendor"]],
-[["x.html",0,"state"],["a.html",1,""]],
+        all.page("again.html", "");
+        all.entry(&entry("0x6040", "Control word"));
+        all.entry(&entry("word", "first"));
+        all.entry(&entry("0x6040", "first"));
+        let expected = r#"lexibusIndex([["X","","x","index.html","state"],
+["A","Vendor","a","index.html","","again.html",""]],
 "0x6040",
 "first\t\t\tTakes commands\nControl word\t\t\tTakes commands",
-"\n\nword",
-[[0,0],[0,1,0,0]]);"#;
+"\nword",
+"0,0,0,0,1,0,0,-1,1",
+"1,0,1,1,0,2,2,-2,2,-3,1");"#;
         assert_eq!(all.script().trim_end(), expected);
-        all.device("A", "Vendor", "0x00000002");
-        let expected = r#"[["X",""],["A (0x00000001)","Vendor"],["A (0x00000002)","Vendor"]]"#;
-        assert!(all.script().contains(expected), "{}", all.script());
+        all.device("A", "Vendor", "0x00000002", "b");
+        let expected = [r#"["A (0x00000001)","Vendor","a","#, r#"["A (0x00000002)","Vendor","b",]"#];
+        assert!(expected.iter().all(|device| all.script().contains(device)), "{}", all.script());
     }
 }

@@ -41,9 +41,29 @@ fn compared(text: &str) -> String {
     one_line(&text.replace(['_', '-'], " ")).to_lowercase()
 }
 
-/// Returns the translations of a description, each with its languages. Equal texts are handled as in [`names`].
-pub(super) fn translations(documentation: Option<&Documentation>) -> Vec<(String, String)> {
-    documentation.map(|documentation| names(&documentation.text, &documentation.translations)).unwrap_or_default()
+/// Returns the paragraphs of a description, except those that only repeat the name of the element.
+pub(super) fn description(name: &str, documentation: Option<&Documentation>) -> Vec<String> {
+    let mut paragraphs = PLAIN.description(documentation);
+    paragraphs.retain(|paragraph| !repeats(paragraph, name));
+    paragraphs
+}
+
+/// Returns the translations of a description, each with its languages. Equal texts are handled as in [`names`]. `names` are the names
+/// of the element; translations that only repeat one of them are left out.
+pub(super) fn translations(
+    name: &str,
+    names: &[(String, String)],
+    documentation: Option<&Documentation>,
+) -> Vec<(String, String)> {
+    let Some(documentation) = documentation else { return Vec::new() };
+    let mut all = self::names(&documentation.text, &documentation.translations);
+    all.retain(|(_, text)| !repeats(text, name) && names.iter().all(|(_, name)| !repeats(text, name)));
+    all
+}
+
+/// Returns whether a description only repeats a name.
+fn repeats(description: &str, name: &str) -> bool {
+    compared(description.trim_end_matches('.')) == compared(name.trim_end_matches('.'))
 }
 
 /// Returns the first of the languages that share a translation.
@@ -61,6 +81,22 @@ mod tests {
     use lexibus_codegen::ir::LocalText;
 
     use super::*;
+
+    #[test]
+    fn descriptions_do_not_repeat_names() {
+        let translation = |language: &str, text: &str| LocalText { language: language.into(), text: text.into() };
+        let documentation = Documentation {
+            text: "Digital input\nFilter of 3 ms".into(),
+            translations: [translation("de", "Digitaleingang"), translation("fr", "Entrée, filtre de 3 ms")]
+                .into_iter()
+                .collect(),
+            ..Documentation::default()
+        };
+        let names = [("de".to_owned(), "Digital-Eingang".to_owned()), ("it".to_owned(), "Digitaleingang".to_owned())];
+        assert_eq!(description("Digital_input", Some(&documentation)), ["Filter of 3 ms."]);
+        let shown = translations("Digital_input", &names, Some(&documentation));
+        assert_eq!(shown, [("fr".to_owned(), "Entrée, filtre de 3 ms".to_owned())]);
+    }
 
     #[test]
     fn equal_translations_are_shown_once() {

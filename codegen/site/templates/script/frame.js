@@ -129,20 +129,3 @@ tree?.addEventListener("keydown", ({ key }) => {
   menu.click();
   menu.focus();
 });
-
-// Shows the devices that contain all typed words, themselves or in their family, and their number.
-byId("devices")?.addEventListener("input", ({ target }) => {
-  const words = plain(target.value).split(/\s+/).filter(Boolean);
-  let count = 0;
-  for (const group of document.querySelectorAll(".devices tbody")) {
-    const family = group.querySelector(".family"), rows = [...group.rows].filter((row) => row !== family);
-    for (const row of rows) {
-      const text = plain(row.textContent + " " + (family?.textContent ?? ""));
-      row.hidden = !words.every((word) => text.includes(word));
-    }
-    const shown = rows.filter((row) => !row.hidden).length;
-    group.hidden = shown === 0;
-    count += shown;
-  }
-  byId("shown").textContent = `${count} device${count === 1 ? "" : "s"}`;
-});

@@ -1,29 +1,59 @@
 // The search.
-// The index of a site or of one device: devices with their titles and further words, pages with their device and kind, numbers, texts
-// and anchors. An entry refers to a page, a number and a text, and has an anchor; the entry of a whole page has no number. A text
-// contains name, names in other languages, unit and description.
+// The index of a site or of one device: devices with their titles, further words and pages, pages with their device and kind, numbers,
+// texts and anchors. An entry has a number, a text and an anchor; the entry of a whole page has no number. A text contains name, names
+// in other languages, unit and description. Equal entries of several pages are one entry with several places.
 let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
-// For each entry, the positions of its page, number and text in these lists.
-let pageAt, numberAt, textAt;
+// For each entry, the positions of its number, text and anchor in these lists.
+let numberAt, textAt, anchorAt;
+// For each place, the positions of its page and entry. The places of a page are consecutive.
+let pageAt, entryAt;
 
-function lexibusIndex(devices, pageList, numberLines, textLines, anchorLines, entries) {
-  pages = pageList.map(([path, device, kind]) => ({ path, device, kind, title: devices[device][0] }));
-  titles = devices.map((words) => plain(words.join(" ")));
-  numbers = linesOf(numberLines).map(([text, plain]) => ({ text, plain, isPart: PART.test(text), ranges: undefined }));
-  texts = linesOf(textLines).map(([text, plain]) => ({ text, plain, name: plain.slice(0, plain.indexOf("\t")) }));
-  anchors = anchorLines.split("\n");
-  [pageAt, numberAt, textAt] = [0, 1, 2].map(() => new Uint32Array(anchors.length));
-  let at = 0;
-  for (const [page, pairs] of entries.entries()) {
-    for (let next = 0; next < pairs.length; next += 2, at++) {
-      pageAt[at] = page;
-      numberAt[at] = pairs[next];
-      textAt[at] = pairs[next + 1];
-    }
+function lexibusIndex(devices, numberLines, textLines, anchorLines, differences, runs) {
+  for (const [device, [title, , folder, ...files]] of devices.entries()) {
+    for (let at = 0; at < files.length; at += 2) pages.push({ path: folder + "/" + files[at], kind: files[at + 1], device, title });
   }
+  titles = devices.map(([title, words]) => plain(title + " " + words));
+  numbers = linesOf(numberLines).map(([text, plain]) => ({ text, plain, isPart: PART.test(text), ranges: undefined }));
+  texts = linesOf(textLines).map(([text, plain]) => ({ text, plain, nameEnd: plain.indexOf("\t") }));
+  anchors = anchorLines.split("\n");
+  readEntries(JSON.parse(`[${differences}]`));
+  readPlaces(JSON.parse(`[${runs}]`));
   isLoaded = true;
   lead();
-  search();
+  if (document.activeElement === input) search();
+  if (deviceFilter?.value) deviceFilter.dispatchEvent(new Event("input"));
+  // The first search for a number determines the ranges of all numbers, which takes longer than the next searches.
+  whenIdle(() => pointsOf("0"));
+}
+
+// Reads the entries. Each of their three numbers is the difference from the entry before.
+function readEntries(differences) {
+  [numberAt, textAt, anchorAt] = [0, 1, 2].map((part) => {
+    const all = new Uint32Array(differences.length / 3);
+    for (let entry = 0, sum = 0; entry < all.length; entry++) all[entry] = sum += differences[3 * entry + part];
+    return all;
+  });
+}
+
+// Reads the places. Each page has the number of its runs, then two numbers per run: the difference of its first entry from the end of
+// the run before, and its length.
+function readPlaces(runs) {
+  // Calls `visit` with the page, first entry and length of each run.
+  const each = (visit) => {
+    for (let page = 0, at = 0, entry = 0; page < pages.length; page++) {
+      for (let count = runs[at++]; count > 0; count--, at += 2) {
+        visit(page, entry + runs[at], runs[at + 1]);
+        entry += runs[at] + runs[at + 1];
+      }
+    }
+  };
+  let length = 0, place = 0;
+  each((page, first, count) => { length += count; });
+  [pageAt, entryAt] = [new Uint32Array(length), new Uint32Array(length)];
+  each((page, first, count) => {
+    pageAt.fill(page, place, place + count);
+    for (let entry = first; entry < first + count; entry++) entryAt[place++] = entry;
+  });
 }
 
 // Returns each line with its plain text.
@@ -35,18 +65,18 @@ function linesOf(lines) {
 // Numbers of bits and values, which are parts of an item.
 const PART = /^(bit|value) /;
 
-// Returns the ranges of a number such as `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`: printed, and on the wire.
+// Returns the ranges of a number such as `0x6040:01`, `register 12–13 (wire 11–12)` or `0x6100 to 0x61FF`, printed and on the wire:
+// first and last number of each.
 function rangesOf(number) {
-  if (number.ranges) return number.ranges;
-  const patterns = number.isPart ? [] : number.plain.includes("(wire ") ? [PRINTED, WIRE] : [PRINTED];
-  number.ranges = [];
-  for (const pattern of patterns) {
+  number.ranges ??= number.isPart ? [] : OBJECT.test(number.plain) ? objectRange(parseInt(number.plain, 16)) : [PRINTED, WIRE].flatMap((pattern) => {
     const range = pattern.exec(number.plain);
-    if (range) number.ranges.push({ first: Number(range[1]), last: Number(range[2] ?? range[1]) });
-  }
+    return range ? [Number(range[1]), Number(range[2] ?? range[1])] : [];
+  });
   return number.ranges;
 }
 
+const objectRange = (index) => [index, index];
+const OBJECT = /^0x[0-9a-f]+(:[0-9a-f]+)?$/;
 const PRINTED = /^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/;
 const WIRE = /\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/;
 
@@ -79,38 +109,48 @@ function values(word) {
 // Returns how well a number matches a word, in points. Returns 0 if the number does not contain the word.
 function numberPoints(number, { word, notations, values }) {
   if (notations.includes(number.plain)) return 150;
-  for (const { first, last } of values.length ? rangesOf(number) : []) {
-    if (values.includes(first)) return number.plain.includes(":") ? 90 : 100;
-    if (values.some((value) => first < value && value <= last)) return 60;
-  }
+  const points = values.length && rangePoints(number, values);
+  if (points) return points;
   if (!number.plain.includes(word)) return 0;
   return word.length > 2 ? 20 : 1;
+}
+
+// Returns the points for the first range that contains one of the values.
+function rangePoints(number, values) {
+  const ranges = rangesOf(number);
+  for (let at = 0; at < ranges.length; at += 2) {
+    for (const value of values) if (value === ranges[at]) return number.plain.includes(":") ? 90 : 100;
+    for (const value of values) if (ranges[at] < value && value <= ranges[at + 1]) return 60;
+  }
+  return 0;
 }
 
 const isLetter = (letter) => letter !== undefined && (letter < "\x80" ? letter >= "a" && letter <= "z" || letter >= "0" && letter <= "9" : /[\p{L}\p{N}]/u.test(letter));
 const isWhole = (text, at, length) => !isLetter(text[at - 1]) && !isLetter(text[at + length]);
 
 // Returns the points of a text for a word. A whole unit counts more than a part of a name: `v` is part of most names.
-function textPoints({ plain, name }, word) {
-  if (!plain.includes(word)) return 0;
-  const [, names, unit] = plain.split("\t");
+function textPoints(text, word) {
+  const { plain, nameEnd } = text, at = plain.indexOf(word);
+  if (at < 0) return 0;
+  const namesEnd = plain.indexOf("\t", nameEnd + 1), inNames = plain.indexOf(word, nameEnd + 1);
   let points = 0;
-  if (name === word) points += 100;
-  if (name.startsWith(word)) points += 30;
-  const at = name.indexOf(word);
-  if (at >= 0) points += isWhole(name, at, word.length) ? 35 : 10;
-  if (names.includes(word)) points += 8;
-  if (unit === word) points += 50;
+  if (at === 0) points += 30;
+  if (at + word.length <= nameEnd) points += isWhole(plain, at, word.length) ? 35 : 10;
+  if (isName(text, word)) points += 100;
+  if (inNames >= 0 && inNames < namesEnd) points += 8;
+  if (plain.startsWith(word + "\t", namesEnd + 1)) points += 50;
   return points || 1;
 }
 
+const isName = ({ plain, nameEnd }, word) => nameEnd === word.length && plain.startsWith(word);
+
 function each(list, points) {
   const all = new Uint16Array(list.length);
-  for (let at = 0; at < list.length; at++) all[at] = points(list[at]);
+  for (let at = 0; at < list.length; at++) all[at] = points(list[at], at);
   return all;
 }
 
-// Cache with the points of all numbers, texts and titles for each word. Previous words stay the same while the reader types the next one.
+// Cache with the points of all entries and titles for each word. Previous words stay the same while the reader types the next one.
 const known = new Map();
 
 function pointsOf(word) {
@@ -123,11 +163,12 @@ function pointsOf(word) {
   return known.get(word);
 }
 
+// Returns the points of all entries, and 1 for each device whose title or further words contain the word.
 function pointsOfExact(word) {
   const query = { word, notations: notations(word), values: values(word) };
+  const ofNumbers = each(numbers, (number) => numberPoints(number, query)), ofTexts = each(texts, (text) => textPoints(text, word));
   return {
-    numbers: each(numbers, (number) => numberPoints(number, query)),
-    texts: each(texts, (text) => textPoints(text, word)),
+    entries: each(numberAt, (number, entry) => ofNumbers[number] + ofTexts[textAt[entry]]),
     titles: each(titles, (title) => Number(title.includes(word))),
   };
 }
@@ -165,31 +206,52 @@ function isSimilar(one, other) {
 // Maximum number of results.
 const MOST = 50;
 
-// Adds the points for a word to the sum of each entry. The sum becomes -1 if neither the entry nor its device has the word.
-function add({ numbers, texts, titles }, sums) {
-  for (let entry = 0; entry < sums.length; entry++) {
-    const points = numbers[numberAt[entry]] + texts[textAt[entry]];
-    sums[entry] = sums[entry] < 0 || points === 0 && titles[pages[pageAt[entry]].device] === 0 ? -1 : sums[entry] + points;
-  }
-}
-
-// Returns the entries that match all words. The best entries come first: those whose name is the whole query, independent of their
-// numbers, then by points; equal entries have the order of the index. Entries are left out if only their device matches.
+// Returns the places that match all words. The best places come first: those whose name is the whole query, independent of their
+// numbers, then by points; equal places have the order of the index. Places are left out if only their device matches.
 function matches(query) {
-  const wanted = plain(query).trim(), words = wanted.split(/\s+/).filter(Boolean), best = [];
+  const wanted = plain(query).trim(), words = wanted.split(/\s+/).filter(Boolean).slice(0, MOST_WORDS), best = [];
   if (!words.length || !isLoaded) return best;
-  const sums = new Int32Array(anchors.length), isWanted = each(texts, (text) => Number(text.name === wanted));
-  for (const word of words) add(pointsOf(word), sums);
-  for (let entry = 0, minimum = 0; entry < sums.length; entry++) {
-    if (sums[entry] > 0 && isWanted[textAt[entry]]) sums[entry] = 300 + 200 * words.length;
-    if (sums[entry] > minimum) minimum = insert(best, { points: sums[entry], entry });
+  const points = words.map(pointsOf), sums = sumsOf(points, wanted), isWithout = lacks(points.map(({ entries }) => entries));
+  // For each device, the words that it does not have, as bits.
+  const lacking = lacks(points.map(({ titles }) => titles));
+  for (let place = 0, minimum = 0; place < entryAt.length; place++) {
+    const entry = entryAt[place];
+    if (sums[entry] <= minimum || isWithout[entry] & lacking[pages[pageAt[place]].device]) continue;
+    minimum = insert(best, { points: sums[entry], place });
   }
-  // A row has one entry per address. Only the best entry of a row is shown.
+  // A row has one place per address. Only the best place of a row is shown.
   const links = new Set();
-  return best.map(({ entry }) => entry).filter((entry) => !links.has(linkOf(entry)) && links.add(linkOf(entry))).slice(0, MOST);
+  return best.map(({ place }) => place).filter((place) => !links.has(linkOf(place)) && links.add(linkOf(place))).slice(0, MOST);
 }
 
-// Inserts an entry into the sorted list. Returns the points that the next entry must exceed to be inserted.
+// Maximum number of words, one per bit of a number.
+const MOST_WORDS = 31;
+
+// Returns the sum of each entry's points for all words.
+function sumsOf(points, wanted) {
+  const sums = new Int32Array(numberAt.length), isWanted = each(texts, (text) => Number(isName(text, wanted)));
+  for (const { entries } of points) for (let entry = 0; entry < sums.length; entry++) sums[entry] += entries[entry];
+  for (let entry = 0; entry < sums.length; entry++) {
+    if (sums[entry] > 0 && isWanted[textAt[entry]]) sums[entry] = 300 + 200 * points.length;
+  }
+  return sums;
+}
+
+// Returns the words for which each element of the lists has no points, as bits.
+function lacks(lists) {
+  const bits = new Int32Array(lists[0].length);
+  for (const [word, list] of lists.entries()) for (let at = 0; at < bits.length; at++) if (!list[at]) bits[at] |= 1 << word;
+  return bits;
+}
+
+// Returns links to the devices whose titles or further words contain all words.
+function devicesWith(words) {
+  const isFound = titles.map((title) => words.length > 0 && words.every((word) => title.includes(word)));
+  const first = pages.filter(({ kind, device }) => kind === "device" && isFound[device]);
+  return first.map(({ path, title }) => element("a", { href: site + path, textContent: title }));
+}
+
+// Inserts a place into the sorted list. Returns the points that the next place must exceed to be inserted.
 function insert(best, match) {
   const position = best.findIndex((other) => other.points < match.points);
   best.splice(position < 0 ? best.length : position, 0, match);
@@ -197,19 +259,21 @@ function insert(best, match) {
   return best.length === 4 * MOST ? best[best.length - 1].points : 0;
 }
 
-const isPart = (entry) => numbers[numberAt[entry]].isPart;
+const printedAt = (place) => numbers[numberAt[entryAt[place]]];
+// Returns name, names in other languages, unit and description.
+const textsOf = (place) => texts[textAt[entryAt[place]]].text.split("\t");
 // Returns the item of a bit or value, which is the last item before it.
-const ownerOf = (entry) => {
-  while (entry > 0 && isPart(entry)) entry--;
-  return entry;
+const ownerOf = (place) => {
+  while (place > 0 && printedAt(place).isPart) place--;
+  return place;
 };
-const anchorOf = (entry) => {
-  const own = anchors[entry] || numbers[numberAt[entry]].text;
-  return isPart(entry) ? `${anchorOf(ownerOf(entry))}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
+const anchorOf = (place) => {
+  const { text, isPart } = printedAt(place), own = anchors[anchorAt[entryAt[place]]] || text;
+  return isPart ? `${anchorOf(ownerOf(place))}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
 };
-const linkOf = (entry) => {
-  const anchor = anchorOf(entry);
-  return site + pages[pageAt[entry]].path + (anchor && "#" + encodeURIComponent(anchor));
+const linkOf = (place) => {
+  const anchor = anchorOf(place);
+  return site + pages[pageAt[place]].path + (anchor && "#" + encodeURIComponent(anchor));
 };
 
 let selected = 0;
@@ -219,12 +283,12 @@ found.after(announcement);
 
 function search() {
   const list = matches(input.value);
-  found.replaceChildren(...list.map((entry, at) => {
-    const [name, names, unit] = texts[textAt[entry]].text.split("\t"), page = pages[pageAt[entry]], number = numbers[numberAt[entry]].text;
-    const owner = isPart(entry) ? [numbers[numberAt[ownerOf(entry)]].text, texts[textAt[ownerOf(entry)]].text.split("\t")[0]].join(" ") : "";
+  found.replaceChildren(...list.map((place, at) => {
+    const [name, names, unit] = textsOf(place), page = pages[pageAt[place]], number = printedAt(place).text, item = ownerOf(place);
+    const owner = item === place ? "" : `${printedAt(item).text} ${textsOf(item)[0]}`;
     const kind = number || page.kind === "device" ? page.kind : "page";
     const more = element("small", { textContent: [owner, kind, names, unit, page.title].filter(Boolean).join(" · ") });
-    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(entry), tabIndex: -1 }, `${number} ${name} `.trimStart(), more);
+    const link = element("a", { role: "option", id: "found-" + at, href: linkOf(place), tabIndex: -1 }, `${number} ${name} `.trimStart(), more);
     return element("li", { role: "presentation" }, link);
   }));
   found.hidden = !list.length;
@@ -251,6 +315,9 @@ function close() {
   input.setAttribute("aria-expanded", "false");
 }
 
+// A search usually begins on a page with a list of devices, so such a page loads the index before the reader types.
+const whenIdle = (work) => window.requestIdleCallback ? requestIdleCallback(work, { timeout: 1000 }) : setTimeout(work, 200);
+if (deviceFilter) addEventListener("load", () => whenIdle(load));
 input.addEventListener("focus", load);
 input.addEventListener("input", search);
 input.addEventListener("keydown", (event) => {
@@ -288,9 +355,9 @@ function missingAddress() {
 function lead() {
   const address = missingAddress();
   for (const candidate of address ? [address, withoutPart(address), address.split(":")[0]] : []) {
-    const entry = anchors.findIndex((_, entry) => plain(anchorOf(entry)) === candidate);
-    if (entry < 0) continue;
-    location.replace(linkOf(entry));
+    const place = entryAt.findIndex((_, place) => plain(anchorOf(place)) === candidate);
+    if (place < 0) continue;
+    location.replace(linkOf(place));
     return;
   }
 }

@@ -33,8 +33,9 @@ fn the_search_finds_modules_by_name_order_code_and_ident_number() {
     let text = text.replace("<InfoText TextId=\"T_Axis\"/>", order);
     let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.xml", text.into()))]);
     let index = &pages.iter().find(|page| page.path.ends_with("/search.js")).expect("an index").text;
-    // Both numbers of the module are entries with its name, and lead to its anchor.
-    for part in ["\\n0x00000030\\nEX-7 AX\\n", "\\nAxis\\t", "\\nmodule-00000030\\nmodule-00000030\\n"] {
+    // Both numbers of the module are entries with its name, and lead to its anchor: the second entry differs from the first in its
+    // number.
+    for part in ["\\n0x00000030\\nEX-7 AX\\n", "\\nAxis\\t", "\\nmodule-00000030\\n", ",1,1,1,1,0,0,"] {
         assert!(index.contains(part), "{part}: {index}");
     }
     let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
@@ -140,17 +141,25 @@ fn revisions_in_two_files_are_compared() {
     // The order of the files does not matter.
     let source = |name: &str, text: String| (name.to_owned(), Source::new(format!("{name}.eds"), text.into()));
     let (old, new) = (source("old", eds(1, "rw")), source("new", eds(2, "ro")));
-    for sources in [vec![old.clone(), new.clone()], vec![new, old]] {
+    let other = |text: String| text.replace("ProductNumber=7", "ProductNumber=8");
+    let first = source("first", other(eds(1, "rw")));
+    let renamed = source("renamed", other(eds(2, "rw")).replace("ProductName=Pump", "ProductName=Pump plus"));
+    for mut sources in [vec![old.clone(), new.clone()], vec![new, old]] {
+        sources.extend([renamed.clone(), first.clone()]);
         let pages = site(Format::Html, sources);
         let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
         let changes = text("maker/pump-0x00000007/0x00000002/changes.html");
         assert!(changes.contains("<td>access<td data-title=\"Old\">rw<td data-title=\"New\">ro"), "{changes}");
         assert!(text("maker/pump-0x00000007/0x00000002/index.html").contains("Changes since revision 0x00000001"));
         assert!(text("maker/pump-0x00000007/latest/index.html").contains("href=\"../0x00000002/index.html\""));
+        // The newest revision has another name.
+        let newest = "href=\"../../../maker/pump-plus-0x00000008/0x00000002/index.html\"";
+        assert!(text("maker/pump-0x00000008/latest/index.html").contains(newest));
+        assert!(pages.iter().any(|page| page.path == "maker/pump-plus-0x00000008/0x00000002/changes.html"));
         assert!(pages.iter().all(|page| page.path != "maker/pump-0x00000007/0x00000001/changes.html"));
         html_links(&pages);
         // The results of the search state the revision if the titles are equal.
-        for device in ["[\"Pump (0x00000001)\",", "[\"Pump (0x00000002)\","] {
+        for device in ["[\"Pump (0x00000001)\",", "[\"Pump (0x00000002)\",", "[\"Pump plus\","] {
             assert!(text("search.js").contains(device), "{device}");
         }
     }
@@ -194,11 +203,20 @@ fn families_have_their_vendor_in_the_heading() {
     assert!(list.contains(">1 device<"), "{list}");
 }
 
+/// Returns the description with a text that describes the axis module, in addition to its name.
+fn with_information(text: &str) -> String {
+    let primary = "<Text TextId=\"T_Info\" Value=\"For one axis\"/></PrimaryLanguage>";
+    text.replace("<InfoText TextId=\"T_Axis\"/>", "<InfoText TextId=\"T_Info\"/>")
+        .replace("</PrimaryLanguage>", primary)
+}
+
 #[test]
 fn languages_of_modules_can_be_chosen() {
     let path = crate::root::root().join("tests/data/drive.gsdml.xml");
-    let german = "<Language xml:lang=\"de\"><Text TextId=\"T_Tel1\" Value=\"Standardtelegramm 1\"/></Language></ExternalTextList>";
-    let text = std::fs::read_to_string(path).expect("a description").replace("</ExternalTextList>", german);
+    let german = "<Language xml:lang=\"de\"><Text TextId=\"T_Tel1\" Value=\"Standardtelegramm 1\"/>\
+                  <Text TextId=\"T_Info\" Value=\"Für eine Achse\"/></Language></ExternalTextList>";
+    let text = with_information(&std::fs::read_to_string(path).expect("a description"));
+    let text = text.replace("</ExternalTextList>", german);
     let source = || vec![("drive".to_owned(), Source::new("drive.xml", text.clone().into()))];
     let pages = site(Format::Html, source());
     let markdown = site(Format::Markdown, source());
@@ -220,9 +238,11 @@ fn languages_of_modules_can_be_chosen() {
 fn equal_translations_are_shown_once() {
     let path = crate::root::root().join("tests/data/drive.gsdml.xml");
     let text = std::fs::read_to_string(path).expect("a description");
+    let text = with_information(&text);
     let language = |tag: &str, axis: &str| {
         format!(
-            "<Language xml:lang=\"{tag}\"><Text TextId=\"T_Axis\" Value=\"{axis}\"/><Text TextId=\"T_Tel1\" Value=\"Standard telegram 1\"/></Language>"
+            "<Language xml:lang=\"{tag}\"><Text TextId=\"T_Axis\" Value=\"{axis}\"/><Text TextId=\"T_Info\" Value=\"1 {axis}\"/>\
+             <Text TextId=\"T_Tel1\" Value=\"Standard telegram 1\"/></Language>"
         )
     };
     let languages = ["de", "nl"].map(|tag| language(tag, "Achse")).concat() + &language("fr", "Axe");
@@ -234,12 +254,16 @@ fn equal_translations_are_shown_once() {
     let html = page(Format::Html, "/modules.html");
     let name = "<b>Axis</b> <i lang=\"de\" title=\"de, nl\">Achse</i> <i lang=\"fr\">Axe</i></h2>";
     assert!(html.contains(name), "{html}");
-    assert!(html.contains("<p lang=\"de\" title=\"de, nl\">Achse<p lang=\"fr\">Axe"), "{html}");
-    assert!(html.contains("<b>Standard telegram 1</b></h2><p>Standard telegram 1."), "{html}");
+    assert!(html.contains("<p lang=\"de\" title=\"de, nl\">1 Achse<p lang=\"fr\">1 Axe"), "{html}");
+    // The description of the telegram repeats its name.
+    assert!(html.contains("<b>Standard telegram 1</b></h2>") && !html.contains("<p>Standard telegram 1."), "{html}");
     let markdown = page(Format::Markdown, "/modules.md");
     assert!(markdown.contains(" Axis *Achse* (de, nl) *Axe*\n"), "{markdown}");
-    assert!(markdown.contains("\n*Achse* (de, nl)\n"), "{markdown}");
-    assert!(markdown.contains(" Standard telegram 1\n\nStandard telegram 1.\n"), "{markdown}");
+    assert!(markdown.contains("\n*1 Achse* (de, nl)\n"), "{markdown}");
+    assert!(
+        markdown.contains(" Standard telegram 1\n") && !markdown.contains("\nStandard telegram 1.\n"),
+        "{markdown}"
+    );
 }
 
 #[test]
