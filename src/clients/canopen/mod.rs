@@ -52,6 +52,7 @@ mod frame;
 mod linux;
 #[cfg(all(feature = "socketcan-tokio", target_os = "linux"))]
 mod linux_async;
+mod lss;
 mod nmt;
 mod node;
 mod polled;
@@ -61,6 +62,7 @@ mod sdo;
 pub use crate::sdo::Channel;
 pub use buffered::Buffered;
 pub use frame::CanFrame;
+pub use lss::LssMaster;
 pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState};
 pub use node::{Node, TIMEOUT};
 pub use polled::Polled;

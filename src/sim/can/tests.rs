@@ -1,7 +1,8 @@
 use super::*;
+
 use crate::bus::Object;
 use crate::client::Client;
-use crate::clients::canopen::{Channel, Node};
+use crate::clients::canopen::{CanPort, Channel, Node};
 use crate::data_type::DataType;
 use crate::error::Error;
 use crate::flags::Flags;
