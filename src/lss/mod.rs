@@ -60,9 +60,9 @@ pub use slave::{Host, NoHost, Slave};
 pub use transaction::Transaction;
 
 /// COB-ID of the messages of the LSS master (CiA 305).
-pub const REQUESTS: u16 = 0x7E5;
+pub const REQUESTS: u32 = 0x7E5;
 
 /// COB-ID of the messages of the LSS slaves (CiA 305).
-pub const ANSWERS: u16 = 0x7E4;
+pub const ANSWERS: u32 = 0x7E4;
 
 pub(crate) use fast_scan::is_identified;

@@ -1,6 +1,7 @@
 //! A simulated device as a node on a CAN bus.
 
 mod bus;
+mod guard;
 mod layer_setting;
 mod pdo;
 mod port;
@@ -10,6 +11,7 @@ use core::time::Duration;
 use std::collections::VecDeque;
 use std::vec::Vec;
 
+use self::guard::Guard;
 use self::layer_setting::LayerSetting;
 use self::pdo::Pdos;
 use self::sdo::Servers;
@@ -18,11 +20,17 @@ use crate::abort::AbortCode;
 use crate::clients::canopen::{CanFrame, NmtCommand, NmtState};
 use crate::lss::{self, BitRate};
 use crate::node_id::NodeId;
+use crate::pdo::can_id;
+use crate::time::TimeOfDay;
 
 pub use self::bus::CanBus;
 
 /// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
-const NMT: u16 = 0x000;
+const NMT: u32 = 0x000;
+/// Error code of an emergency message: life guard error or heartbeat error.
+const LIFE_GUARD_ERROR: u16 = 0x8130;
+/// Bits of the error register (0x1001): generic error, and communication error.
+const COMMUNICATION_ERROR: u8 = 0x11;
 /// Maximum number of sent frames that are kept. Older frames are lost, as on a real bus.
 const MOST_FRAMES: usize = 1024;
 
@@ -58,7 +66,9 @@ const MOST_FRAMES: usize = 1024;
 /// The node is an LSS slave (CiA 305). Its LSS address is in object 0x1018. [`without_node_id`](Self::without_node_id)
 /// creates a node that an LSS master has to configure first. [`CanBus`] is a bus with several nodes.
 ///
-/// The node doesn't simulate remote frames (including node guarding), and 29-bit identifiers.
+/// The node answers node guarding if its heartbeat producer time (0x1017) is 0, and sends the emergency message 0x8130 if
+/// the master fails for longer than the node life time (0x100C and 0x100D). The node consumes TIME if bit 31 of object
+/// 0x1012 is set. The node doesn't send PDOs on remote frames.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -71,6 +81,8 @@ pub struct CanNode {
     refused: Vec<(u16, AbortCode)>,
     is_connected: bool,
     lss: LayerSetting,
+    guard: Guard,
+    time_of_day: Option<TimeOfDay>,
 }
 
 /// Heartbeat producer.
@@ -108,6 +120,8 @@ impl CanNode {
             refused: Vec::new(),
             is_connected: true,
             lss,
+            guard: Guard::default(),
+            time_of_day: None,
             device,
         }
     }
@@ -116,6 +130,12 @@ impl CanNode {
     #[must_use]
     pub const fn node_id(&self) -> Option<NodeId> {
         self.lss.node_id()
+    }
+
+    /// Returns the time in the last TIME message, or `None` if the node has not consumed TIME.
+    #[must_use]
+    pub const fn time_of_day(&self) -> Option<TimeOfDay> {
+        self.time_of_day
     }
 
     /// Returns the bit rate that an LSS master has activated, or that was stored at power-on. Returns `None` if the bit
@@ -179,8 +199,9 @@ impl CanNode {
             _ if self.lss.is_silent(self.now) => {}
             lss::REQUESTS => self.configure(frame),
             _ if self.node_id().is_none() => {}
+            _ if frame.is_remote() => self.answer_guarding(frame.id()),
             NMT => self.command(frame),
-            _ if self.transfer(frame) => {}
+            _ if self.transfer(frame) || self.consume_time(frame) => {}
             id if self.state == NmtState::Operational => self.process(id, frame.data()),
             _ => {}
         }
@@ -215,7 +236,7 @@ impl CanNode {
         let heartbeat = self.heartbeat.map(|heartbeat| heartbeat.due);
         let pdos = if self.state == NmtState::Operational { self.pdos.next_event(&self.device) } else { None };
         let step = self.device.next_step().map(|time| self.now.saturating_add(time));
-        let events = [heartbeat, pdos, step, self.servers.deadline()];
+        let events = [heartbeat, pdos, step, self.servers.deadline(), self.guard.deadline()];
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
@@ -225,6 +246,9 @@ impl CanNode {
             return;
         }
         self.beat();
+        if self.guard.is_expired(self.now) {
+            self.device.emit_emergency(LIFE_GUARD_ERROR, COMMUNICATION_ERROR, [0; 5]);
+        }
         for frame in self.servers.timed_out(&self.device, self.now) {
             self.emit(frame);
         }
@@ -270,9 +294,8 @@ impl CanNode {
         let cob_id = self.device.slots.number(0x1014, 0).unwrap_or(default);
         let emergencies: Vec<_> = self.device.take_emergencies().collect();
         for emergency in emergencies.iter().filter(|_| cob_id & UNUSED == 0) {
-            if let Some(frame) = CanFrame::new(cob_id as u16 & 0x7FF, &emergency.to_bytes()) {
-                self.emit(frame);
-            }
+            let frame = can_id(cob_id as u32).and_then(|id| CanFrame::new(id, &emergency.to_bytes()));
+            frame.into_iter().for_each(|frame| self.emit(frame));
         }
     }
 
@@ -280,6 +303,7 @@ impl CanNode {
     /// before that.
     fn boot(&mut self) {
         self.heartbeat = None;
+        self.guard = Guard::default();
         self.servers.reset();
         if self.node_id().is_none() {
             self.enter(NmtState::BootUp);
@@ -335,6 +359,24 @@ impl CanNode {
         }
     }
 
+    /// Answers a request of node guarding (CiA 301 7.2.8.3.2.1). The heartbeat producer takes precedence.
+    fn answer_guarding(&mut self, id: u32) {
+        let is_request = id == 0x700 + u32::from(self.device.node_id().get());
+        if is_request && self.heartbeat.is_none() {
+            let number = |index| self.device.slots.number(index, 0).unwrap_or(0);
+            let raw = self.guard.answer(self.state, Duration::from_millis(number(0x100C) * number(0x100D)), self.now);
+            CanFrame::new(id, &[raw]).into_iter().for_each(|frame| self.emit(frame));
+        }
+    }
+
+    /// Processes TIME if the node consumes it (0x1012). Returns whether the frame is TIME.
+    fn consume_time(&mut self, frame: &CanFrame) -> bool {
+        let cob_id = self.device.slots.number(0x1012, 0).filter(|cob_id| cob_id >> 31 & 1 == 1);
+        let time = cob_id.and_then(|cob_id| TimeOfDay::of_id(frame, cob_id as u32));
+        self.time_of_day = time.filter(|_| self.state != NmtState::Stopped).or(self.time_of_day);
+        time.is_some()
+    }
+
     /// Processes a message of the LSS master.
     fn configure(&mut self, frame: &CanFrame) {
         let before = self.node_id();
@@ -358,9 +400,9 @@ impl CanNode {
     }
 
     /// Processes a SYNC message or a PDO.
-    fn process(&mut self, id: u16, data: &[u8]) {
-        let sync = self.device.slots.number(0x1005, 0).unwrap_or(0x80) as u16 & 0x7FF;
-        if id == sync {
+    fn process(&mut self, id: u32, data: &[u8]) {
+        let sync = can_id(self.device.slots.number(0x1005, 0).unwrap_or(0x80) as u32);
+        if Some(id) == sync {
             self.refused.extend(self.pdos.actuate(&mut self.device));
             for frame in self.pdos.sampled(&self.device, self.now, data.first().copied()) {
                 self.emit(frame);
@@ -371,6 +413,8 @@ impl CanNode {
     }
 }
 
+#[cfg(test)]
+mod guard_tests;
 #[cfg(test)]
 mod lss_tests;
 #[cfg(test)]

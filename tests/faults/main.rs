@@ -11,6 +11,7 @@ mod coe;
 #[allow(dead_code, unused_imports)] // the application of the servo
 mod ethercat;
 mod faulty;
+mod guarding;
 mod lss;
 mod matrix;
 mod modbus;

@@ -50,7 +50,7 @@ fn bus(serials: &[u32]) -> CanBus {
     bus
 }
 
-fn boot_ups(bus: &mut CanBus) -> Vec<u16> {
+fn boot_ups(bus: &mut CanBus) -> Vec<u32> {
     let mut ids = Vec::new();
     let mut note = |frame: &CanFrame| {
         ids.push(frame.id());
@@ -73,7 +73,7 @@ fn each_node_is_found_and_configured() {
         assert_eq!(master.store(), Ok(()));
         assert_eq!(boot_ups(master.port()), []);
         assert_eq!(master.switch_global(LssState::Waiting), Ok(()));
-        assert_eq!(boot_ups(master.port()), [0x700 + u16::from(id)]);
+        assert_eq!(boot_ups(master.port()), [0x700 + u32::from(id)]);
     }
     assert_eq!((master.has_unconfigured(), master.fast_scan()), (Ok(false), Ok(None)));
     // Stored node-IDs are used after a restart.

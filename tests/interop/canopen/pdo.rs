@@ -35,7 +35,7 @@ pub fn configure(node: &mut Node, steps: impl IntoIterator<Item = SdoWrite>) -> 
 
 /// Creates a CAN frame. `id` is its CAN-ID.
 pub fn frame(id: u32, data: &[u8]) -> CanFrame {
-    CanFrame::new(id as u16, data).expect("a frame")
+    CanFrame::new(id, data).expect("a frame")
 }
 
 pub fn receive(node: &mut Node, id: u32) -> CanFrame {
