@@ -54,6 +54,7 @@ mod linux;
 #[cfg(all(feature = "socketcan-tokio", target_os = "linux"))]
 mod linux_async;
 mod lss;
+mod network;
 mod nmt;
 mod node;
 mod polled;
@@ -66,6 +67,7 @@ pub use buffered::Buffered;
 pub use frame::CanFrame;
 pub use guarding::{GuardError, Guarding};
 pub use lss::LssMaster;
+pub use network::{Network, NetworkPort};
 pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState};
 pub use node::{Node, TIMEOUT};
 pub use polled::Polled;
