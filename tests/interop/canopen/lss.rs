@@ -33,10 +33,10 @@ const fn part(sub_index: u8, initial: &'static [u8]) -> Entry {
 }
 
 const ENTRIES: &[Entry] =
-    &[part(1, &[0x19, 3, 0, 0]), part(2, &[7, 0, 0, 0x80]), part(3, &[2, 0, 1, 0]), part(4, &[0; 4])];
+    &[part(1, &[0, 3, 0, 0]), part(2, &[1, 0, 0, 0x80]), part(3, &[2, 0, 1, 0]), part(4, &[0; 4])];
 
 fn address(serial: u32) -> [u32; 4] {
-    [0x319, 0x8000_0007, 0x1_0002, serial]
+    [0x300, 0x8000_0001, 0x1_0002, serial]
 }
 
 /// Connects a bus to the line, until the flag is set.
@@ -66,7 +66,7 @@ fn lss_master() {
     let line = Pty::open();
     let (mut script, _) = Script::start(python, "canopen_client.py", &[line.path(), "1"]);
     let mut bus = CanBus::new();
-    for serial in [0x8000_0001_u32, 4711] {
+    for serial in [0x8000_0001_u32, 0x1000] {
         let mut device = Device::new(ENTRIES);
         device.set_initial_bytes(Object::new(0x1018, 4), &serial.to_le_bytes()).expect("an object");
         bus.add(CanNode::without_node_id(device));
@@ -76,7 +76,7 @@ fn lss_master() {
     let (served, ended) = (bus.clone(), is_ended.clone());
     let server = thread::spawn(move || serve(line, &served, &ended));
 
-    for (id, serial) in [(5, 4711), (6, 0x8000_0001_u32)] {
+    for (id, serial) in [(5, 0x1000), (6, 0x8000_0001_u32)] {
         assert_eq!(script.ask(json!({ "do": "fast_scan" })), json!(address(serial)));
         let [vendor, product, revision, serial] = address(serial);
         assert_eq!(script.ask(json!({ "do": "inquire" })), json!([vendor, product, revision, serial, 0xFF]));
@@ -85,8 +85,8 @@ fn lss_master() {
         script.ask(json!({ "do": "wait" }));
     }
     assert_eq!(script.ask(json!({ "do": "fast_scan" })), Value::Null);
-    assert_eq!(script.ask(json!({ "do": "select", "address": address(4711) })), true);
-    let [vendor, product, revision, serial] = address(4711);
+    assert_eq!(script.ask(json!({ "do": "select", "address": address(0x1000) })), true);
+    let [vendor, product, revision, serial] = address(0x1000);
     assert_eq!(script.ask(json!({ "do": "inquire" })), json!([vendor, product, revision, serial, 5]));
     assert!(script.ask(json!({ "do": "configure", "node_id": 128, "bit_timing": 3 })).is_string());
 

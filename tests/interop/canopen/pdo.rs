@@ -39,7 +39,7 @@ pub fn frame(id: u32, data: &[u8]) -> CanFrame {
 }
 
 pub fn receive(node: &mut Node, id: u32) -> CanFrame {
-    let received = node.port().receive(PATIENCE, &mut |frame| u32::from(frame.id()) == id).expect("a line");
+    let received = node.port().receive(PATIENCE, &mut |frame| frame.id() == id).expect("a line");
     received.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
 }
 
