@@ -12,12 +12,10 @@ mod sdo_write;
 mod word;
 
 #[cfg(any(feature = "canopen", feature = "std"))]
-#[cfg(feature = "canopen")]
-pub(crate) use cob_id::can_id;
 pub(crate) use cob_id::is_restricted;
 pub use cob_id::CobId;
-#[cfg(any(feature = "canopen", feature = "std"))]
-pub(crate) use cob_id::EXTENDED;
+#[cfg(feature = "canopen")]
+pub(crate) use cob_id::{can_id, EXTENDED};
 pub use configuration::PdoConfiguration;
 pub use custom::{AnyPdo, Mappable, Mapped, NoCobId, OnEtherCat, Remappable, Rpdo, Tpdo};
 pub use field::Field;
