@@ -359,24 +359,6 @@ impl CanNode {
         }
     }
 
-    /// Answers a request of node guarding (CiA 301 7.2.8.3.2.1). The heartbeat producer takes precedence.
-    fn answer_guarding(&mut self, id: u32) {
-        let is_request = id == 0x700 + u32::from(self.device.node_id().get());
-        if is_request && self.heartbeat.is_none() {
-            let number = |index| self.device.slots.number(index, 0).unwrap_or(0);
-            let raw = self.guard.answer(self.state, Duration::from_millis(number(0x100C) * number(0x100D)), self.now);
-            CanFrame::new(id, &[raw]).into_iter().for_each(|frame| self.emit(frame));
-        }
-    }
-
-    /// Processes TIME if the node consumes it (0x1012). Returns whether the frame is TIME.
-    fn consume_time(&mut self, frame: &CanFrame) -> bool {
-        let cob_id = self.device.slots.number(0x1012, 0).filter(|cob_id| cob_id >> 31 & 1 == 1);
-        let time = cob_id.and_then(|cob_id| TimeOfDay::of_id(frame, cob_id as u32));
-        self.time_of_day = time.filter(|_| self.state != NmtState::Stopped).or(self.time_of_day);
-        time.is_some()
-    }
-
     /// Processes a message of the LSS master.
     fn configure(&mut self, frame: &CanFrame) {
         let before = self.node_id();
