@@ -68,7 +68,7 @@
 //! |---|---|
 //! | `macros` | macro `dictionary!`, which compiles a device description during the build |
 //! | `std` | `sim`: simulated devices; [`Client::wait`] with a default implementation that sleeps |
-//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies and PDOs over any CAN interface; [`sdo`]: SDO transfers without input and output |
+//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies, LSS and PDOs over any CAN interface; [`sdo`] and [`lss`]: SDO transfers and LSS without input and output |
 //! | `socketcan`, `socketcan-tokio` | `clients::canopen` over SocketCAN on Linux, blocking and async |
 //! | `ethercat` | `clients::ethercat`: objects of EtherCAT SubDevices through `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus` |
@@ -120,6 +120,8 @@ mod initial;
 pub mod interface;
 mod item;
 mod location;
+#[cfg(feature = "canopen")]
+pub mod lss;
 mod machine;
 pub mod message;
 pub mod modbus;

@@ -1,6 +1,7 @@
 //! Dates and durations of CANopen.
 
 use core::cmp::Ordering;
+use core::time::Duration;
 
 use crate::data_type::DataType;
 use crate::range::Range;
@@ -99,6 +100,41 @@ macro_rules! time {
 
 time! { TimeOfDay TimeDifference }
 
+/// Seconds of a day.
+const DAY: u64 = 86_400;
+
+/// Days from January 1, 1970 to January 1, 1984.
+const FIRST_DAY: u64 = 5113;
+
+impl TimeOfDay {
+    /// Converts a time since January 1, 1970, 00:00 UTC. Returns `None` if the date is before January 1, 1984 or after
+    /// June 6, 2163. Drops fractions of a millisecond.
+    ///
+    /// ```
+    /// use std::time::{Duration, SystemTime};
+    ///
+    /// use lexibus::TimeOfDay;
+    ///
+    /// let moon = TimeOfDay::from_unix_time(Duration::from_millis(946_684_800_250)).expect("a date since 1984");
+    /// assert_eq!(moon, TimeOfDay::new(250, 5844));
+    /// assert_eq!(moon.unix_time(), Duration::from_millis(946_684_800_250));
+    /// let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).ok().and_then(TimeOfDay::from_unix_time);
+    /// ```
+    #[must_use]
+    pub fn from_unix_time(time: Duration) -> Option<Self> {
+        let days = u16::try_from((time.as_secs() / DAY).checked_sub(FIRST_DAY)?).ok()?;
+        let milliseconds = (time.as_secs() % DAY) as u32 * 1000 + time.subsec_millis();
+        Some(Self { milliseconds, days })
+    }
+
+    /// Returns the time since January 1, 1970, 00:00 UTC.
+    #[must_use]
+    pub fn unix_time(self) -> Duration {
+        let days = FIRST_DAY + u64::from(self.days);
+        Duration::from_secs(days * DAY) + Duration::from_millis(self.milliseconds.into())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,6 +156,16 @@ mod tests {
         assert_eq!(span.raw(), 0xFFFF_0FFF_FFFF);
         let late = TimeDifference { milliseconds: MILLISECONDS + 1, days: 0 };
         assert_eq!(TimeDifference::encode(late, &mut [0; 8]), Err(OutOfRange));
+    }
+
+    #[test]
+    fn unix_time() {
+        let first = Duration::from_secs(FIRST_DAY * DAY);
+        assert_eq!(TimeOfDay::from_unix_time(first), Some(TimeOfDay::default()));
+        assert_eq!(TimeOfDay::from_unix_time(first - Duration::from_nanos(1)), None);
+        let last = TimeOfDay { milliseconds: 86_399_999, days: u16::MAX };
+        assert_eq!(TimeOfDay::from_unix_time(last.unix_time()), Some(last));
+        assert_eq!(TimeOfDay::from_unix_time(last.unix_time() + Duration::from_millis(1)), None);
     }
 
     #[test]

@@ -730,7 +730,7 @@ mod frames {
 
     const PATIENCE: Duration = Duration::from_millis(100);
 
-    fn receive(node: &mut CanNode, id: u16) -> CanFrame {
+    fn receive(node: &mut CanNode, id: u32) -> CanFrame {
         let frame = lexibus::clients::canopen::CanPort::receive(node, PATIENCE, &mut |frame| frame.id() == id);
         frame.unwrap().expect("a frame")
     }

@@ -42,16 +42,42 @@ impl CobId {
     }
 }
 
+/// Bit of a COB-ID: the CAN-ID has 29 bits.
+#[cfg(any(feature = "canopen", feature = "std"))]
+pub(crate) const EXTENDED: u32 = 1 << 29;
+
+/// Returns the CAN-ID of a COB-ID, with bit 29 if the CAN-ID has 29 bits. Returns `None` if a CAN-ID of 11 bits has
+/// higher bits. Ignores bits 30 and 31, whose meaning depends on the object.
+#[cfg(feature = "canopen")]
+pub(crate) const fn can_id(cob_id: u32) -> Option<u32> {
+    let id = cob_id & (EXTENDED | 0x1FFF_FFFF);
+    if id & EXTENDED != 0 || id <= 0x7FF {
+        Some(id)
+    } else {
+        None
+    }
+}
+
 /// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). The CAN-IDs of NMT, SDO and heartbeat are restricted,
 /// and so are reserved CAN-IDs.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
-    matches!(can_id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)
+    // CAN-IDs of 29 bits are a separate range, of which none is restricted.
+    can_id & EXTENDED == 0
+        && matches!(can_id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(feature = "canopen")]
+    fn can_ids() {
+        assert_eq!(can_id(0x4000_0185), Some(0x185));
+        assert_eq!(can_id(0xA000_0185), Some(EXTENDED | 0x185));
+        assert_eq!((can_id(0x800), can_id(0x2000_0800)), (None, Some(EXTENDED | 0x800)));
+    }
 
     #[test]
     fn resolves() {

@@ -1,23 +1,24 @@
 //! Pairs of COB-IDs on which SDO messages are sent.
 
 use crate::node_id::NodeId;
-use crate::pdo::is_restricted;
+use crate::pdo::{is_restricted, EXTENDED};
 
-/// The two COB-IDs of an SDO channel (CiA 301 7.5.2.33 and 7.5.2.34). Both have 11 bits.
+/// The two COB-IDs of an SDO channel (CiA 301 7.5.2.33 and 7.5.2.34). For a CAN-ID of 29 bits, bit 29 is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Channel {
-    request: u16,
-    reply: u16,
+    request: u32,
+    reply: u32,
 }
 
 impl Channel {
     /// Creates a channel from the COB-IDs of requests (client to server) and replies (server to client).
     ///
-    /// Returns `None` if the COB-IDs are equal, or if a COB-ID has more than 11 bits or is restricted (CiA 301 7.3.5).
+    /// Returns `None` if the COB-IDs are equal, or if a COB-ID is invalid (bit 30 or 31 is set, or more than 11 bits
+    /// without bit 29) or restricted (CiA 301 7.3.5).
     /// The COB-IDs of the default channel are restricted; use [`of_node`](Self::of_node).
     #[must_use]
-    pub const fn new(request: u16, reply: u16) -> Option<Self> {
-        if request == reply || is_restricted(request as u32) || is_restricted(reply as u32) {
+    pub const fn new(request: u32, reply: u32) -> Option<Self> {
+        if request == reply || !is_possible(request) || !is_possible(reply) {
             return None;
         }
         Some(Self { request, reply })
@@ -27,20 +28,24 @@ impl Channel {
     /// 301 7.3.5).
     #[must_use]
     pub const fn of_node(node: NodeId) -> Self {
-        Self { request: 0x600 + node.get() as u16, reply: 0x580 + node.get() as u16 }
+        Self { request: 0x600 + node.get() as u32, reply: 0x580 + node.get() as u32 }
     }
 
     /// Returns the COB-ID of requests.
     #[must_use]
-    pub const fn request(self) -> u16 {
+    pub const fn request(self) -> u32 {
         self.request
     }
 
     /// Returns the COB-ID of replies.
     #[must_use]
-    pub const fn reply(self) -> u16 {
+    pub const fn reply(self) -> u32 {
         self.reply
     }
+}
+
+const fn is_possible(id: u32) -> bool {
+    !is_restricted(id) && (id & EXTENDED == 0 || id >> 29 == 1)
 }
 
 #[cfg(test)]
@@ -56,6 +61,9 @@ mod tests {
         for wrong in [(0x680, 0x680), (0, 0x680), (0x680, 0x605), (0x585, 0x680), (0x680, 0x800)] {
             assert_eq!(Channel::new(wrong.0, wrong.1), None, "{wrong:X?}");
         }
+        let extended = Channel::new(0x2000_0605, 0x3FFF_FFFF).expect("a channel");
+        assert_eq!((extended.request(), extended.reply()), (0x2000_0605, 0x3FFF_FFFF));
+        assert_eq!(Channel::new(0x6000_0605, 0x680), None);
         let default = Channel::of_node(NodeId::new(5).expect("a node-ID"));
         assert_eq!((default.request(), default.reply()), (0x605, 0x585));
     }

@@ -1,22 +1,36 @@
 //! A simulated device as a node on a CAN bus.
 
+mod bus;
+mod guard;
+mod layer_setting;
 mod pdo;
+mod port;
 mod sdo;
 
-use core::convert::Infallible;
 use core::time::Duration;
 use std::collections::VecDeque;
 use std::vec::Vec;
 
+use self::guard::Guard;
+use self::layer_setting::LayerSetting;
 use self::pdo::Pdos;
 use self::sdo::Servers;
 use super::device::Device;
 use crate::abort::AbortCode;
-use crate::clients::canopen::{AsyncCanPort, CanFrame, CanPort, NmtCommand, NmtState};
+use crate::clients::canopen::{CanFrame, NmtCommand, NmtState};
+use crate::lss::{self, BitRate};
 use crate::node_id::NodeId;
+use crate::pdo::can_id;
+use crate::time::TimeOfDay;
+
+pub use self::bus::CanBus;
 
 /// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
-const NMT: u16 = 0x000;
+const NMT: u32 = 0x000;
+/// Error code of an emergency message: life guard error or heartbeat error.
+const LIFE_GUARD_ERROR: u16 = 0x8130;
+/// Bits of the error register (0x1001): generic error, and communication error.
+const COMMUNICATION_ERROR: u8 = 0x11;
 /// Maximum number of sent frames that are kept. Older frames are lost, as on a real bus.
 const MOST_FRAMES: usize = 1024;
 
@@ -49,7 +63,12 @@ const MOST_FRAMES: usize = 1024;
 /// The SDO server supports expedited, segmented and block transfers of at most 8,192 bytes. The objects 0x1201 to 0x127F
 /// declare further SDO channels.
 ///
-/// The node doesn't simulate remote frames (including node guarding), LSS, and 29-bit identifiers.
+/// The node is an LSS slave (CiA 305). Its LSS address is in object 0x1018. [`without_node_id`](Self::without_node_id)
+/// creates a node that an LSS master has to configure first. [`CanBus`] is a bus with several nodes.
+///
+/// The node answers node guarding if its heartbeat producer time (0x1017) is 0, and sends the emergency message 0x8130 if
+/// the master fails for longer than the node life time (0x100C and 0x100D). The node consumes TIME if bit 31 of object
+/// 0x1012 is set. The node doesn't send PDOs on remote frames.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -61,6 +80,9 @@ pub struct CanNode {
     pdos: Pdos,
     refused: Vec<(u16, AbortCode)>,
     is_connected: bool,
+    lss: LayerSetting,
+    guard: Guard,
+    time_of_day: Option<TimeOfDay>,
 }
 
 /// Heartbeat producer.
@@ -74,8 +96,22 @@ impl CanNode {
     /// Creates a node after power-on, in Pre-operational. The first sent frame is the boot-up message.
     #[must_use]
     pub fn new(device: Device) -> Self {
-        let mut node = Self {
-            state: NmtState::PreOperational,
+        let lss = LayerSetting::new(Some(device.node_id()));
+        let mut node = Self::with_layer_setting(device, lss);
+        node.boot();
+        node
+    }
+
+    /// Creates a node after power-on that has no node-ID. Until an LSS master assigns a node-ID, the node takes part
+    /// only in LSS, and its state is [`NmtState::BootUp`].
+    #[must_use]
+    pub fn without_node_id(device: Device) -> Self {
+        Self::with_layer_setting(device, LayerSetting::new(None))
+    }
+
+    fn with_layer_setting(device: Device, lss: LayerSetting) -> Self {
+        Self {
+            state: NmtState::BootUp,
             now: Duration::ZERO,
             outgoing: VecDeque::new(),
             heartbeat: None,
@@ -83,10 +119,30 @@ impl CanNode {
             pdos: Pdos::default(),
             refused: Vec::new(),
             is_connected: true,
+            lss,
+            guard: Guard::default(),
+            time_of_day: None,
             device,
-        };
-        node.boot();
-        node
+        }
+    }
+
+    /// Returns the node-ID, or `None` if the node has none.
+    #[must_use]
+    pub const fn node_id(&self) -> Option<NodeId> {
+        self.lss.node_id()
+    }
+
+    /// Returns the time in the last TIME message, or `None` if the node has not consumed TIME.
+    #[must_use]
+    pub const fn time_of_day(&self) -> Option<TimeOfDay> {
+        self.time_of_day
+    }
+
+    /// Returns the bit rate that an LSS master has activated, or that was stored at power-on. Returns `None` if the bit
+    /// rate has not been changed.
+    #[must_use]
+    pub const fn bit_rate(&self) -> Option<BitRate> {
+        self.lss.bit_rate()
     }
 
     /// Returns the device. If you change values of the device, the node sends the resulting frames before the next
@@ -140,8 +196,12 @@ impl CanNode {
         self.advance(time);
         self.settle();
         match frame.id() {
+            _ if self.lss.is_silent(self.now) => {}
+            lss::REQUESTS => self.configure(frame),
+            _ if self.node_id().is_none() => {}
+            _ if frame.is_remote() => self.answer_guarding(frame.id()),
             NMT => self.command(frame),
-            _ if self.transfer(frame) => {}
+            _ if self.transfer(frame) || self.consume_time(frame) => {}
             id if self.state == NmtState::Operational => self.process(id, frame.data()),
             _ => {}
         }
@@ -176,13 +236,19 @@ impl CanNode {
         let heartbeat = self.heartbeat.map(|heartbeat| heartbeat.due);
         let pdos = if self.state == NmtState::Operational { self.pdos.next_event(&self.device) } else { None };
         let step = self.device.next_step().map(|time| self.now.saturating_add(time));
-        let events = [heartbeat, pdos, step, self.servers.deadline()];
+        let events = [heartbeat, pdos, step, self.servers.deadline(), self.guard.deadline()];
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
 
     /// Sends all frames that are due because a timer has expired or the device has changed.
     fn settle(&mut self) {
+        if self.node_id().is_none() {
+            return;
+        }
         self.beat();
+        if self.guard.is_expired(self.now) {
+            self.device.emit_emergency(LIFE_GUARD_ERROR, COMMUNICATION_ERROR, [0; 5]);
+        }
         for frame in self.servers.timed_out(&self.device, self.now) {
             self.emit(frame);
         }
@@ -197,7 +263,7 @@ impl CanNode {
     }
 
     fn emit(&mut self, frame: CanFrame) {
-        if self.is_connected {
+        if self.is_connected && !self.lss.is_silent(self.now) {
             if self.outgoing.len() >= MOST_FRAMES {
                 self.outgoing.pop_front();
             }
@@ -228,16 +294,21 @@ impl CanNode {
         let cob_id = self.device.slots.number(0x1014, 0).unwrap_or(default);
         let emergencies: Vec<_> = self.device.take_emergencies().collect();
         for emergency in emergencies.iter().filter(|_| cob_id & UNUSED == 0) {
-            if let Some(frame) = CanFrame::new(cob_id as u16 & 0x7FF, &emergency.to_bytes()) {
-                self.emit(frame);
-            }
+            let frame = can_id(cob_id as u32).and_then(|id| CanFrame::new(id, &emergency.to_bytes()));
+            frame.into_iter().for_each(|frame| self.emit(frame));
         }
     }
 
-    /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3).
+    /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3). A node without a node-ID waits for LSS
+    /// before that.
     fn boot(&mut self) {
         self.heartbeat = None;
+        self.guard = Guard::default();
         self.servers.reset();
+        if self.node_id().is_none() {
+            self.enter(NmtState::BootUp);
+            return;
+        }
         self.enter(NmtState::PreOperational);
         self.emit(NmtState::BootUp.heartbeat(self.device.node_id()));
         self.settle();
@@ -261,15 +332,41 @@ impl CanNode {
             Some(NmtCommand::Stop) => self.enter(NmtState::Stopped),
             Some(NmtCommand::EnterPreOperational) => self.enter(NmtState::PreOperational),
             Some(NmtCommand::ResetNode) => {
+                self.lss.power_on();
+                self.adopt_node_id();
                 self.device.power_cycle();
                 self.boot();
             }
             Some(NmtCommand::ResetCommunication) => {
-                let is_communication = |index: u16| (0x1000..=0x1FFF).contains(&index);
-                self.device.reset(|entry| entry.object.is_some_and(|object| is_communication(object.index)));
-                self.boot();
+                self.lss.restart();
+                self.restart_communication();
             }
             None => {}
+        }
+    }
+
+    fn restart_communication(&mut self) {
+        let is_communication = |index: u16| (0x1000..=0x1FFF).contains(&index);
+        self.adopt_node_id();
+        self.device.reset(|entry| entry.object.is_some_and(|object| is_communication(object.index)));
+        self.boot();
+    }
+
+    /// Sets the node-ID of the device to that of the LSS slave.
+    fn adopt_node_id(&mut self) {
+        if let Some(node) = self.node_id() {
+            self.device.set_node_id(node);
+        }
+    }
+
+    /// Processes a message of the LSS master.
+    fn configure(&mut self, frame: &CanFrame) {
+        let before = self.node_id();
+        if let Some(answer) = self.lss.handle(&self.device, frame, self.now) {
+            self.emit(answer);
+        }
+        if self.node_id() != before {
+            self.restart_communication();
         }
     }
 
@@ -285,9 +382,9 @@ impl CanNode {
     }
 
     /// Processes a SYNC message or a PDO.
-    fn process(&mut self, id: u16, data: &[u8]) {
-        let sync = self.device.slots.number(0x1005, 0).unwrap_or(0x80) as u16 & 0x7FF;
-        if id == sync {
+    fn process(&mut self, id: u32, data: &[u8]) {
+        let sync = can_id(self.device.slots.number(0x1005, 0).unwrap_or(0x80) as u32);
+        if Some(id) == sync {
             self.refused.extend(self.pdos.actuate(&mut self.device));
             for frame in self.pdos.sampled(&self.device, self.now, data.first().copied()) {
                 self.emit(frame);
@@ -298,62 +395,9 @@ impl CanNode {
     }
 }
 
-/// A bus with only this node. The clock of the node moves forward when a client waits for a frame.
-impl CanPort for CanNode {
-    type Error = Infallible;
-
-    fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
-        self.handle(frame);
-        Ok(true)
-    }
-
-    fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, Infallible> {
-        let end = self.now.saturating_add(patience);
-        loop {
-            while let Some(frame) = self.next_frame() {
-                if wanted(&frame) {
-                    return Ok(Some(frame.at(Some(self.now))));
-                }
-            }
-            match self.next_event().filter(|next| *next <= end) {
-                Some(next) => self.set_time(next),
-                None => {
-                    self.set_time(end);
-                    return Ok(None);
-                }
-            }
-        }
-    }
-
-    fn now(&mut self) -> Option<Duration> {
-        Some(self.now)
-    }
-}
-
-/// An async bus with only this node. All futures are ready at the first poll.
-impl AsyncCanPort for CanNode {
-    type Error = Infallible;
-
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
-        CanPort::send(self, frame, patience)
-    }
-
-    async fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, Infallible> {
-        CanPort::receive(self, patience, wanted)
-    }
-
-    fn now(&mut self) -> Option<Duration> {
-        Some(self.now)
-    }
-}
-
+#[cfg(test)]
+mod guard_tests;
+#[cfg(test)]
+mod lss_tests;
 #[cfg(test)]
 mod tests;

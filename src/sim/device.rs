@@ -114,6 +114,12 @@ impl Device {
         self
     }
 
+    /// Changes the node-ID. Values that depend on the node-ID change with the next reset.
+    #[cfg(feature = "canopen")]
+    pub(super) fn set_node_id(&mut self, node: NodeId) {
+        self.node = node;
+    }
+
     /// Returns the node-ID.
     #[must_use]
     pub const fn node_id(&self) -> NodeId {

@@ -42,8 +42,8 @@
 //!   change the mapping as on a real device.
 //! - EtherCAT process data: [`Device::receive_image`] and [`Device::transmit_image`] exchange process images.
 //! - Modbus: [`Device::read_words`] and related methods handle requests. A Modbus server can call these methods.
-//! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus. The CANopen clients of this crate
-//!   can use a `CanNode`.
+//! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus, and a `CanBus` is a bus with
+//!   several nodes. The CANopen clients of this crate can use both.
 //! - Further axes: [`Device::with_axes`] adds further axes.
 //! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
 //! - Time: [`Device::step`] advances the simulated time.
@@ -73,7 +73,7 @@ mod time;
 mod values;
 
 #[cfg(feature = "canopen")]
-pub use can::CanNode;
+pub use can::{CanBus, CanNode};
 pub use client::Connection;
 pub use device::{Device, DeviceAxis};
 pub use fault::{Exception, Fault};

@@ -12,9 +12,7 @@ const COUNT_NOT_ZERO: AbortCode = AbortCode(0x0601_0003);
 
 /// COB-ID bit of a disabled PDO.
 const UNUSED: u64 = 1 << 31;
-/// COB-ID bit of a 29-bit identifier.
-const EXTENDED: u64 = 1 << 29;
-/// COB-ID bits that can change only while the PDO is disabled.
+/// COB-ID bits, including the one of a 29-bit CAN-ID, that can change only while the PDO is disabled.
 const IDENTIFIER: u64 = 0x3FFF_FFFF;
 
 /// Maximum SYNC start value.
@@ -54,8 +52,7 @@ impl Device {
             1 if value & UNUSED == 0 => {
                 let old = self.slots.number(object.index, 1).unwrap_or(UNUSED);
                 let is_same = (old ^ value) & IDENTIFIER == 0;
-                // The frames of this crate have 11-bit identifiers.
-                let is_possible = value & EXTENDED == 0 && !is_restricted((value & IDENTIFIER) as u32);
+                let is_possible = !is_restricted((value & IDENTIFIER) as u32);
                 require(is_possible && (is_same || !is_used), AbortCode::INVALID_VALUE)
             }
             2 => {

@@ -116,11 +116,11 @@ impl CanPort for Bus {
         }
         let data: [u8; 8] = frame.data().try_into().expect("an SDO message");
         self.aborts += usize::from(data[0] == 0x80);
-        if frame.id() == 0x600 + u16::from(NODE) {
+        if frame.id() == 0x600 + u32::from(NODE) {
             self.server.handle(&data, Duration::ZERO, &mut self.objects);
         }
         while let Some(reply) = self.server.next() {
-            self.reply(CanFrame::new(0x580 + u16::from(NODE), &reply).expect("a frame"));
+            self.reply(CanFrame::new(0x580 + u32::from(NODE), &reply).expect("a frame"));
         }
         Ok(true)
     }

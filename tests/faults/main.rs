@@ -10,6 +10,9 @@ mod coe;
 #[path = "../../examples/support/ethercat/mod.rs"]
 #[allow(dead_code, unused_imports)] // the application of the servo
 mod ethercat;
+mod faulty;
+mod guarding;
+mod lss;
 mod matrix;
 mod modbus;
 mod modbus_rows;

@@ -7,6 +7,7 @@ import logging
 import sys
 
 import canopen
+from canopen import lss
 from canopen.objectdictionary import ObjectDictionary
 from canopen.sdo import SdoAbortedError
 
@@ -43,11 +44,43 @@ class Client:
             return error.code
         return None
 
+    def fast_scan(self):
+        """Finds a node without node-ID and returns its LSS address, or null. The node is in Configuration after that."""
+        # The library waits for this time for each bit that is 1.
+        self.network.lss.RESPONSE_TIMEOUT = 0.4
+        is_found, address = self.network.lss.fast_scan()
+        self.network.lss.RESPONSE_TIMEOUT = TIMEOUT
+        return address if is_found else None
+
+    def select(self, address):
+        """Switches the node with this LSS address to Configuration."""
+        return self.network.lss.send_switch_state_selective(*address)
+
+    def inquire(self):
+        """Returns the LSS address and the node-ID of the node in Configuration."""
+        commands = range(lss.CS_INQUIRE_VENDOR_ID, lss.CS_INQUIRE_VENDOR_ID + 4)
+        return [self.network.lss.inquire_lss_address(command) for command in commands] + [self.network.lss.inquire_node_id()]
+
+    def configure(self, node_id, bit_timing):
+        """Sets and stores the node-ID and the bit timing of the node in Configuration. Returns the error if it refuses."""
+        try:
+            self.network.lss.configure_node_id(node_id)
+            self.network.lss.configure_bit_timing(bit_timing)
+            self.network.lss.store_configuration()
+        except lss.LssError as error:
+            return str(error)
+        return None
+
+    def wait(self):
+        """Switches all nodes to Waiting."""
+        self.network.lss.send_switch_state_global(self.network.lss.WAITING_STATE)
+
 
 def main():
     tty, node_id = sys.argv[1:]
     client = Client(tty, int(node_id))
-    serve({"upload": client.upload, "download": client.download})
+    names = ["upload", "download", "fast_scan", "select", "inquire", "configure", "wait"]
+    serve({name: getattr(client, name) for name in names})
     client.network.disconnect()
 
 

@@ -51,22 +51,33 @@ impl Received {
 /// Parses a line as a frame. Returns `None` if the line is a setup command of the adapter.
 fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     let wrong = || io::Error::new(io::ErrorKind::InvalidData, format!("no frame: {}", line.escape_ascii()));
-    let digits = match line {
-        [b't', digits @ ..] => std::str::from_utf8(digits).map_err(|_| wrong())?,
+    // `t` and `T` are data frames with CAN-IDs of 11 and 29 bits, `r` and `R` are remote frames.
+    let (kind, digits) = match line {
+        [kind @ (b't' | b'T' | b'r' | b'R'), digits @ ..] => (*kind, std::str::from_utf8(digits).map_err(|_| wrong())?),
         [b'C' | b'O' | b'S', ..] | [] => return Ok(None),
         _ => return Err(wrong()),
     };
     let number =
-        |digits: Option<&str>| digits.and_then(|digits| u16::from_str_radix(digits, 16).ok()).ok_or_else(wrong);
-    let (id, length) = (number(digits.get(..3))?, number(digits.get(3..4))?);
-    let byte = |at: u16| number(digits.get(4 + 2 * usize::from(at)..6 + 2 * usize::from(at))).map(|byte| byte as u8);
+        |digits: Option<&str>| digits.and_then(|digits| u32::from_str_radix(digits, 16).ok()).ok_or_else(wrong);
+    let (width, flag) = if kind.is_ascii_uppercase() { (8, CanFrame::EXTENDED) } else { (3, 0) };
+    let (id, length) = (flag | number(digits.get(..width))?, number(digits.get(width..width + 1))? as usize);
+    if kind.eq_ignore_ascii_case(&b'r') {
+        return CanFrame::remote(id, length as u8).map(Some).ok_or_else(wrong);
+    }
+    let first = width + 1;
+    let byte = |at: usize| number(digits.get(first + 2 * at..first + 2 * at + 2)).map(|byte| byte as u8);
     let data: Vec<u8> = (0..length).map(byte).collect::<Result<_, _>>()?;
     CanFrame::new(id, &data).map(Some).ok_or_else(wrong)
 }
 
 /// Formats a frame as a line.
 fn line(frame: &CanFrame) -> String {
-    let mut line = format!("t{:03X}{}", frame.id(), frame.data().len());
+    let kind = if frame.is_remote() { 'r' } else { 't' };
+    let mut line = match frame.is_extended() {
+        true => format!("{}{:08X}", kind.to_ascii_uppercase(), frame.id() & !CanFrame::EXTENDED),
+        false => format!("{kind}{:03X}", frame.id()),
+    };
+    write!(line, "{}", frame.length()).expect("memory");
     frame.data().iter().for_each(|byte| write!(line, "{byte:02X}").expect("memory"));
     line.push('\r');
     line

@@ -3,28 +3,29 @@
 use super::frame::CanFrame;
 use crate::emergency::Emergency;
 use crate::node_id::NodeId;
+use crate::pdo::can_id;
 
 /// Default COB-ID of emergency messages in object 0x1014, without the node-ID (CiA 301 7.3.5).
-const EMERGENCY: u16 = 0x080;
+const EMERGENCY: u32 = 0x080;
 
 impl Emergency {
     /// Returns the emergency message in a frame with the default COB-ID of `node`, or `None` for other frames.
     #[must_use]
     pub fn of(frame: &CanFrame, node: NodeId) -> Option<Self> {
-        Self::of_id(frame, EMERGENCY + u16::from(node.get()))
+        Self::of_id(frame, EMERGENCY + u32::from(node.get()))
     }
 
-    /// Returns the emergency message in a frame with the COB-ID `id` (bits 0 to 10 of object 0x1014). Returns `None`
-    /// for other frames.
+    /// Returns the emergency message in a frame with the COB-ID `id` (object 0x1014; bit 29 for CAN-IDs of 29 bits,
+    /// bits 30 and 31 are ignored). Returns `None` for other frames.
     #[must_use]
-    pub fn of_id(frame: &CanFrame, id: u16) -> Option<Self> {
-        Self::from_bytes(frame.data()).filter(|_| frame.id() == id)
+    pub fn of_id(frame: &CanFrame, id: u32) -> Option<Self> {
+        Self::from_bytes(frame.data()).filter(|_| Some(frame.id()) == can_id(id))
     }
 
     /// Returns the frame in which `node` sends this message.
     #[must_use]
     pub fn frame(&self, node: NodeId) -> CanFrame {
-        CanFrame::of(EMERGENCY + u16::from(node.get()), self.to_bytes())
+        CanFrame::of(EMERGENCY + u32::from(node.get()), self.to_bytes())
     }
 }
 
@@ -40,6 +41,9 @@ mod tests {
         assert_eq!((frame.id(), frame.data()), (0x085, [0x30, 0x81, 0x11, 1, 2, 3, 4, 5].as_slice()));
         assert_eq!(Emergency::of(&frame, node), Some(emergency));
         assert_eq!(Emergency::of_id(&frame, 0x086), None);
+        let extended = CanFrame::new(CanFrame::EXTENDED | 0x085, frame.data()).expect("a frame");
+        assert_eq!(Emergency::of_id(&extended, 0x085), None);
+        assert_eq!(Emergency::of_id(&extended, 0x2000_0085), Some(emergency));
         assert_eq!(Emergency::of(&CanFrame::of(0x085, [0; 7]), node), None);
     }
 }

@@ -2,41 +2,70 @@
 
 use core::time::Duration;
 
-use embedded_can::{Id, StandardId};
+use embedded_can::{ExtendedId, Id, StandardId};
 
-/// A CAN data frame with an 11-bit identifier. A received frame also has a [time](Self::time).
+use crate::pdo::EXTENDED;
+
+/// A CAN frame: a data frame, or a remote frame, which requests a data frame. A received frame also has a
+/// [time](Self::time).
 ///
-/// Frames are equal if their identifiers and data are equal. The comparison ignores the time.
+/// The identifier is that of a COB-ID: for a CAN-ID of 29 bits, bit 29 is set ([`EXTENDED`](Self::EXTENDED)). The
+/// identifiers of frames with 11 and 29 bits are therefore always different:
+///
+/// ```
+/// use lexibus::clients::canopen::CanFrame;
+///
+/// let frame = CanFrame::new(CanFrame::EXTENDED | 0x185, &[1, 2]).expect("a CAN-ID of 29 bits");
+/// assert_ne!(frame.id(), 0x185);
+/// let request = CanFrame::remote(0x185, 2).expect("a remote frame");
+/// assert!(request.is_remote() && request.data().is_empty());
+/// ```
+///
+/// Frames are equal if their identifiers, types, lengths and data are equal. The comparison ignores the time.
 #[derive(Clone, Copy, Debug)]
 pub struct CanFrame {
-    id: u16,
+    id: u32,
     data: [u8; 8],
     length: u8,
+    is_remote: bool,
     time: Option<Duration>,
 }
 
 impl PartialEq for CanFrame {
     fn eq(&self, other: &Self) -> bool {
-        self.id == other.id && self.data() == other.data()
+        let kind = |frame: &Self| (frame.id, frame.length, frame.is_remote);
+        kind(self) == kind(other) && self.data() == other.data()
     }
 }
 
 impl Eq for CanFrame {}
 
 impl CanFrame {
-    /// Creates a frame. Returns `None` if `id` has more than 11 bits, or `data` more than 8 bytes.
+    /// Bit of an identifier: the CAN-ID has 29 bits.
+    pub const EXTENDED: u32 = EXTENDED;
+
+    /// Creates a data frame. Returns `None` if `data` has more than 8 bytes, or if `id` is invalid: a CAN-ID has 11 bits,
+    /// or 29 bits in addition to [`EXTENDED`](Self::EXTENDED).
     #[must_use]
-    pub fn new(id: u16, data: &[u8]) -> Option<Self> {
+    pub fn new(id: u32, data: &[u8]) -> Option<Self> {
         let mut bytes = [0; 8];
         bytes.get_mut(..data.len())?.copy_from_slice(data);
-        (id <= 0x7FF).then_some(Self { id, data: bytes, length: data.len() as u8, time: None })
+        is_valid(id).then_some(Self { id, data: bytes, length: data.len() as u8, is_remote: false, time: None })
     }
 
-    /// Creates a frame whose identifier and length are known to be valid: 11 bits and at most 8 bytes.
-    pub(super) fn of<const N: usize>(id: u16, data: [u8; N]) -> Self {
+    /// Creates a remote frame, which requests a data frame of this length. Returns `None` if `length` is more than 8, or
+    /// if `id` is invalid, as for [`new`](Self::new).
+    #[must_use]
+    pub fn remote(id: u32, length: u8) -> Option<Self> {
+        let is_possible = length <= 8 && is_valid(id);
+        is_possible.then_some(Self { id, data: [0; 8], length, is_remote: true, time: None })
+    }
+
+    /// Creates a frame whose identifier and length are known to be valid: at most 8 bytes.
+    pub(super) fn of<const N: usize>(id: u32, data: [u8; N]) -> Self {
         let mut bytes = [0; 8];
         bytes.iter_mut().zip(data).for_each(|(to, from)| *to = from);
-        Self { id: id & 0x7FF, data: bytes, length: N.min(8) as u8, time: None }
+        Self { id, data: bytes, length: N.min(8) as u8, is_remote: false, time: None }
     }
 
     /// Returns the data, padded with 0 to eight bytes.
@@ -61,31 +90,65 @@ impl CanFrame {
         self.time
     }
 
-    /// Returns the identifier (COB-ID).
+    /// Returns the identifier: the CAN-ID, and [`EXTENDED`](Self::EXTENDED) if the CAN-ID has 29 bits.
     #[must_use]
-    pub const fn id(&self) -> u16 {
+    pub const fn id(&self) -> u32 {
         self.id
     }
 
-    /// Returns the data.
+    /// Returns whether the CAN-ID has 29 bits.
     #[must_use]
-    pub fn data(&self) -> &[u8] {
-        &self.data[..usize::from(self.length)]
+    pub const fn is_extended(&self) -> bool {
+        self.id & EXTENDED != 0
     }
 
-    /// Converts a frame of another library. Returns `None` for remote frames and for 29-bit identifiers.
+    /// Returns whether the frame is a remote frame.
+    #[must_use]
+    pub const fn is_remote(&self) -> bool {
+        self.is_remote
+    }
+
+    /// Returns the number of bytes in a data frame, or the number of bytes that a remote frame requests.
+    #[must_use]
+    pub const fn length(&self) -> u8 {
+        self.length
+    }
+
+    /// Returns the data. A remote frame has no data.
+    #[must_use]
+    pub fn data(&self) -> &[u8] {
+        let length = if self.is_remote { 0 } else { usize::from(self.length) };
+        self.data.get(..length).unwrap_or(&self.data)
+    }
+
+    /// Converts a frame of another library. Returns `None` if the frame has more than 8 bytes.
     pub fn from_frame(frame: &impl embedded_can::Frame) -> Option<Self> {
-        match frame.id() {
-            Id::Standard(id) if frame.is_data_frame() => Self::new(id.as_raw(), frame.data()),
-            _ => None,
+        let id = match frame.id() {
+            Id::Standard(id) => id.as_raw().into(),
+            Id::Extended(id) => EXTENDED | id.as_raw(),
+        };
+        if frame.is_remote_frame() {
+            return Self::remote(id, u8::try_from(frame.dlc()).ok()?);
         }
+        Self::new(id, frame.data())
     }
 
     /// Converts the frame to a frame of another library. Returns `None` if the other library cannot represent the
     /// frame.
     pub fn to_frame<F: embedded_can::Frame>(&self) -> Option<F> {
-        F::new(StandardId::new(self.id)?, self.data())
+        let id = match self.is_extended() {
+            true => Id::Extended(ExtendedId::new(self.id & !EXTENDED)?),
+            false => Id::Standard(StandardId::new(u16::try_from(self.id).ok()?)?),
+        };
+        if self.is_remote {
+            return F::new_remote(id, self.length.into());
+        }
+        F::new(id, self.data())
     }
+}
+
+const fn is_valid(id: u32) -> bool {
+    id <= 0x7FF || id >> 29 == 1
 }
 
 #[cfg(test)]
@@ -99,6 +162,19 @@ mod tests {
         let frame = CanFrame::new(0x185, &[1, 2]).expect("a frame");
         assert_eq!((frame.id(), frame.data()), (0x185, [1, 2].as_slice()));
         assert_ne!(frame, CanFrame::new(0x185, &[1, 2, 0]).expect("a longer frame"));
+    }
+
+    #[test]
+    fn identifiers_of_29_bits_and_remote_frames() {
+        let extended = CanFrame::new(CanFrame::EXTENDED | 0x1FFF_FFFF, &[1]).expect("a frame");
+        assert!(extended.is_extended() && !extended.is_remote());
+        assert_eq!(CanFrame::new(0x4000_0185, &[]), None);
+        assert_eq!(CanFrame::new(0x1FFF_FFFF, &[]), None);
+        let remote = CanFrame::remote(0x705, 1).expect("a remote frame");
+        assert_eq!((remote.data(), remote.length()), ([].as_slice(), 1));
+        assert_ne!(remote, CanFrame::new(0x705, &[0]).expect("a data frame"));
+        assert_ne!(CanFrame::remote(0x705, 0), CanFrame::new(0x705, &[]));
+        assert_eq!((CanFrame::remote(0x705, 9), CanFrame::remote(0x800, 1)), (None, None));
     }
 
     #[test]

@@ -66,7 +66,7 @@ pub(super) fn is_full(error: &io::Error) -> bool {
     error.raw_os_error() == Some(libc::ENOBUFS)
 }
 
-/// Converts a data frame. Returns `None` for remote frames.
+/// Converts a data frame or a remote frame.
 ///
 /// # Errors
 ///
@@ -74,8 +74,7 @@ pub(super) fn is_full(error: &io::Error) -> bool {
 /// that match its error filter.
 fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
     match frame {
-        socketcan::CanFrame::Data(_) => Ok(CanFrame::from_frame(frame)),
-        socketcan::CanFrame::Remote(_) => Ok(None),
+        socketcan::CanFrame::Data(_) | socketcan::CanFrame::Remote(_) => Ok(CanFrame::from_frame(frame)),
         // An error frame can report several errors. Bus-off takes precedence because it ends the communication.
         socketcan::CanFrame::Error(error) if error.error_bits() & BUS_OFF != 0 => Err(CanError::BusOff),
         socketcan::CanFrame::Error(error) => Err(CanError::from(*error)),
@@ -110,7 +109,15 @@ mod tests {
         assert!(matches!(from_socket(&error(0x042)), Err(CanError::BusOff)));
         assert!(matches!(from_socket(&error(0x020)), Err(CanError::NoAck)));
         let remote = SocketFrame::new_remote(id, 2).expect("a request");
-        assert_eq!(from_socket(&remote).ok(), Some(None));
+        assert_eq!(from_socket(&remote).ok(), Some(CanFrame::remote(0x088, 2)));
+        for frame in [
+            CanFrame::remote(0x088, 2),
+            CanFrame::remote(CanFrame::EXTENDED | 0x1234_5678, 8),
+            CanFrame::new(CanFrame::EXTENDED | 0x088, &[1, 2, 3]),
+        ] {
+            let socket: SocketFrame = frame.and_then(|frame| frame.to_frame()).expect("a frame");
+            assert_eq!(from_socket(&socket).ok(), Some(frame));
+        }
         let time = received(&data).ok().flatten().and_then(|frame| frame.time());
         assert!(time.is_some_and(|time| Some(time) <= DefaultClock.now()));
     }

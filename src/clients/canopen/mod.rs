@@ -1,7 +1,7 @@
 //! CANopen over any CAN interface.
 //!
 //! Supports SDO transfers (CiA 301 7.2.4; expedited, segmented and block transfers), NMT and heartbeat (7.2.8), emergency messages
-//! (7.2.7), SYNC (7.2.5) and PDOs (7.2.2).
+//! (7.2.7), node guarding (7.2.8.3.2.1), SYNC (7.2.5), TIME (7.2.6), PDOs (7.2.2), and LSS (CiA 305).
 //!
 //! ```
 //! use std::time::{Duration, Instant};
@@ -48,19 +48,26 @@
 mod buffered;
 mod emergency;
 mod frame;
+mod guarding;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 mod linux;
 #[cfg(all(feature = "socketcan-tokio", target_os = "linux"))]
 mod linux_async;
+mod lss;
+mod network;
 mod nmt;
 mod node;
 mod polled;
 mod port;
 mod sdo;
+mod time_stamp;
 
 pub use crate::sdo::Channel;
 pub use buffered::Buffered;
 pub use frame::CanFrame;
+pub use guarding::{GuardError, Guarding};
+pub use lss::LssMaster;
+pub use network::{Network, NetworkPort};
 pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState};
 pub use node::{Node, TIMEOUT};
 pub use polled::Polled;

@@ -4,13 +4,13 @@ use super::frame::CanFrame;
 use crate::node_id::NodeId;
 
 /// COB-ID of NMT commands.
-const COMMANDS: u16 = 0x000;
+const COMMANDS: u32 = 0x000;
 
 /// COB-ID of heartbeats without the node-ID (CiA 301 7.3.5).
-const ERROR_CONTROL: u16 = 0x700;
+pub(super) const ERROR_CONTROL: u32 = 0x700;
 
 /// Default COB-ID of SYNC in object 0x1005 (CiA 301 7.3.5).
-pub const SYNC: u16 = 0x080;
+pub const SYNC: u32 = 0x080;
 
 /// NMT command to one node or to all nodes (CiA 301 7.2.8.3.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -104,7 +104,7 @@ impl NmtState {
     /// Returns the heartbeat with which `node` reports this state.
     #[must_use]
     pub fn heartbeat(self, node: NodeId) -> CanFrame {
-        CanFrame::of(ERROR_CONTROL + u16::from(node.get()), [self.raw()])
+        CanFrame::of(ERROR_CONTROL + u32::from(node.get()), [self.raw()])
     }
 
     /// Returns the node and its state from a heartbeat or boot-up message. Returns `None` for other frames.

@@ -9,8 +9,9 @@ use super::sdo::Owed;
 use crate::emergency::Emergency;
 use crate::error::Error;
 use crate::node_id::NodeId;
-use crate::pdo::{is_restricted, CobId};
+use crate::pdo::{can_id, is_restricted, CobId};
 use crate::sdo::{Channel, BLOCK_THRESHOLD};
+use crate::time::TimeOfDay;
 use crate::value_error::{LengthError, OutOfRange};
 
 /// Default timeout for each reply.
@@ -137,15 +138,14 @@ fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
-/// Returns the 11-bit COB-ID of a PDO of `node`.
+/// Returns the CAN-ID of a PDO of `node`, with bit 29 if it has 29 bits.
 ///
 /// Some PDOs have the default COB-ID 0, which would be an NMT command to all nodes. Restricted COB-IDs are therefore
 /// rejected.
-fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u16, Error<E>> {
+fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u32, Error<E>> {
     // Bit 31 marks a PDO that is disabled by default; a configuration can enable it. Bit 30 means that RTR isn't
     // allowed.
-    let id = cob_id.resolve(node) & 0x3FFF_FFFF;
-    u16::try_from(id).ok().filter(|_| !is_restricted(id)).ok_or(Error::OutOfRange(OutOfRange))
+    can_id(cob_id.resolve(node)).filter(|id| !is_restricted(*id)).ok_or(Error::OutOfRange(OutOfRange))
 }
 
 fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>> {
@@ -156,7 +156,7 @@ fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>
 /// Defines the methods of a node, blocking and async.
 macro_rules! methods {
     (
-        $Port:ident: $send:ident $nmt:ident $sync:ident $sync_with_counter:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
+        $Port:ident: $send:ident $nmt:ident $send_time:ident $time:ident $sync:ident $sync_with_counter:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
         $receive_pdo:ident $latest_pdo:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
@@ -178,6 +178,26 @@ macro_rules! methods {
             pub $($async)? fn $nmt(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
                 let frame = command.frame(Some(self.id));
                 self.$send(&frame)$(.$await)?
+            }
+
+            /// Sends TIME with the default COB-ID 0x100 (CiA 301 7.2.6). All nodes that consume TIME set their clocks.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of [`send`](Self::send).
+            pub $($async)? fn $send_time(&mut self, time: TimeOfDay) -> Result<(), Error<P::Error>> {
+                self.$send(&time.frame())$(.$await)?
+            }
+
+            /// Waits for the next TIME message of the network with the default COB-ID 0x100, and returns its time.
+            /// Returns `None` if no message arrives within `patience`.
+            ///
+            /// # Errors
+            ///
+            /// Returns [`Error::Client`] if the interface fails.
+            pub $($async)? fn $time(&mut self, patience: Duration) -> Result<Option<TimeOfDay>, Error<P::Error>> {
+                let frame = self.port.receive(patience, &mut |frame| TimeOfDay::of(frame).is_some())$(.$await)?;
+                Ok(frame.map_err(Error::Client)?.as_ref().and_then(TimeOfDay::of))
             }
 
             /// Sends SYNC. The nodes of the network send and apply their synchronous PDOs when they receive SYNC.
@@ -250,8 +270,8 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Returns the errors of [`send`](Self::send). Returns [`Error::OutOfRange`] if `cob_id` isn't an 11-bit
-            /// COB-ID that a PDO may have (CiA 301 7.3.5), or [`Error::Length`] if `data` has more than 8 bytes.
+            /// Returns the errors of [`send`](Self::send). Returns [`Error::OutOfRange`] if `cob_id` isn't a COB-ID
+            /// that a PDO may have (CiA 301 7.3.5), or [`Error::Length`] if `data` has more than 8 bytes.
             pub $($async)? fn $send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
                 let frame = pdo(cob_id, self.id, data)?;
                 self.$send(&frame)$(.$await)?
@@ -274,7 +294,7 @@ macro_rules! methods {
                 patience: Duration,
             ) -> Result<CanFrame, Error<P::Error>> {
                 let id = identifier(cob_id, self.id)?;
-                let frame = self.port.receive(patience, &mut |frame| frame.id() == id)$(.$await)?;
+                let frame = self.port.receive(patience, &mut |frame| frame.id() == id && !frame.is_remote())$(.$await)?;
                 frame.map_err(Error::Client)?.ok_or(Error::Timeout)
             }
 
@@ -308,7 +328,7 @@ macro_rules! methods {
                 let id = identifier(cob_id, self.id)?;
                 let mut newest = None;
                 for _ in 0..MOST_WAITING {
-                    let frame = self.port.receive(Duration::ZERO, &mut |frame| frame.id() == id)$(.$await)?;
+                    let frame = self.port.receive(Duration::ZERO, &mut |frame| frame.id() == id && !frame.is_remote())$(.$await)?;
                     match frame.map_err(Error::Client)? {
                         Some(frame) => newest = Some(frame),
                         None => break,
@@ -321,9 +341,9 @@ macro_rules! methods {
 }
 
 methods! {
-    CanPort: send nmt sync sync_with_counter heartbeat wait_for emergency send_pdo receive_pdo latest_pdo
+    CanPort: send nmt send_time time sync sync_with_counter heartbeat wait_for emergency send_pdo receive_pdo latest_pdo
 }
 methods! {
-    AsyncCanPort: send_async nmt_async sync_async sync_with_counter_async heartbeat_async wait_for_async emergency_async send_pdo_async
+    AsyncCanPort: send_async nmt_async send_time_async time_async sync_async sync_with_counter_async heartbeat_async wait_for_async emergency_async send_pdo_async
     receive_pdo_async latest_pdo_async async await
 }

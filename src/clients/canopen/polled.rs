@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     fn frame(id: u16) -> CanFrame {
-        CanFrame::new(id, &[]).expect("a frame")
+        CanFrame::new(id.into(), &[]).expect("a frame")
     }
 
     type Transmitted = nb::Result<Option<Raw>, embedded_can::ErrorKind>;

@@ -23,7 +23,7 @@ pub(super) struct Owed {
 
 /// Returns the SDO message in a frame with this identifier. An SDO message has eight bytes (CiA 301 7.2.4.3). Other
 /// frames are not accepted because they would restart the timeout.
-fn message(frame: &CanFrame, id: u16) -> Option<Message> {
+fn message(frame: &CanFrame, id: u32) -> Option<Message> {
     frame.data().try_into().ok().filter(|_| frame.id() == id)
 }
 

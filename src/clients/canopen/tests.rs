@@ -342,12 +342,13 @@ fn pdos_have_the_identifiers_of_the_node() {
     assert_eq!(node.send_pdo(CobId::from_node(0x200), &[1, 2]), Ok(()));
     // The PDO is disabled by default, and a configuration can enable it.
     assert_eq!(node.send_pdo(CobId::from_node(0xC000_0200), &[]), Ok(()));
-    // A PDO must not have the COB-ID 0, a COB-ID of SDO or heartbeat, or a 29-bit identifier.
+    // A PDO must not have the COB-ID 0, a COB-ID of SDO or heartbeat, or more than 11 bits without bit 29.
     for wrong in [CobId::fixed(0x8000_0000), CobId::from_node(0x8000_0000), CobId::fixed(0), CobId::fixed(0x605)] {
         assert_eq!(node.send_pdo(wrong, &[0x80, 0]), Err(Error::OutOfRange(OutOfRange)));
         assert_eq!(node.receive_pdo(wrong, Duration::ZERO), Err(Error::OutOfRange(OutOfRange)));
     }
-    assert_eq!(node.send_pdo(CobId::fixed(0x2000_0800), &[]), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(node.send_pdo(CobId::fixed(0x2000_0800), &[]), Ok(()));
+    assert_eq!(node.send_pdo(CobId::fixed(0x0000_0800), &[]), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(node.send_pdo(CobId::fixed(0x205), &[0; 9]), Err(Error::Length(LengthError::new(8, 9))));
 }
 

@@ -9,6 +9,7 @@ use super::super::device::Device;
 use super::super::process;
 use crate::abort::AbortCode;
 use crate::clients::canopen::CanFrame;
+use crate::pdo::can_id;
 
 /// Indices of the communication parameters of RPDOs and TPDOs.
 const RECEIVED: RangeInclusive<u16> = 0x1400..=0x15FF;
@@ -53,7 +54,7 @@ struct Sent {
 #[derive(Clone, Copy)]
 struct Communication {
     index: u16,
-    id: u16,
+    id: u32,
     kind: u64,
     inhibit: Duration,
     timer: Duration,
@@ -68,7 +69,7 @@ impl Communication {
         let cob_id = number(1).filter(|_| device.is_used(index))?;
         Some(Self {
             index,
-            id: cob_id as u16 & 0x7FF,
+            id: can_id(cob_id as u32)?,
             kind: number(2).unwrap_or(EVENT),
             inhibit: Duration::from_micros(100 * number(3).unwrap_or(0)),
             timer: Duration::from_millis(number(5).unwrap_or(0)),
@@ -150,7 +151,7 @@ impl Pdos {
 
     /// Processes a received PDO. A synchronous PDO is applied at the next SYNC. Returns the mapping object and the
     /// abort code if the device refused a value.
-    pub fn receive(&mut self, device: &mut Device, id: u16, data: &[u8]) -> Vec<(u16, AbortCode)> {
+    pub fn receive(&mut self, device: &mut Device, id: u32, data: &[u8]) -> Vec<(u16, AbortCode)> {
         let pdos = Communication::all(device, RECEIVED).into_iter().filter(|pdo| pdo.id == id);
         let mut refused = Vec::new();
         for pdo in pdos {
@@ -171,7 +172,7 @@ impl Pdos {
 }
 
 impl Sent {
-    fn send(&mut self, id: u16, data: Vec<u8>, now: Duration) -> Option<CanFrame> {
+    fn send(&mut self, id: u32, data: Vec<u8>, now: Duration) -> Option<CanFrame> {
         let frame = CanFrame::new(id, &data);
         *self = Self { data, at: Some(now), syncs: 0, is_started: self.is_started };
         frame

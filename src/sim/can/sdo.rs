@@ -11,6 +11,7 @@ use super::super::values;
 use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::clients::canopen::CanFrame;
+use crate::pdo::can_id;
 use crate::sdo::{Channel, Objects, Server};
 
 /// Maximum length of a value in a transfer, in bytes.
@@ -28,9 +29,8 @@ enum Source {
 }
 
 impl Source {
-    /// Returns the COB-IDs of requests and replies. Returns `None` if the channel is disabled (bit 31), or if a COB-ID
-    /// has 29 bits.
-    fn identifiers(self, device: &Device) -> Option<(u16, u16)> {
+    /// Returns the COB-IDs of requests and replies. Returns `None` if the channel is disabled (bit 31).
+    fn identifiers(self, device: &Device) -> Option<(u32, u32)> {
         let index = match self {
             Self::Default => {
                 let channel = Channel::of_node(device.node_id());
@@ -40,7 +40,8 @@ impl Source {
         };
         let identifier = |sub_index| {
             let cob_id = device.slots.number(index, sub_index)?;
-            u16::try_from(cob_id).ok().filter(|id| (1..=0x7FF).contains(id))
+            let cob_id = u32::try_from(cob_id).ok().filter(|cob_id| *cob_id != 0 && cob_id >> 31 == 0);
+            can_id(cob_id?)
         };
         Some((identifier(1)?, identifier(2)?))
     }

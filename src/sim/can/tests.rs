@@ -1,14 +1,15 @@
 use super::*;
+
 use crate::bus::Object;
 use crate::client::Client;
-use crate::clients::canopen::{Channel, Node};
+use crate::clients::canopen::{CanPort, Channel, Node};
 use crate::data_type::DataType;
 use crate::error::Error;
 use crate::flags::Flags;
 use crate::node_id::NodeId;
 use crate::table::{AccessRights, Bound, Entry, RawInitial};
 
-const NODE: NodeId = match NodeId::new(5) {
+pub(super) const NODE: NodeId = match NodeId::new(5) {
     Some(node) => node,
     None => unreachable!(),
 };
@@ -33,9 +34,12 @@ const U16: DataType = DataType::Unsigned16;
 const U32: DataType = DataType::Unsigned32;
 
 /// Creates a node with an RPDO (COB-ID 0x205) and a TPDO (COB-ID 0x185), both with object 0x2000.
-fn node() -> CanNode {
+pub(super) fn node() -> CanNode {
     let entries = [
         entry(0x1001, 0, U8, &[0]),
+        entry(0x100C, 0, U16, &[0, 0]),
+        entry(0x100D, 0, U8, &[0]),
+        entry(0x1012, 0, U32, &[0, 1, 0, 0]),
         entry(0x1014, 0, U32, &[0x85, 0, 0, 0]),
         entry(0x1017, 0, U16, &[0]),
         entry(0x1201, 1, U32, &[0x80, 6, 0, 0]),
@@ -56,20 +60,20 @@ fn node() -> CanNode {
     CanNode::new(Device::new(&entries).with_node_id(NODE))
 }
 
-fn set(node: &mut CanNode, index: u16, sub_index: u8, bytes: &[u8]) {
+pub(super) fn set(node: &mut CanNode, index: u16, sub_index: u8, bytes: &[u8]) {
     node.device().set_bytes(Object::new(index, sub_index), bytes).unwrap();
 }
 
-fn send(node: &mut CanNode, id: u16, data: &[u8]) {
+pub(super) fn send(node: &mut CanNode, id: u32, data: &[u8]) {
     node.handle(&CanFrame::new(id, data).unwrap());
 }
 
-fn receive(node: &mut CanNode, id: u16, patience: Duration) -> Option<CanFrame> {
+fn receive(node: &mut CanNode, id: u32, patience: Duration) -> Option<CanFrame> {
     CanPort::receive(node, patience, &mut |frame| frame.id() == id).unwrap()
 }
 
 /// Returns all frames that the node has sent.
-fn frames(node: &mut CanNode) -> Vec<(u16, Vec<u8>)> {
+pub(super) fn frames(node: &mut CanNode) -> Vec<(u32, Vec<u8>)> {
     core::iter::from_fn(|| node.next_frame()).map(|frame| (frame.id(), frame.data().to_vec())).collect()
 }
 

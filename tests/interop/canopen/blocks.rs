@@ -40,7 +40,7 @@ const fn domain(object: Object, access: AccessRights) -> Entry {
 const POLL: Duration = Duration::from_millis(20);
 
 /// Selects the frames that the line loses, by their number among the frames with this identifier.
-type Loses = fn(id: u16, number: usize) -> bool;
+type Loses = fn(id: u32, number: usize) -> bool;
 
 /// The simulated node on a serial line, in a thread.
 struct Served {
@@ -58,7 +58,7 @@ impl Served {
         let thread = thread::spawn(move || {
             let (mut line, mut requests, mut replies) = (Slcan::new(line), 0, 0);
             let mut is_lost = |frame: &CanFrame| {
-                let count = if frame.id() == 0x600 + u16::from(NODE) { &mut requests } else { &mut replies };
+                let count = if frame.id() == 0x600 + u32::from(NODE) { &mut requests } else { &mut replies };
                 *count += 1;
                 loses(frame.id(), *count)
             };

@@ -3,6 +3,7 @@
 
 mod blocks;
 mod demo_drive;
+mod lss;
 mod network;
 mod not_blocking;
 mod pdo;

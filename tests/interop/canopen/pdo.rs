@@ -35,11 +35,11 @@ pub fn configure(node: &mut Node, steps: impl IntoIterator<Item = SdoWrite>) -> 
 
 /// Creates a CAN frame. `id` is its CAN-ID.
 pub fn frame(id: u32, data: &[u8]) -> CanFrame {
-    CanFrame::new(id as u16, data).expect("a frame")
+    CanFrame::new(id, data).expect("a frame")
 }
 
 pub fn receive(node: &mut Node, id: u32) -> CanFrame {
-    let received = node.port().receive(PATIENCE, &mut |frame| u32::from(frame.id()) == id).expect("a line");
+    let received = node.port().receive(PATIENCE, &mut |frame| frame.id() == id).expect("a line");
     received.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
 }
 

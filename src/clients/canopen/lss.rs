@@ -1,0 +1,356 @@
+//! Master of the layer setting services (CiA 305).
+
+use core::time::Duration;
+
+use super::frame::CanFrame;
+use super::node::TIMEOUT;
+use super::port::{AsyncCanPort, CanPort, BACKLOG};
+use crate::lss::{
+    is_identified, BitRate, FastScan, IdentityPart, LssAddress, LssError, LssState, Message, Service, Transaction,
+    ANSWERS, REQUESTS,
+};
+use crate::node_id::NodeId;
+
+/// Default time in which slaves answer a fastscan request, and in which further answers are an error.
+const WINDOW: Duration = Duration::from_millis(20);
+
+/// Master of the layer setting services (LSS, CiA 305) on a CAN interface: assigns node-IDs and bit rates. With a
+/// [`CanPort`], use the methods without suffix. With an [`AsyncCanPort`], use the methods whose names end in `_async`.
+///
+/// ```
+/// use lexibus::clients::canopen::LssMaster;
+/// use lexibus::lss::{LssAddress, LssState};
+/// use lexibus::sim::{CanBus, CanNode, Device};
+/// use lexibus::{NodeId, Object};
+/// use lexibus_drives::demo_drive::ENTRIES;
+///
+/// // Three drives without a node-ID, with different serial numbers.
+/// let mut bus = CanBus::new();
+/// for serial in [21_u32, 22, 23] {
+///     let mut device = Device::new(ENTRIES);
+///     device.set_initial_bytes(Object::new(0x1018, 4), &serial.to_le_bytes())?;
+///     bus.add(CanNode::without_node_id(device));
+/// }
+///
+/// let mut master = LssMaster::new(bus);
+/// let mut serials = Vec::new();
+/// while let Some(address) = master.fast_scan().expect("unique addresses") {
+///     // The drive that was found is in the state Configuration.
+///     serials.push(address.serial_number);
+///     master.configure_node_id(NodeId::new(serials.len() as u8)).expect("a free node-ID");
+///     master.store().expect("the drive can store");
+///     // The drive leaves Configuration and starts with its new node-ID.
+///     master.switch_global(LssState::Waiting).expect("the bus works");
+/// }
+/// assert_eq!(serials, [21, 22, 23]);
+/// # Ok::<(), lexibus::AbortCode>(())
+/// ```
+///
+/// # Several answers
+///
+/// A slave that is in Configuration by mistake would get the same node-ID as the intended slave. After an answer, the
+/// master therefore waits for 20 ms ([`with_window`](Self::with_window)), and returns [`LssError::SeveralAnswers`] if
+/// a second answer arrives.
+///
+/// # Late answers
+///
+/// After a timeout, and after an async call that was dropped, the next request waits for the late answer, for at most
+/// one timeout, and discards it.
+#[derive(Clone, Debug)]
+pub struct LssMaster<P> {
+    port: P,
+    timeout: Duration,
+    window: Duration,
+    /// Command specifier of an answer that has not arrived.
+    owed: Option<u8>,
+}
+
+impl<P> LssMaster<P> {
+    /// Creates a master on `port`, with a timeout of 500 ms.
+    pub const fn new(port: P) -> Self {
+        Self { port, timeout: TIMEOUT, window: WINDOW, owed: None }
+    }
+
+    /// Returns the master with another timeout for each answer, and for sending a frame on a busy bus.
+    #[must_use]
+    pub fn with_timeout(self, timeout: Duration) -> Self {
+        Self { timeout, ..self }
+    }
+
+    /// Returns the master with another time in which further answers are an error. The same time is the duration of
+    /// each of the 133 steps of a fastscan. All slaves must answer within this time. The default is 20 ms.
+    #[must_use]
+    pub fn with_window(self, window: Duration) -> Self {
+        Self { window, ..self }
+    }
+
+    /// Returns the CAN interface.
+    pub fn port(&mut self) -> &mut P {
+        &mut self.port
+    }
+
+    /// Returns the CAN interface and drops the master.
+    pub fn into_port(self) -> P {
+        self.port
+    }
+}
+
+/// Returns the LSS message of a slave in a frame. An LSS message has eight bytes.
+fn answer(frame: &CanFrame) -> Option<Message> {
+    frame.data().try_into().ok().filter(|_| frame.id() == ANSWERS)
+}
+
+macro_rules! master {
+    (
+        $Port:ident: $switch_global:ident $switch_selective:ident $configure_node_id:ident $configure_bit_rate:ident $configure_bit_timing:ident
+        $activate_bit_timing:ident $store:ident $inquire:ident $inquire_address:ident $inquire_node_id:ident $has_unconfigured:ident
+        $fast_scan:ident $send:ident $receive:ident $settle:ident $run:ident $step:ident $($async:ident $await:ident)?
+    ) => {
+        impl<P: $Port> LssMaster<P> {
+            /// Switches all slaves to a state. Slaves don't answer. A slave without a node-ID that was configured starts
+            /// with its new node-ID when it is switched to [`LssState::Waiting`].
+            ///
+            /// # Errors
+            ///
+            /// Returns [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            pub $($async)? fn $switch_global(&mut self, state: LssState) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::SwitchGlobal(state))$(.$await)?.map(|_| ())
+            }
+
+            /// Switches the slave with this address to the state Configuration.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if no slave has this address.
+            /// - [`LssError::SeveralAnswers`] if several slaves have this address.
+            pub $($async)? fn $switch_selective(&mut self, address: LssAddress) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::SwitchSelective(address))$(.$await)?.map(|_| ())
+            }
+
+            /// Sets the node-ID of the slave in Configuration. `None` removes the node-ID. A slave that already uses a
+            /// node-ID uses the new one after the NMT command reset communication.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if no slave is in Configuration.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration. All of them have the node-ID now.
+            /// - [`LssError::Refused`] if the slave refuses the node-ID.
+            pub $($async)? fn $configure_node_id(&mut self, node: Option<NodeId>) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::ConfigureNodeId(node))$(.$await)?.map(|_| ())
+            }
+
+            /// Sets the bit rate of the slave in Configuration. The bit rate changes with
+            /// [`activate_bit_timing`](Self::activate_bit_timing), or if the slave stores it and restarts.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of [`configure_bit_timing`](Self::configure_bit_timing).
+            pub $($async)? fn $configure_bit_rate(&mut self, rate: BitRate) -> Result<(), LssError<P::Error>> {
+                self.$configure_bit_timing(0, rate.index())$(.$await)?
+            }
+
+            /// Sets the bit timing of the slave in Configuration: an index in a table. Table 0 is the table of
+            /// [`BitRate`]; tables 128 to 255 are specific to the vendor.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if no slave is in Configuration.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
+            /// - [`LssError::Refused`] if the slave doesn't support the bit timing.
+            pub $($async)? fn $configure_bit_timing(&mut self, table: u8, index: u8) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::ConfigureBitTiming { table, index })$(.$await)?.map(|_| ())
+            }
+
+            /// Activates the bit timings of all slaves in Configuration. Slaves don't answer. The slaves change their bit
+            /// timing after `delay` milliseconds, and don't send for another `delay` milliseconds. Change the bit rate
+            /// of your interface after the first delay, and don't send before the end of the second one.
+            ///
+            /// # Errors
+            ///
+            /// Returns [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            pub $($async)? fn $activate_bit_timing(&mut self, delay: u16) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::ActivateBitTiming { delay })$(.$await)?.map(|_| ())
+            }
+
+            /// Stores node-ID and bit timing in the non-volatile memory of the slave in Configuration.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if no slave is in Configuration, or the slave needs longer than the timeout.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
+            /// - [`LssError::Refused`] if the slave cannot store.
+            pub $($async)? fn $store(&mut self) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::Store)$(.$await)?.map(|_| ())
+            }
+
+            /// Returns one number of the address of the slave in Configuration.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if no slave is in Configuration.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
+            pub $($async)? fn $inquire(&mut self, part: IdentityPart) -> Result<u32, LssError<P::Error>> {
+                self.$run(Service::Inquire(part))$(.$await)?
+            }
+
+            /// Returns the address of the slave in Configuration.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of [`inquire`](Self::inquire).
+            pub $($async)? fn $inquire_address(&mut self) -> Result<LssAddress, LssError<P::Error>> {
+                let mut parts = [0; 4];
+                for (to, part) in parts.iter_mut().zip(IdentityPart::ALL) {
+                    *to = self.$inquire(part)$(.$await)??;
+                }
+                Ok(LssAddress::from_array(parts))
+            }
+
+            /// Returns the node-ID that the slave in Configuration uses, or `None` if it has no node-ID.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of [`inquire`](Self::inquire), or [`LssError::UnexpectedReply`] if the slave answers
+            /// with an invalid node-ID.
+            pub $($async)? fn $inquire_node_id(&mut self) -> Result<Option<NodeId>, LssError<P::Error>> {
+                let node = self.$run(Service::InquireNodeId)$(.$await)??;
+                Ok(u8::try_from(node).ok().and_then(NodeId::new))
+            }
+
+            /// Returns whether there are slaves in Waiting that have no node-ID. [`fast_scan`](Self::fast_scan) finds
+            /// them.
+            ///
+            /// # Errors
+            ///
+            /// Returns [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            pub $($async)? fn $has_unconfigured(&mut self) -> Result<bool, LssError<P::Error>> {
+                let result = self.$run(Service::IdentifyUnconfigured)$(.$await)?;
+                match result {
+                    Err(LssError::Timeout) => {
+                        // That no slave answers is the answer, and no late answer is expected.
+                        self.owed = None;
+                        Ok(false)
+                    }
+                    result => result.map(|_| true),
+                }
+            }
+
+            /// Finds a slave that has no node-ID, returns its address, and leaves it in the state Configuration. Returns
+            /// `None` if all slaves have a node-ID. Switches all slaves to Waiting first.
+            ///
+            /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master compares the address
+            /// with the answers to inquiries, so an answer that is lost or late doesn't lead to a wrong address. To
+            /// find all slaves, give each one a node-ID, switch it to Waiting, and repeat the scan.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if the slave doesn't answer the inquiries.
+            /// - [`LssError::SeveralAnswers`] if several slaves have the same address.
+            /// - [`LssError::Inconclusive`] if an answer was lost or late.
+            pub $($async)? fn $fast_scan(&mut self) -> Result<Option<LssAddress>, LssError<P::Error>> {
+                self.$switch_global(LssState::Waiting)$(.$await)??;
+                let mut scan = FastScan::new();
+                while let Some(request) = scan.next() {
+                    self.$send(request)$(.$await)??;
+                    self.$step(&mut scan)$(.$await)??;
+                }
+                let Some(address) = scan.result().map_err(LssError::of_client)? else { return Ok(None) };
+                let inquired = self.$inquire_address()$(.$await)??;
+                if inquired == address { Ok(Some(address)) } else { Err(LssError::Inconclusive) }
+            }
+
+            /// Collects the answers to a fastscan request for the duration of the window.
+            $($async)? fn $step(&mut self, scan: &mut FastScan) -> Result<(), LssError<P::Error>> {
+                let start = self.port.now();
+                let mut patience = self.window;
+                for _ in 0..BACKLOG {
+                    let answer = self.$receive(patience, &|message| is_identified(message))$(.$await)??;
+                    let Some(message) = answer else { break };
+                    scan.handle(&message);
+                    let elapsed = start.zip(self.port.now()).map(|(start, now)| now.saturating_sub(start));
+                    patience = self.window.saturating_sub(elapsed.unwrap_or_default());
+                }
+                scan.time_out();
+                Ok(())
+            }
+
+            $($async)? fn $send(&mut self, message: Message) -> Result<(), LssError<P::Error>> {
+                let is_sent = self.port.send(&CanFrame::of(REQUESTS, message), self.timeout)$(.$await)?;
+                is_sent.map_err(LssError::Client)?.then_some(()).ok_or(LssError::NotSent)
+            }
+
+            /// Waits for a message of a slave that `wanted` accepts.
+            $($async)? fn $receive(
+                &mut self,
+                patience: Duration,
+                wanted: &dyn Fn(&Message) -> bool,
+            ) -> Result<Option<Message>, LssError<P::Error>> {
+                let is_wanted = &mut |frame: &CanFrame| answer(frame).is_some_and(|message| wanted(&message));
+                let frame = self.port.receive(patience, is_wanted)$(.$await)?.map_err(LssError::Client)?;
+                Ok(frame.as_ref().and_then(answer))
+            }
+
+            /// Waits for the answer to an earlier request that timed out or was dropped, and discards all answers that
+            /// have arrived.
+            $($async)? fn $settle(&mut self) -> Result<(), LssError<P::Error>> {
+                if let Some(owed) = self.owed {
+                    self.$receive(self.timeout, &|message| message[0] == owed)$(.$await)??;
+                    self.owed = None;
+                }
+                for _ in 0..BACKLOG {
+                    if self.$receive(Duration::ZERO, &|_| true)$(.$await)??.is_none() {
+                        break;
+                    }
+                }
+                Ok(())
+            }
+
+            $($async)? fn $run(&mut self, service: Service) -> Result<u32, LssError<P::Error>> {
+                self.$settle()$(.$await)??;
+                let mut transaction = Transaction::new(service);
+                while let Some(message) = transaction.next() {
+                    self.owed = service.answer();
+                    if let Err(error) = self.$send(message)$(.$await)? {
+                        self.owed = None;
+                        return Err(error);
+                    }
+                }
+                let mut patience = self.timeout;
+                loop {
+                    if let Some(result) = transaction.result() {
+                        return result.map_err(LssError::of_client);
+                    }
+                    match self.$receive(patience, &|message| transaction.accepts(message))$(.$await)?? {
+                        Some(message) if service.is_for_several() => {
+                            transaction.handle(&message);
+                            transaction.time_out();
+                        }
+                        Some(message) => transaction.handle(&message),
+                        None => transaction.time_out(),
+                    }
+                    if transaction.is_answered() {
+                        self.owed = None;
+                    }
+                    patience = self.window;
+                }
+            }
+        }
+    };
+}
+
+master! {
+    CanPort: switch_global switch_selective configure_node_id configure_bit_rate configure_bit_timing
+    activate_bit_timing store inquire inquire_address inquire_node_id has_unconfigured
+    fast_scan send receive settle run step
+}
+master! {
+    AsyncCanPort: switch_global_async switch_selective_async configure_node_id_async configure_bit_rate_async configure_bit_timing_async
+    activate_bit_timing_async store_async inquire_async inquire_address_async inquire_node_id_async has_unconfigured_async
+    fast_scan_async send_async receive_async settle_async run_async step_async async await
+}

@@ -1,0 +1,59 @@
+//! Node guarding (CiA 301 7.2.8.3.2.1) and TIME (7.2.6) of a node.
+
+use core::time::Duration;
+
+use super::CanNode;
+use crate::clients::canopen::{CanFrame, NmtState};
+use crate::time::TimeOfDay;
+
+/// Toggle bit and life time of a node that is guarded.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Guard {
+    toggle: bool,
+    deadline: Option<Duration>,
+}
+
+impl Guard {
+    /// Returns the byte of the answer to a request. The node expects the next request within `life_time`; 0 disables
+    /// life guarding.
+    pub fn answer(&mut self, state: NmtState, life_time: Duration, now: Duration) -> u8 {
+        let raw = state.raw() | u8::from(self.toggle) << 7;
+        self.toggle = !self.toggle;
+        self.deadline = (!life_time.is_zero()).then(|| now.saturating_add(life_time));
+        raw
+    }
+
+    /// Returns the time at which the node life time passes.
+    pub const fn deadline(&self) -> Option<Duration> {
+        self.deadline
+    }
+
+    /// Returns whether the node life time has passed. Returns `true` only once.
+    pub fn is_expired(&mut self, now: Duration) -> bool {
+        let is_expired = self.deadline.is_some_and(|deadline| deadline <= now);
+        if is_expired {
+            self.deadline = None;
+        }
+        is_expired
+    }
+}
+
+impl CanNode {
+    /// Answers a request of node guarding (CiA 301 7.2.8.3.2.1). The heartbeat producer takes precedence.
+    pub(super) fn answer_guarding(&mut self, id: u32) {
+        let is_request = id == 0x700 + u32::from(self.device.node_id().get());
+        if is_request && self.heartbeat.is_none() {
+            let number = |index| self.device.slots.number(index, 0).unwrap_or(0);
+            let raw = self.guard.answer(self.state, Duration::from_millis(number(0x100C) * number(0x100D)), self.now);
+            CanFrame::new(id, &[raw]).into_iter().for_each(|frame| self.emit(frame));
+        }
+    }
+
+    /// Processes TIME if the node consumes it (0x1012). Returns whether the frame is TIME.
+    pub(super) fn consume_time(&mut self, frame: &CanFrame) -> bool {
+        let cob_id = self.device.slots.number(0x1012, 0).filter(|cob_id| cob_id >> 31 & 1 == 1);
+        let time = cob_id.and_then(|cob_id| TimeOfDay::of_id(frame, cob_id as u32));
+        self.time_of_day = time.filter(|_| self.state != NmtState::Stopped).or(self.time_of_day);
+        time.is_some()
+    }
+}

@@ -1,0 +1,97 @@
+//! Tests node guarding with answers that are delayed, lost or corrupted.
+
+use std::convert::Infallible;
+use std::time::Duration;
+
+use lexibus::clients::canopen::{CanFrame, GuardError, Guarding, NmtCommand, NmtState, Node};
+use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::NodeId;
+
+use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::matrix::Row;
+use crate::now::now;
+use crate::random::Random;
+
+const NODE: u8 = 5;
+
+fn node() -> Node<Faulty> {
+    let id = NodeId::new(NODE).expect("a node-ID");
+    let mut bus = CanBus::new();
+    bus.add(CanNode::new(Device::new(&[]).with_node_id(id)));
+    Node::new(Faulty::new(bus), id)
+}
+
+/// Runs one cycle. The result must be the state of the node, or an error.
+fn guard(node: &mut Node<Faulty>, guarding: &mut Guarding, is_async: bool) -> Result<NmtState, GuardError<Infallible>> {
+    let result = match is_async {
+        true => now(node.guard_async(guarding)),
+        false => node.guard(guarding),
+    };
+    let state = node.port().bus.nodes()[0].state();
+    assert!(result.is_err() || result == Ok(state), "{result:?} instead of {state:?}");
+    result
+}
+
+fn name(result: Result<NmtState, GuardError<Infallible>>) -> &'static str {
+    match result {
+        Ok(_) => "right value",
+        Err(GuardError::NoAnswer) => "`NoAnswer`",
+        Err(GuardError::ToggleBit) => "`ToggleBit`",
+        Err(other) => panic!("an error without a name in the table: {other:?}"),
+    }
+}
+
+#[test]
+fn late_answers_are_not_those_of_the_next_cycle() {
+    let (mut node, mut random, mut late, mut failed) = (node(), Random::new(3), 0, 0);
+    let mut guarding = Guarding::new(TIMEOUT, 3);
+    for _ in 0..5000 {
+        let command = if random.below(2) == 0 { NmtCommand::Start } else { NmtCommand::EnterPreOperational };
+        node.nmt(command).expect("a bus");
+        let is_late = random.below(20) == 0;
+        let delay = TIMEOUT + Duration::from_millis(random.below(450));
+        node.port().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
+        late += u32::from(is_late);
+        failed += u32::from(guard(&mut node, &mut guarding, false).is_err());
+    }
+    println!("5,000 cycles of node guarding, {late} late: {failed} errors, no wrong state");
+    assert!(late > 200 && failed <= late, "{failed} errors for {late} late answers");
+}
+
+/// Returns the rows for node guarding in the table of faults.
+pub fn rows() -> Vec<Row> {
+    let foreign = CanFrame::new(0x706, &[4]).expect("a frame");
+    let faults = [
+        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign(foreign)),
+        ("noise", Fault::Noise),
+    ];
+    let mut rows = Vec::new();
+    for (fault_name, fault) in faults {
+        for is_async in [false, true] {
+            let (mut node, mut guarding) = (node(), Guarding::new(TIMEOUT, 3));
+            guard(&mut node, &mut guarding, is_async).expect("a state");
+            let start = node.port().time();
+            node.port().fault = fault;
+            let result = name(guard(&mut node, &mut guarding, is_async));
+            let middle = node.port().time();
+            node.port().fault = Fault::Nothing;
+            node.nmt(NmtCommand::Start).expect("a bus");
+            guard(&mut node, &mut guarding, is_async).expect("the next cycle is right");
+            let (time, next) = (middle - start, node.port().time() - middle);
+            rows.push(Row {
+                client: "node guarding",
+                is_async,
+                fault: fault_name,
+                result,
+                time,
+                next,
+                timeout: TIMEOUT,
+            });
+        }
+    }
+    rows
+}

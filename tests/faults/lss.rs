@@ -1,0 +1,136 @@
+//! Tests the LSS master with slaves whose answers are delayed, lost or corrupted.
+
+use std::convert::Infallible;
+use std::time::Duration;
+
+use lexibus::clients::canopen::{CanFrame, LssMaster};
+use lexibus::lss::{IdentityPart, LssAddress, LssError, LssState};
+use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::{AccessRights, Bound, DataType, Entry, Flags, NodeId, Object, RawInitial};
+
+use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::matrix::Row;
+use crate::now::now;
+use crate::random::Random;
+
+const SERIAL: Object = Object::new(0x1018, 4);
+
+const ENTRIES: &[Entry] = &[Entry {
+    object: Some(SERIAL),
+    register: None,
+    name: "",
+    data_type: DataType::Unsigned32,
+    access: AccessRights::ReadOnly,
+    flags: Flags::NONE,
+    initial: RawInitial::Bytes(&[0; 4]),
+    low: Bound::Unlimited,
+    high: Bound::Unlimited,
+    unit: "",
+}];
+
+/// Returns a master with one slave, which has no node-ID.
+fn master() -> LssMaster<Faulty> {
+    let mut bus = CanBus::new();
+    bus.add(CanNode::without_node_id(Device::new(ENTRIES)));
+    LssMaster::new(Faulty::new(bus)).with_timeout(TIMEOUT)
+}
+
+fn set_serial(master: &mut LssMaster<Faulty>, serial: u32) {
+    let node = &mut master.port().bus.nodes()[0];
+    node.device().set_bytes(SERIAL, &serial.to_le_bytes()).expect("an object");
+}
+
+/// Inquires the serial number, which is different for each request.
+fn inquire(master: &mut LssMaster<Faulty>, is_async: bool, serial: u32) -> Result<u32, LssError<Infallible>> {
+    set_serial(master, serial);
+    let result = match is_async {
+        true => now(master.inquire_async(IdentityPart::SerialNumber)),
+        false => master.inquire(IdentityPart::SerialNumber),
+    };
+    assert!(result.is_err() || result == Ok(serial), "a wrong value");
+    result
+}
+
+fn name(result: Result<u32, LssError<Infallible>>) -> &'static str {
+    match result {
+        Ok(_) => "right value",
+        Err(LssError::Timeout) => "`Timeout`",
+        Err(LssError::SeveralAnswers) => "`SeveralAnswers`",
+        Err(other) => panic!("an error without a name in the table: {other:?}"),
+    }
+}
+
+#[test]
+fn late_answers_are_not_those_of_the_next_request() {
+    let (mut master, mut random, mut late, mut failed) = (master(), Random::new(5), 0, 0);
+    master.switch_global(LssState::Configuration).expect("a bus");
+    for serial in 0..2000 {
+        let is_late = random.below(20) == 0;
+        let delay = TIMEOUT + Duration::from_millis(random.below(450));
+        master.port().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
+        late += u32::from(is_late);
+        failed += u32::from(inquire(&mut master, false, serial).is_err());
+    }
+    println!("2,000 inquiries, {late} late: {failed} errors, no wrong value");
+    assert!(late > 50 && failed <= late, "{failed} errors for {late} late answers");
+}
+
+#[test]
+fn a_scan_with_faults_doesnt_return_a_wrong_address() {
+    let mut random = Random::new(7);
+    let (mut found, mut inconclusive) = (0, 0);
+    for _ in 0..80 {
+        let (mut master, serial) = (master(), random.below(1 << 32) as u32);
+        set_serial(&mut master, serial);
+        master.port().fault = match random.below(3) {
+            0 => Fault::Late(Duration::from_millis(random.below(60))),
+            1 => Fault::Duplicated,
+            _ => Fault::Nothing,
+        };
+        match master.fast_scan() {
+            Ok(Some(address)) => {
+                assert_eq!(address, LssAddress { serial_number: serial, ..LssAddress::default() });
+                found += 1;
+            }
+            // With late answers, the start of the scan may go unnoticed. With duplicated answers, the inquiries fail.
+            Ok(None) | Err(LssError::Inconclusive | LssError::Timeout | LssError::SeveralAnswers) => inconclusive += 1,
+            Err(other) => panic!("{other}"),
+        }
+        // Wait for the answers of the scan that are still on the way.
+        master.port().fault = Fault::Nothing;
+        assert_eq!(master.switch_global(LssState::Waiting), Ok(()));
+        assert_eq!(master.configure_node_id(NodeId::new(5)), Err(LssError::Timeout));
+        assert_eq!(master.fast_scan().map(|address| address.map(|it| it.serial_number)), Ok(Some(serial)));
+    }
+    println!("80 scans: {found} right, {inconclusive} inconclusive, no wrong address");
+    assert!(found > 20 && inconclusive > 10, "{found} {inconclusive}");
+}
+
+/// Returns the rows for LSS in the table of faults.
+pub fn rows() -> Vec<Row> {
+    let foreign = CanFrame::new(0x7E4, &[0x5A, 9, 9, 9, 9, 0, 0, 0]).expect("a frame");
+    let faults = [
+        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign(foreign)),
+        ("noise", Fault::Noise),
+    ];
+    let mut rows = Vec::new();
+    for (fault_name, fault) in faults {
+        for is_async in [false, true] {
+            let mut master = master();
+            master.switch_global(LssState::Configuration).expect("a bus");
+            let start = master.port().time();
+            master.port().fault = fault;
+            let result = name(inquire(&mut master, is_async, 1));
+            let middle = master.port().time();
+            master.port().fault = Fault::Nothing;
+            inquire(&mut master, is_async, 2).expect("the next request is right");
+            let (time, next) = (middle - start, master.port().time() - middle);
+            rows.push(Row { client: "LSS", is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
+        }
+    }
+    rows
+}
