@@ -157,6 +157,7 @@ pub fn fact_name(fact: Fact) -> &'static str {
         Fact::Behaviour => "storage and side effects",
         Fact::Availability => "availability",
         Fact::Variants => "differences between models",
+        Fact::Description => "description",
     }
 }
 
@@ -572,7 +573,7 @@ impl Words<'_> {
             let Some(origin) = item.origins.get(fact) else { continue };
             let is_elsewhere = match origin {
                 FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
-                FactOrigin::Standard(_) => fact == Fact::Meaning,
+                FactOrigin::Standard(_) => matches!(fact, Fact::Meaning | Fact::Description),
                 FactOrigin::Overlay { .. } | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
             };
             if is_elsewhere {

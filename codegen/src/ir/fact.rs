@@ -33,11 +33,13 @@ pub enum Fact {
     Availability,
     /// Differences of the item between models or buses.
     Variants,
+    /// Description of the item.
+    Description,
 }
 
 impl Fact {
     /// All facts, in the order in which outputs show them.
-    pub const ALL: [Fact; 12] = [
+    pub const ALL: [Fact; 13] = [
         Fact::Name,
         Fact::Addresses,
         Fact::Type,
@@ -50,6 +52,7 @@ impl Fact {
         Fact::Behaviour,
         Fact::Availability,
         Fact::Variants,
+        Fact::Description,
     ];
 
     /// Returns whether this fact differs between two items. Both [`Fact::Type`] and [`Fact::Meaning`] compare the item's type.
@@ -67,6 +70,7 @@ impl Fact {
             Fact::Behaviour => one.behaviour != other.behaviour,
             Fact::Availability => one.availability != other.availability,
             Fact::Variants => one.variants != other.variants,
+            Fact::Description => false,
         }
     }
 
@@ -83,6 +87,9 @@ impl Fact {
             Fact::Behaviour => item.behaviour.is_some(),
             Fact::Availability => item.availability.is_some(),
             Fact::Variants => !item.variants.is_empty(),
+            Fact::Description => {
+                item.documentation.as_deref().is_some_and(|documentation| !documentation.text.is_empty())
+            }
         }
     }
 }

@@ -35,6 +35,7 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         commands: commands.into(),
         transitions: transitions.into(),
         documentation: names::documentation(b),
+        stated_by: names::stated_by(b),
     }
 }
 
@@ -115,6 +116,7 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
         rows: rows.into(),
         buses,
         documentation: names::documentation(b),
+        stated_by: names::stated_by(b),
         origin: Origin::default(),
     }
 }

@@ -263,6 +263,11 @@ pub fn origins(b: &mut Bytes<'_>) -> FactOrigins {
     FactOrigins(b.few(4, 3, |b| (b.pick(&Fact::ALL), fact_origin(b))).into_iter().collect())
 }
 
+/// Returns the origin of a definition that is not in the device description.
+pub fn stated_by(b: &mut Bytes<'_>) -> Option<Box<FactOrigin>> {
+    b.maybe(8, fact_origin).map(Box::new)
+}
+
 pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
     b.maybe(4, |b| {
         let cite = b.maybe(2, text);

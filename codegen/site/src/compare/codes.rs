@@ -20,7 +20,7 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
         columns: fact("columns", Judgement::API),
         rows: list(rows(), row),
         buses: only_on,
-        documentation,
+        documentation, stated_by,
     }, POSITION => [origin]);
 }
 

@@ -25,6 +25,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Ve
         rows: SharedList::default(),
         buses: Buses::NONE,
         documentation: None,
+        stated_by: None,
         origin,
     };
     let mut messages = table("DiagMessages", &COLUMNS);

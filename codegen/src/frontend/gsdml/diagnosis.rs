@@ -251,6 +251,7 @@ fn table(name: &'static str, columns: &[&'static str], rows: Vec<CodeRow>, origi
         rows: rows.into(),
         buses: Buses::NONE,
         documentation: None,
+        stated_by: None,
         origin,
     }
 }

@@ -60,6 +60,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         rows: rows.into(),
         buses: table.buses.as_ref().map(|list| buses::read(reader, list)).unwrap_or_default(),
         documentation: reader.documentation_of(table),
+        stated_by: None,
         origin: reader.origin(name),
     });
 }

@@ -204,6 +204,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             shape: Shape::Enumeration { base: ty, values, closed: false },
             bits: ty.bits(),
             documentation: None,
+            stated_by: None,
             origin: crate::source::Origin::default(),
         });
         Type::Named(id)
