@@ -289,6 +289,9 @@ pub struct CodeRow {
     pub documentation: Option<Box<Documentation>>,
     /// Values of the cells in the further columns.
     pub cells: Vec<Value>,
+    /// Origin of the row; `None` = that of the code table.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stated_by: Option<Box<FactOrigin>>,
 }
 
 impl CodeRow {

@@ -4,8 +4,7 @@ use super::owner::Owner;
 #[cfg(feature = "table")]
 use super::Documentation;
 use super::{
-    Behaviour, CodeTable, Device, EnumValue, Fact, FactOrigin, FactOrigins, Item, Quantity, Type,
-    TypeDef, TypeId,
+    Behaviour, CodeTable, Device, EnumValue, Fact, FactOrigin, FactOrigins, Item, Quantity, Type, TypeDef, TypeId,
 };
 
 /// Returns whether a fact with this recorded origin was added by a profile.

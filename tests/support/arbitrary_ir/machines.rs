@@ -107,6 +107,7 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
             availability: b.maybe(8, availability).map(Box::new),
             documentation: names::documentation(b),
             cells: b.list(3, values::any),
+            stated_by: names::stated_by(b),
         }
     });
     let buses = names::buses(b);

@@ -252,8 +252,10 @@ pub fn texts(b: &mut Bytes<'_>) -> Texts {
 fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
     match b.within(0..=4) {
         0 => b.pick(&[FactOrigin::Stated, FactOrigin::PrintedName]),
-        1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any() },
-        2 => FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject])),
+        1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any(), why: name(b) },
+        2 => {
+            FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject, Rule::MissingKey]))
+        }
         _ => FactOrigin::Standard(text(b)),
     }
 }

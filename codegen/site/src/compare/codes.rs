@@ -46,7 +46,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
     compare_fields!(CodeRow, old, new, comparison, {
         printed: text("printed code"),
         printed_cells: text("printed cells"),
-        name, names, availability, documentation,
+        name, names, availability, documentation, stated_by,
         cells: fact("further columns", Judgement::BEHAVIOR),
     }, COMPARED => [code, last]);
 }

@@ -25,8 +25,11 @@ pub(super) fn documentation(
 /// Formats the origin of a fact without its position in the file.
 pub(super) fn origin(origin: &FactOrigin) -> String {
     match origin {
-        FactOrigin::Overlay { file, replaces: false, .. } => format!("overlay {file}"),
-        FactOrigin::Overlay { file, replaces: true, .. } => format!("overlay {file}, replacing the description"),
+        FactOrigin::Overlay { file, replaces, why, line: _ } => {
+            let replacing = if *replaces { ", replacing the description" } else { "" };
+            let why = if why.is_empty() { String::new() } else { format!(" ({why})") };
+            format!("overlay {file}{replacing}{why}")
+        }
         other => origin_name(other),
     }
 }

@@ -267,6 +267,7 @@ fn empty_row(code: i128) -> CodeRow {
         availability: None,
         documentation: None,
         cells: Vec::new(),
+        stated_by: None,
     }
 }
 

@@ -52,6 +52,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             availability: availability(row),
             documentation: reader.documentation_of(row),
             cells: row.cells.iter().map(cell).collect(),
+            stated_by: None,
         });
     }
     device.code_tables.push(CodeTable {
