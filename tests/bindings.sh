@@ -9,7 +9,7 @@ lexibus() {
 }
 # Unit tests of the compiler write the files that are embedded in the compiler: the schema and the profiles.
 if [[ ${1:-} != --check && -z ${LEXIBUS:-} ]]; then
-    LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib -- frontend::table::schema profiles::stored
+    LEXIBUS_BLESS=1 cargo test --quiet -p lexibus-codegen --lib -- frontend::table::schema resolve::profiles::stored
 fi
 lexibus generate dictionaries/demo-drive.eds --table feature=table \
     --out generated/src/demo_drive.rs "$@"

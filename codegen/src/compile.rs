@@ -1,4 +1,4 @@
-//! The pipeline: source → syntax → IR → passes → output. The build script, the macro and the command line use this pipeline.
+//! The pipeline: source → syntax → front end → resolve → check → output. The build script, the macro and the command line use this pipeline.
 
 use std::path::PathBuf;
 
@@ -7,8 +7,7 @@ use crate::check as lints;
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
 use crate::frontend;
 use crate::ir::{Catalog, FileInfo, Format};
-use crate::profiles;
-use crate::resolve;
+use crate::resolve::{self, Profiles};
 use crate::selection::Selection;
 use crate::source::{FileId, Source};
 
@@ -121,7 +120,7 @@ pub fn check(source: Source, options: &Options) -> Compilation {
     checked(read(source, options), options)
 }
 
-/// Applies selection and overlays, and resolves and checks the IR. These are the stages of [`check`] after the front end. Use
+/// Applies selection and overlays, resolves the IR, which includes profiles, and checks it. These are the stages of [`check`] after the front end. Use
 /// this function for a front end in another crate.
 pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     if let Some(catalog) = &mut compilation.catalog {
@@ -132,13 +131,10 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
             catalog.files.push(file_info(source, Format::Table));
             compilation.sources.push(source.clone());
         }
-        resolve::resolve(catalog, &mut compilation.diagnostics);
+        let profiles = if options.no_profiles { Profiles::Ignored } else { Profiles::Applied };
+        resolve::resolve(catalog, profiles, &mut compilation.diagnostics);
         lints::check(catalog, &mut compilation.diagnostics);
-        if !options.no_profiles {
-            profiles::apply(catalog);
-        }
         options.select.objects(catalog, &mut compilation.diagnostics);
-        resolve::resolve_references(catalog);
     }
     // A row of a register table can describe several items, and so can a type or parameter in XML. The diagnostics about such a
     // row or element are reported only once.

@@ -74,7 +74,6 @@ pub mod ir;
 pub mod limits;
 pub mod names;
 pub mod output;
-mod profiles;
 pub mod resolve;
 pub mod selection;
 pub mod source;

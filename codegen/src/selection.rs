@@ -9,6 +9,7 @@ use std::str::FromStr;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, Module, ProcessData, Submodule};
+use crate::resolve::removal;
 use crate::source::{FileId, Span};
 use crate::text::{edit_distance, glob};
 
@@ -245,11 +246,9 @@ impl Selection {
             diagnostics.push(found.help(nearest(&existing, *filter)));
         }
         let wanted = |index: u16| self.has_object(index);
-        let Catalog { devices, modules, .. } = catalog;
-        let lists = devices.iter_mut().map(|device| &mut device.groups);
-        for groups in lists.chain(modules.iter_mut().map(|module| &mut module.groups)) {
-            groups.retain(|group| group.index().is_none_or(wanted));
-        }
+        let is_kept = |group: &Group| group.index().is_none_or(wanted);
+        catalog.devices.iter_mut().for_each(|device| removal::of_device(device, is_kept));
+        catalog.modules.iter_mut().for_each(|module| removal::of_module(module, is_kept));
     }
 
     fn keep_devices(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {

@@ -1,6 +1,12 @@
-//! Tests which facts profiles add to devices, and which facts of devices they keep.
+//! Tests which facts profiles add to devices, which facts of devices they keep, and that they cause no diagnostics.
+
+mod corpus_support;
+
+use std::path::Path;
 
 use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::diagnostics::codes::CODES;
+use lexibus_codegen::diagnostics::{Level, Levels};
 use lexibus_codegen::ir::{BitMeaning, Catalog, Device, FactOrigin, Item, Scale, Shape, Type, TypeDef};
 use lexibus_codegen::source::Source;
 
@@ -220,4 +226,27 @@ fn telegrams_of_profidrive_have_their_words() {
         }
     }
     assert_eq!(typed, 3, "telegrams 1, 2 and 3");
+}
+
+/// Lints judge the description. Profiles are applied before the lints run, but must not change a diagnostic.
+#[test]
+fn profiles_change_no_diagnostic() {
+    let mut levels = Levels::lenient();
+    CODES.iter().for_each(|code| levels.set(code.id, Level::Warn).expect("a code"));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
+    let drives = ["aec-vector-step.toml", "demo-drive.eds", "eco.toml", "kollmorgen-akd.toml"];
+    let mut sources: Vec<Source> = drives.map(|name| Source::read(&folder.join(name)).expect(name)).into();
+    for format in ["eds", "xdd", "esi", "gsdml"] {
+        let files = corpus_support::files_of(format).into_iter().flatten();
+        sources.extend(files.map(|file| Source::new(file.name.as_str(), file.bytes)));
+    }
+    corpus_support::bindings::on_all_processors(sources, |source| {
+        let reported = |no_profiles| {
+            let options = Options { levels: levels.clone(), no_profiles, ..Options::default() };
+            let compilation = check(source.clone(), &options);
+            let texts = compilation.diagnostics.list().iter().map(|found| format!("{found:?}"));
+            texts.collect::<Vec<_>>()
+        };
+        assert_eq!(reported(true), reported(false), "{}", source.name());
+    });
 }

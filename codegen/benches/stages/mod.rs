@@ -6,7 +6,7 @@ use divan::Bencher;
 use lexibus_codegen::check as lints;
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::Diagnostics;
-use lexibus_codegen::resolve::resolve;
+use lexibus_codegen::resolve::{resolve, Profiles};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 
@@ -27,7 +27,7 @@ pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalogue");
     bencher.counter(count).with_inputs(|| catalog.clone()).bench_values(|mut catalog| {
         let mut diagnostics = Diagnostics::default();
-        resolve(&mut catalog, &mut diagnostics);
+        resolve(&mut catalog, Profiles::Applied, &mut diagnostics);
         lints::check(&catalog, &mut diagnostics);
         catalog
     });

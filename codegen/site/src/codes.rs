@@ -66,10 +66,12 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
         facts.push(format!("On {}.", buses.join(", ")));
     }
     facts.extend(PLAIN.manual_entry(manual, "", table.documentation.as_deref(), &[]));
+    facts.extend(PLAIN.defined_by(table.stated_by.as_deref(), table.documentation.as_deref()));
     let rows = table.rows.iter().map(|row| {
         let mut facts = PLAIN.description(row.documentation.as_deref());
         facts.extend(row.availability.as_ref().map(|availability| PLAIN.availability(availability)));
         facts.extend(PLAIN.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
+        facts.extend(PLAIN.defined_by(row.stated_by.as_deref(), row.documentation.as_deref()));
         let number = code::text(row);
         Code {
             anchor: names.anchor(&format!("{}-{number}", table.name)),

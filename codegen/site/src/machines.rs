@@ -121,6 +121,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     );
     facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {}.", readable(state))));
     facts.extend(PLAIN.manual_entry(manual, "", machine.documentation.as_deref(), &[]));
+    facts.extend(PLAIN.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref()));
     let anchor = names.anchor(&machine.name);
     let mut of_states = Names::within(&anchor);
     let states = machine.states.iter().map(|state| named(state, of_status, of_states.anchor(&state.name)));

@@ -3,7 +3,7 @@
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Item, Storage};
+use crate::ir::{stated, Item, Storage};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -40,7 +40,7 @@ fn access_span(item: &Item, span: Span) -> Span {
 fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let (readable, writable) = (item.access.readable(), item.access.writable());
     let conflict = |span, text| Some((span, text));
-    let behaviour = item.behaviour.as_deref();
+    let behaviour = stated::behaviour(item);
     let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
     let saved = match saved {
         Some(_) if !writable => conflict(Span::default(), ", but declared as non-volatile"),

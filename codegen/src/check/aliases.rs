@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Device, Item, ItemRef, Quantity, Scale, Shape};
+use crate::ir::{stated, Device, Item, ItemRef, Quantity, Scale, Shape};
 use crate::source::Span;
 use crate::text::{brief, count_of, more, numbered};
 
@@ -72,11 +72,11 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
             }
         }
     }
-    if let (Some(one), Some(other)) = (owner.definition(one.ty), owner.definition(other.ty)) {
+    if let (Some(one), Some(other)) = (stated::definition(owner, one), stated::definition(owner, other)) {
         found.extend(meanings(&one.shape, &other.shape));
         found.extend(names(&one.shape, &other.shape));
     }
-    if let (Some(one), Some(other)) = (&one.quantity, &other.quantity) {
+    if let (Some(one), Some(other)) = (stated::quantity(one), stated::quantity(other)) {
         found.extend(quantities(one, other));
     }
     found

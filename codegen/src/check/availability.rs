@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::{compare, version};
-use crate::ir::{Availability, Device, Item, Shape};
+use crate::ir::{stated, Availability, Device, Item, Shape};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -16,7 +16,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         window(&format!("`{}`", brief(&item.name)), availability, item.origin.span, diagnostics);
         replacement(device, item, availability, diagnostics);
     }
-    for definition in &device.types {
+    for (_, definition) in stated::types(&device.types) {
         let windows: Vec<_> = match &definition.shape {
             Shape::BitField { fields, .. } => fields.iter().map(|field| (&field.name, &field.availability)).collect(),
             Shape::Enumeration { values, .. } => {

@@ -3,7 +3,7 @@
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::firmware::apart;
 use crate::ir::owner::{reserved, Owner, TypeUses};
-use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
+use crate::ir::{stated, BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, Value};
 use crate::source::Span;
 use crate::text::{brief, count_of, more, numbered};
 
@@ -12,10 +12,10 @@ const MAX_LISTED_BITS: u8 = 4;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     let uses = TypeUses::new(owner);
-    for (definition, id) in owner.types.iter().zip(0..) {
+    for (id, definition) in stated::types(owner.types) {
         let Shape::BitField { base, fields } = &definition.shape else { continue };
         let Some(width) = base.bits().filter(|&bits| bits <= 64) else { continue };
-        if let Some(found) = outside(definition, *base, fields, || uses.first(TypeId(id))) {
+        if let Some(found) = outside(definition, *base, fields, || uses.first(id)) {
             diagnostics.push(found);
         }
         overlaps(definition, fields, diagnostics);
@@ -158,6 +158,7 @@ mod tests {
             shape: Shape::BitField { base: Type::Unsigned(8), fields },
             bits: Some(8),
             documentation: None,
+            stated_by: None,
             origin: Default::default(),
         };
         check(Owner { types: &[definition], groups: &[] }, &mut diagnostics);

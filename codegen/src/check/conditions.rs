@@ -5,18 +5,18 @@ use std::collections::{BTreeMap, HashSet};
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::reserved;
-use crate::ir::{Condition, ItemRef, Shape, TypeDef, Value};
+use crate::ir::{stated, Condition, ItemRef, Shape, TypeDef, Value};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let owner = context.owner;
     for item in owner.items() {
-        for condition in item.behaviour.iter().flat_map(|behaviour| &behaviour.write_when) {
+        for condition in stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.write_when) {
             possible(context, condition, item.origin.span, diagnostics);
         }
     }
-    for definition in owner.types {
+    for (_, definition) in stated::types(owner.types) {
         match &definition.shape {
             Shape::Enumeration { values, .. } => {
                 for (value, condition) in values.iter().filter_map(|value| Some((value, value.when.as_ref()?))) {
@@ -42,7 +42,7 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
     let (low, high) = item.limits.integers();
     for value in condition.values.iter().filter_map(Value::as_int) {
         let is_outside = low.is_some_and(|low| value < low) || high.is_some_and(|high| value > high);
-        let why = match context.owner.enumeration(item.ty) {
+        let why = match stated::enumeration(context.owner, item) {
             _ if is_outside => "is outside of the limits of the item",
             Some((labels, _)) => match reserved(labels, value) {
                 None => "has no name",
@@ -69,7 +69,7 @@ fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Conditio
     let items: BTreeMap<&str, &ItemRef> = items.collect();
     let name = brief(&definition.name);
     for (name_of_other, other) in items {
-        let enumeration = context.device.referred(other).and_then(|item| context.owner.enumeration(item.ty));
+        let enumeration = context.device.referred(other).and_then(|item| stated::enumeration(context.owner, item));
         let Some((labels, _)) = enumeration else { continue };
         let of_item = conditions.iter().filter(|condition| condition.item == *other && condition.mask.is_none());
         let values: HashSet<i128> = of_item.flat_map(|condition| &condition.values).filter_map(Value::as_int).collect();

@@ -4,15 +4,15 @@ use super::context::Context;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::firmware::apart;
 use crate::ir::owner::{Owner, TypeUses};
-use crate::ir::{CodeRow, EnumValue, Shape, Type, TypeDef, TypeId};
+use crate::ir::{stated, CodeRow, EnumValue, Shape, Type, TypeDef};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     let uses = TypeUses::new(owner);
-    for (definition, id) in owner.types.iter().zip(0..) {
+    for (id, definition) in stated::types(owner.types) {
         let Shape::Enumeration { base, values, .. } = &definition.shape else { continue };
-        if let Some(found) = outside(definition, *base, values, || uses.first(TypeId(id))) {
+        if let Some(found) = outside(definition, *base, values, || uses.first(id)) {
             diagnostics.push(found);
         }
         let mut sorted: Vec<&EnumValue> = values.iter().collect();
@@ -28,7 +28,7 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
 
 /// Reports the first two overlapping codes of each code table.
 pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    for table in &context.device.code_tables {
+    for table in stated::code_tables(context.device) {
         let mut sorted: Vec<_> = table.rows.iter().collect();
         sorted.sort_by_key(|row| row.code);
         let range = |row: &CodeRow| (row.code, row.last.unwrap_or(row.code));
@@ -103,6 +103,7 @@ mod tests {
             shape: Shape::Enumeration { base, values, closed: false },
             bits: base.bits(),
             documentation: None,
+            stated_by: None,
             origin: Default::default(),
         };
         check(Owner { types: &[definition], groups: &[] }, &mut diagnostics);

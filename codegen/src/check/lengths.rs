@@ -2,7 +2,7 @@
 
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, Item, RegisterSpace, Type, Value};
+use crate::ir::{stated, Binding, Item, RegisterSpace, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -20,11 +20,11 @@ fn report(item: &Item, code: &'static Code, span: Span, message: String, diagnos
 }
 
 fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Diagnostics) {
-    let basic = || match item.ty {
+    let basic = || match stated::ty(owner, item) {
         Type::OctetString(bytes) | Type::VisibleString(bytes) => bytes?.checked_mul(8),
         ty => ty.bits(),
     };
-    let Some(bits) = owner.definition(item.ty).map_or_else(basic, |definition| definition.bits) else { return };
+    let Some(bits) = stated::definition(owner, item).map_or_else(basic, |definition| definition.bits) else { return };
     let name = brief(&item.name);
     match binding {
         Binding::EscMemory { length, .. } if bits.div_ceil(8) != u32::from(*length) => {

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{AxisStep, Device, Direction, Entries, Item, Mappable};
+use crate::ir::{stated, AxisStep, Device, Direction, Entries, Item, Mappable};
 use crate::source::Span;
 use crate::text::count_of;
 
@@ -84,7 +84,8 @@ impl Mapped {
 
     fn against(&self, device: &Device, item: &Item, is_resolved: bool) -> [Option<(&'static Code, String)>; 3] {
         let owner = Owner::of_types(&device.types);
-        let bits = owner.definition(item.ty).map_or(item.ty.bits(), |definition| definition.bits);
+        let bits = stated::definition(owner, item)
+            .map_or_else(|| stated::ty(owner, item).bits(), |definition| definition.bits);
         let length = bits.filter(|&bits| !is_resolved && bits != self.bits);
         let length = length.map(|bits| {
             (&codes::MAPPED_LENGTH, format!("is mapped with {}, but its type has {bits}", count_of(self.bits, "bit")))

@@ -3,7 +3,7 @@
 use super::bit_fields::{called, set_bits};
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
-use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
+use crate::ir::{stated, BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
 use crate::source::Span;
 use crate::text::{brief, count_of, more};
 
@@ -12,9 +12,7 @@ const MAX_LISTED: usize = 6;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
-        // A type from a profile is not checked, because a single device does not support all of its values.
-        let is_described = |definition: &&TypeDef| !definition.origin.span.is_empty();
-        let Some(definition) = owner.definition(item.ty).filter(is_described) else { continue };
+        let Some(definition) = stated::definition(owner, item) else { continue };
         let mut check = Check { owner, item, definition, diagnostics };
         match &definition.shape {
             Shape::Enumeration { base, values, closed } => check.enumeration(*base, values, *closed),
@@ -80,7 +78,7 @@ impl Check<'_, '_> {
         for number in self.values() {
             self.named(values, closed, number);
         }
-        let behaviour = self.item.behaviour.as_deref();
+        let behaviour = stated::behaviour(self.item);
         for value in behaviour.iter().flat_map(|behaviour| &behaviour.writable_values).filter_map(Value::as_int) {
             self.named(values, true, Number { what: "writable value", value, span: Span::default() });
         }
@@ -246,6 +244,7 @@ mod tests {
             shape,
             bits: None,
             documentation: None,
+            stated_by: None,
             origin: Origin { span: Span::new(FileId(0), 0, 4), line: 1 },
         };
         let mut diagnostics = Diagnostics::default();

@@ -6,7 +6,7 @@ use super::bit_fields::are_distinct;
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::apart;
-use crate::ir::{EnumValue, Group, GroupKind, Item, Shape, TypeDef};
+use crate::ir::{stated, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -22,7 +22,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
             }
         }
     }
-    device.types.iter().for_each(|definition| meanings(definition, diagnostics));
+    stated::types(&device.types).for_each(|(_, definition)| meanings(definition, diagnostics));
 }
 
 /// Returns the location of the name of an item.

@@ -3,7 +3,7 @@
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{excluded, AxisStep, Device, Format, Group, Item, ObjectCode, Value};
+use crate::ir::{excluded, stated, AxisStep, Device, Format, Group, Item, ObjectCode, Value};
 use crate::text::{count_of, more};
 
 /// Reports contradictory objects and missing mandatory objects.
@@ -149,9 +149,10 @@ fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut 
     let mut elements = described_items(group).filter(|item| !matches!(sub_of(item), 0 | 0xFF));
     let Some(first) = elements.next() else { return };
     // Elements of an array may differ in the names of bits and values, because the object dictionary does not contain such names.
-    if let Some(other) = elements.find(|item| owner.integer(item.ty) != owner.integer(first.ty)) {
-        let message =
-            format!("an element of the array 0x{index:04X} is {}, but the first element is {}", other.ty, first.ty);
+    let ty = |item| stated::ty(owner, item);
+    if let Some(other) = elements.find(|item| owner.integer(ty(item)) != owner.integer(ty(first))) {
+        let (one, other_type) = (ty(first), ty(other));
+        let message = format!("an element of the array 0x{index:04X} is {other_type}, but the first element is {one}");
         let found = codes::ARRAY_TYPES.at(other.at.ty.or(other.origin.span), message);
         diagnostics.push(found.note_at(first.at.ty.or(first.origin.span), "the first element"));
     }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::context::PdoOwner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Item, Pdo, PdoEntry, PdoEntryKind};
+use crate::ir::{stated, Item, Pdo, PdoEntry, PdoEntryKind};
 use crate::resolve::address;
 use crate::source::Span;
 use crate::text::count_of;
@@ -23,7 +23,7 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
         }
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
             if let Some(item) = owner.described(entry) {
-                let bits = owner.owner.fixed_bits(item.ty).filter(|bits| *bits != entry.bits);
+                let bits = owner.owner.fixed_bits(stated::ty(owner.owner, item)).filter(|bits| *bits != entry.bits);
                 bits.into_iter().for_each(|bits| diagnostics.push(length(entry, item, bits)));
             }
         }

@@ -6,7 +6,7 @@ use super::context::Context;
 use super::limits::beyond;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{reserved, Owner};
-use crate::ir::{Device, Item, ItemRef, Procedure, Step, Value};
+use crate::ir::{stated, Device, Item, ItemRef, Procedure, Step, Value};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -94,12 +94,12 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     if let Some(limit) = beyond(item, number).filter(|_| are_ordered) {
         return Some(format!("whose {limit}"));
     }
-    let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);
+    let writable = stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.writable_values);
     let writable: Vec<i128> = writable.filter_map(Value::as_int).collect();
     if !writable.is_empty() && !writable.contains(&number) {
         return Some("but this value is not one of the writable values".to_owned());
     }
-    let (labels, closed) = owner.enumeration(item.ty)?;
+    let (labels, closed) = stated::enumeration(owner, item)?;
     match reserved(labels, number) {
         None => closed.then(|| "but this value has no name".to_owned()),
         Some(is_reserved) => is_reserved.then(|| "but this value is reserved".to_owned()),

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{Shape, TypeDef};
+use crate::ir::{stated, Shape, TypeDef};
 use crate::text::brief;
 
 /// Titles of table columns that are never names of bits or values.
@@ -21,7 +21,7 @@ const TITLES: [&str; 11] = [
 ];
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    for definition in context.owner.types {
+    for (_, definition) in stated::types(context.owner.types) {
         match &definition.shape {
             Shape::BitField { fields, .. } => titles(definition, fields.iter().map(|field| &*field.name), diagnostics),
             Shape::Enumeration { values, .. } => {

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use super::cob_id::has_identifier;
 use super::{encoding, types};
 use crate::ir::{Device, Group, Item, ObjectCode, Type, TypeDef, Value};
-use crate::profiles;
-use crate::resolve::announced_count;
+use crate::resolve::{announced_count, is_device_of_number};
 
 /// Bit of a COB-ID that disables the PDO (CiA 301 7.5.2.35 and 7.5.2.37).
 const DISABLED: i128 = 1 << 31;
@@ -85,7 +84,7 @@ impl Configuration {
         let is_object = |group: &&Group| {
             !matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null))
         };
-        let is_drive = profiles::is_device_of_number(device, 402);
+        let is_drive = is_device_of_number(device, 402);
         for group in device.groups.iter().filter(is_object) {
             match group.index() {
                 Some(index @ (0x1400..=0x15FF | 0x1800..=0x19FF)) => {

@@ -4,8 +4,8 @@ use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
 use crate::ir::{
     Access, Availability, Behaviour, Binding, Bus, Buses, CiteUnit, CompactString, Condition, Device, Direction,
-    Documentation, Doubt, ElementId, Fact, FactOrigin, Item, ItemVariant, Limits, LocalText, Manual, Quantity,
-    Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
+    Documentation, Doubt, ElementId, Fact, FactOrigin, FactOrigins, Group, Item, ItemVariant, Limits, LocalText,
+    Manual, Quantity, Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
 
 /// Writes sentences in the format of an output. All texts of the source are escaped.
@@ -138,6 +138,8 @@ pub fn origin_name(origin: &FactOrigin) -> String {
         FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
         FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs without a description".to_owned(),
         FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
+        FactOrigin::Rule(Rule::MissingKey) => "the rule for missing attributes".to_owned(),
+        FactOrigin::Rule(Rule::CompactObject) => "the rule for compact sub-indices".to_owned(),
         FactOrigin::PrintedName => "the name in the manual".to_owned(),
     }
 }
@@ -157,6 +159,7 @@ pub fn fact_name(fact: Fact) -> &'static str {
         Fact::Behaviour => "storage and side effects",
         Fact::Availability => "availability",
         Fact::Variants => "differences between models",
+        Fact::Description => "description",
     }
 }
 
@@ -503,6 +506,26 @@ impl Words<'_> {
         Some(format!("{what} from {}.", self.escaped(&origin_name(origin))))
     }
 
+    /// Returns the origin of a definition, such as a code table or state machine: `Definition from overlay pump.toml:12.` Returns
+    /// `None` if the description is the origin, or if the documentation has the same origin.
+    pub fn defined_by(&self, origin: Option<&FactOrigin>, documentation: Option<&Documentation>) -> Option<String> {
+        let cited = documentation.and_then(|documentation| documentation.text_from.as_deref());
+        let origin = origin.filter(|origin| cited != Some(*origin))?;
+        Some(self.origin_sentence("Definition", origin))
+    }
+
+    /// Returns the origins of the name and description of a group.
+    pub fn group_origins(&self, group: &Group) -> Vec<String> {
+        self.sentences_about(&group.origins)
+    }
+
+    /// Returns a sentence about the origin of facts: `Unit from overlay pump.toml:12 instead of the description.`
+    fn origin_sentence(&self, facts: &str, origin: &FactOrigin) -> String {
+        let replaces = matches!(origin, FactOrigin::Overlay { replaces: true, .. });
+        let instead = if replaces { " instead of the description" } else { "" };
+        format!("{facts} from {}{instead}.", self.escaped(&origin_name(origin)))
+    }
+
     /// Returns the origin of a description: `Description from CiA 402, 17.3.7.`
     fn text_from(&self, documentation: &Documentation) -> Option<String> {
         let origin = documentation.text_from.as_deref()?;
@@ -567,12 +590,16 @@ impl Words<'_> {
     /// access rights, reserved entries, and bits and values of a standard are left out, because other methods return sentences
     /// about them.
     pub fn origins(&self, item: &Item) -> Vec<String> {
+        self.sentences_about(&item.origins)
+    }
+
+    fn sentences_about(&self, origins: &FactOrigins) -> Vec<String> {
         let mut groups: Vec<(&FactOrigin, Vec<&str>)> = Vec::new();
         for fact in Fact::ALL {
-            let Some(origin) = item.origins.get(fact) else { continue };
+            let Some(origin) = origins.get(fact) else { continue };
             let is_elsewhere = match origin {
                 FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
-                FactOrigin::Standard(_) => fact == Fact::Meaning,
+                FactOrigin::Standard(_) => matches!(fact, Fact::Meaning | Fact::Description),
                 FactOrigin::Overlay { .. } | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
             };
             if is_elsewhere {
@@ -583,17 +610,9 @@ impl Words<'_> {
                 None => groups.push((origin, vec![fact_name(fact)])),
             }
         }
-        let mut sentences = Vec::new();
-        for (origin, facts) in groups {
-            let replaced = matches!(origin, FactOrigin::Overlay { replaces: true, .. });
-            let instead = if replaced { " instead of the description" } else { "" };
-            sentences.push(format!(
-                "{} from {}{instead}.",
-                capital(&enumerated(&facts)),
-                self.escaped(&origin_name(origin))
-            ));
-        }
-        sentences
+        let sentence =
+            |(origin, facts): (&FactOrigin, Vec<&str>)| self.origin_sentence(&capital(&enumerated(&facts)), origin);
+        groups.into_iter().map(sentence).collect()
     }
 
     /// Returns a rounding step: `steps of 0.5 K (raw 5)`.

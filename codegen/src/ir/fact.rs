@@ -33,11 +33,13 @@ pub enum Fact {
     Availability,
     /// Differences of the item between models or buses.
     Variants,
+    /// Description of the item.
+    Description,
 }
 
 impl Fact {
     /// All facts, in the order in which outputs show them.
-    pub const ALL: [Fact; 12] = [
+    pub const ALL: [Fact; 13] = [
         Fact::Name,
         Fact::Addresses,
         Fact::Type,
@@ -50,6 +52,7 @@ impl Fact {
         Fact::Behaviour,
         Fact::Availability,
         Fact::Variants,
+        Fact::Description,
     ];
 
     /// Returns whether this fact differs between two items. Both [`Fact::Type`] and [`Fact::Meaning`] compare the item's type.
@@ -67,6 +70,7 @@ impl Fact {
             Fact::Behaviour => one.behaviour != other.behaviour,
             Fact::Availability => one.availability != other.availability,
             Fact::Variants => one.variants != other.variants,
+            Fact::Description => one.documentation != other.documentation,
         }
     }
 
@@ -83,6 +87,9 @@ impl Fact {
             Fact::Behaviour => item.behaviour.is_some(),
             Fact::Availability => item.availability.is_some(),
             Fact::Variants => !item.variants.is_empty(),
+            Fact::Description => {
+                item.documentation.as_deref().is_some_and(|documentation| !documentation.text.is_empty())
+            }
         }
     }
 }
@@ -104,6 +111,9 @@ pub enum FactOrigin {
         line: u32,
         /// True if the overlay replaces a fact of the description.
         replaces: bool,
+        /// Reason for the change, from the row or the head of the overlay; may be empty.
+        #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+        why: CompactString,
     },
     /// A standard and a clause of it: `CiA 402, 17.3.7`.
     Standard(CompactString),
@@ -124,6 +134,11 @@ pub enum Rule {
     AnnouncedPdo,
     /// An object that only PDO entries describe can be written if an RPDO maps it.
     MappedObject,
+    /// Items of an EDS, XDD or ESI without access rights are read-only, except domains of CANopen, which are read-write. Items
+    /// without a data type are read-only raw bytes.
+    MissingKey,
+    /// Sub-index 0 of an object with compact sub-indices contains their number (CiA 306, CompactSubObj).
+    CompactObject,
 }
 
 impl FactOrigin {
@@ -188,7 +203,7 @@ mod tests {
     use super::*;
 
     fn overlay() -> FactOrigin {
-        FactOrigin::Overlay { file: "a.toml".into(), line: 3, replaces: true }
+        FactOrigin::Overlay { file: "a.toml".into(), line: 3, replaces: true, why: "".into() }
     }
 
     #[test]

@@ -268,6 +268,9 @@ pub struct Group {
     pub origin: Origin,
     /// Location of the group's name in the source.
     pub name_at: Span,
+    /// Origins of the group's name and description, if they do not come from the description file itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "FactOrigins::is_empty"))]
+    pub origins: FactOrigins,
 }
 
 impl Group {
@@ -288,6 +291,7 @@ impl Group {
             extensions: Extensions::new(),
             origin: Origin::default(),
             name_at: Span::default(),
+            origins: FactOrigins::default(),
         }
     }
 

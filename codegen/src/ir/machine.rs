@@ -1,7 +1,8 @@
 //! State machines and procedures.
 
 use super::{
-    Availability, CompactString, Direction, Documentation, ItemRef, MessageRef, SharedList, Texts, TypeRef, Value,
+    Availability, CompactString, Direction, Documentation, FactOrigin, ItemRef, MessageRef, SharedList, Texts, TypeRef,
+    Value,
 };
 use crate::source::{Origin, Span};
 
@@ -32,6 +33,9 @@ pub struct StateMachine {
     pub outcomes: Vec<CommandOutcomes>,
     /// Description of the state machine from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Origin of the state machine; `None` = the description itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stated_by: Option<Box<FactOrigin>>,
 }
 
 /// Effects of a command in each state: a row of a table of commands and states.

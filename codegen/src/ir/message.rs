@@ -1,8 +1,8 @@
 //! Command protocols and code tables.
 
 use super::{
-    Availability, Buses, CompactString, Condition, Documentation, Doubts, Item, ItemRef, MessageRef, SharedList, Texts,
-    Value,
+    Availability, Buses, CompactString, Condition, Documentation, Doubts, FactOrigin, Item, ItemRef, MessageRef,
+    SharedList, Texts, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -257,6 +257,9 @@ pub struct CodeTable {
     /// Description of the code table.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
+    /// Origin of the code table; `None` = the description itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stated_by: Option<Box<FactOrigin>>,
     /// Location of the code table in the source.
     pub origin: Origin,
 }
@@ -286,6 +289,9 @@ pub struct CodeRow {
     pub documentation: Option<Box<Documentation>>,
     /// Values of the cells in the further columns.
     pub cells: Vec<Value>,
+    /// Origin of the row; `None` = that of the code table.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stated_by: Option<Box<FactOrigin>>,
 }
 
 impl CodeRow {

@@ -43,6 +43,7 @@ mod profinet;
 mod real;
 mod reference;
 mod shared;
+pub(crate) mod stated;
 #[cfg(feature = "table")]
 pub(crate) mod texts;
 mod types;

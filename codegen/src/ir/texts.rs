@@ -1,6 +1,6 @@
 //! Collects texts of a register table: documentation, names, side effects and steps.
 
-use super::{CompactString, Device, Documentation, Item, LocalText, Shape, Step, TypeDef};
+use super::{stated, CompactString, Device, Documentation, Item, LocalText, Shape, Step, TypeDef};
 use crate::source::Span;
 
 /// A text with its location.
@@ -11,19 +11,20 @@ pub(crate) struct Text<'a> {
     pub words: &'a str,
 }
 
-/// Returns the texts of the items, objects, types and procedures of a device.
+/// Returns the texts of the items, objects, types and procedures of a device, without texts from profiles.
 pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {
         // An object with a single value has the texts of that value.
         if group.items.is_empty() || group.object_code().is_none_or(|code| code.has_subs()) {
-            list.documented(group.origin.span, &group.name, &group.documentation, &group.names);
+            let documentation = stated::description(&group.origins, &group.documentation);
+            list.documented(group.origin.span, &group.name, documentation, &group.names);
         }
         group.items.iter().for_each(|item| list.item(item));
     }
-    device.types.iter().for_each(|definition| list.definition(definition));
+    stated::types(&device.types).for_each(|(_, definition)| list.definition(definition));
     for procedure in &device.procedures {
-        list.documented(procedure.origin.span, &procedure.name, &procedure.documentation, &[]);
+        list.documented(procedure.origin.span, &procedure.name, procedure.documentation.as_deref(), &[]);
         for (step, span) in procedure.spanned() {
             if let Step::Manual(words) = step {
                 list.push(span, &procedure.name, words);
@@ -46,7 +47,7 @@ impl<'a> List<'a> {
         &mut self,
         span: Span,
         of: &'a CompactString,
-        documentation: &'a Option<Box<Documentation>>,
+        documentation: Option<&'a Documentation>,
         names: &'a [LocalText],
     ) {
         if let Some(documentation) = documentation {
@@ -57,8 +58,9 @@ impl<'a> List<'a> {
 
     fn item(&mut self, item: &'a Item) {
         let span = item.origin.span;
-        self.documented(item.at.documentation.or(span), &item.name, &item.documentation, &item.names);
-        let effects = item.behaviour.iter().flat_map(|behaviour| &behaviour.side_effects);
+        let documentation = stated::description(&item.origins, &item.documentation);
+        self.documented(item.at.documentation.or(span), &item.name, documentation, &item.names);
+        let effects = stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.side_effects);
         effects.for_each(|effect| self.push(span, &item.name, effect));
     }
 
@@ -70,11 +72,11 @@ impl<'a> List<'a> {
         match &definition.shape {
             Shape::BitField { fields, .. } => fields.iter().for_each(|field| {
                 self.push(span, &definition.name, &field.name);
-                self.documented(span, &field.name, &field.documentation, &field.names);
+                self.documented(span, &field.name, field.documentation.as_deref(), &field.names);
             }),
             Shape::Enumeration { values, .. } => values.iter().for_each(|value| {
                 self.push(span, &definition.name, &value.name);
-                self.documented(span, &value.name, &value.documentation, &value.names);
+                self.documented(span, &value.name, value.documentation.as_deref(), &value.names);
             }),
             _ => {}
         }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Access, Availability, CompactString, Documentation, ItemRef, Mark, Texts, Value};
+use super::{Access, Availability, CompactString, Documentation, FactOrigin, ItemRef, Mark, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: a basic type, or a reference to a [`TypeDef`] of the item's device.
@@ -221,6 +221,9 @@ pub struct TypeDef {
     pub bits: Option<u32>,
     /// Description of the type from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Origin of the definition; `None` = the description itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stated_by: Option<Box<FactOrigin>>,
     /// Location of the type in the source.
     pub origin: Origin,
 }

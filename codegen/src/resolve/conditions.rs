@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::references::for_each_condition;
+use super::mentions::for_each_condition;
 use crate::ir::owner::Owner;
 use crate::ir::{Condition, Device, ItemId, Value};
 

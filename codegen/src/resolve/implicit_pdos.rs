@@ -39,6 +39,7 @@ pub(super) fn run(device: &mut Device) {
 fn object(index: u16, name: &'static str) -> Group {
     let mut group = Group::object(index, ObjectCode::Record);
     group.name = CompactString::const_new(name);
+    group.origins = FactOrigins::by_rule(&[Fact::Name], Rule::AnnouncedPdo);
     group
 }
 
@@ -48,7 +49,7 @@ fn item(index: u16, sub: u8, name: CompactString, bits: u8, default: Option<Valu
     item.ty = Type::Unsigned(bits);
     item.access = if sub == 0 { Access::ReadOnly } else { Access::ReadWrite };
     item.default = default;
-    item.origins = FactOrigins::by_rule(&[Fact::Type, Fact::Access, Fact::Default], Rule::AnnouncedPdo);
+    item.origins = FactOrigins::by_rule(&[Fact::Name, Fact::Type, Fact::Access, Fact::Default], Rule::AnnouncedPdo);
     item
 }
 

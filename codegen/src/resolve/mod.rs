@@ -1,10 +1,13 @@
-//! Derives facts from a description. After front ends and overlays have run, only this stage changes the IR.
+//! Completes a description. After front ends and overlays have run, only this stage changes the facts in the IR. Later, a selection
+//! can remove objects.
 //!
 //! | file | subject |
 //! |---|---|
 //! | `run` | order of the steps |
 //! | `conditions` | signs of the values in conditions |
-//! | `references` | ids for the names in references |
+//! | `profiles` | facts of standards about the objects of all devices that follow them |
+//! | `references`, `mentions` | ids for the names in references |
+//! | `removal` | removes selected objects, and updates ids |
 //! | `identity` | identity numbers of object 0x1018 |
 //! | `implicit_pdos` | objects of PDOs that a device counts but does not describe |
 //! | `pdo_mapping` | PDOs from mapping objects |
@@ -15,11 +18,14 @@ mod conditions;
 mod identity;
 mod implicit_pdos;
 mod mapped_objects;
+mod mentions;
 #[cfg(feature = "messages")]
 pub(crate) mod messages;
 mod pdo_entries;
 mod pdo_mapping;
+pub(crate) mod profiles;
 mod references;
+pub(crate) mod removal;
 mod run;
 
 pub(crate) use identity::IdentityNumber;
@@ -27,5 +33,5 @@ pub(crate) use pdo_entries::address;
 pub(crate) use pdo_mapping::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };
-pub use run::resolve;
-pub(crate) use run::resolve_references;
+pub(crate) use profiles::is_device_of_number;
+pub use run::{resolve, Profiles};

@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
+use super::mentions::{for_each, of_items_and_types, window_sides, Mention};
 use crate::ir::owner::{Index, Owner};
 use crate::ir::{
-    Binding, CompactString, Completion, Condition, Device, ElementId, ElementRef, Entries, Group, Item, ItemId,
-    ItemRef, MessageField, MessageId, Module, Pdo, PdoEntryKind, ProcedureId, Reference, Scale, Shape, Step, Storage,
-    Transition, TypeDef, TypeId, WindowSide,
+    CompactString, Device, ElementId, Entries, Group, ItemId, MessageId, Module, Pdo, PdoEntryKind, ProcedureId,
+    Reference, Shape, Step, Transition, TypeDef, TypeId,
 };
 
 /// Resolves the references of a device. Returns whether the device contains a reference to an item.
@@ -22,7 +22,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     }
     find(&mut names, &[&device.groups], &device.types);
     let messages = Positions::new(device.messages.iter().map(|message| &message.name));
-    for_each(device, &mut |mention| mention.resolve(&names, &messages));
+    for_each(device, &mut |mention| resolve(mention, &names, &messages));
     true
 }
 
@@ -39,7 +39,7 @@ pub(super) fn module(module: &mut Module) {
         find(&mut names, &[fixed_objects, groups], types);
         let messages = Positions::new([].into_iter());
         let groups = fixed_objects.iter_mut().chain(groups);
-        of_items_and_types(groups, types, &mut |mention| mention.resolve(&names, &messages));
+        of_items_and_types(groups, types, &mut |mention| resolve(mention, &names, &messages));
     }
 }
 
@@ -68,39 +68,17 @@ impl Positions {
     }
 }
 
-/// A reference to an item, or to an item or message.
-enum Mention<'r> {
-    Item(&'r mut ItemRef),
-    Element(&'r mut ElementRef),
-}
-
-impl Mention<'_> {
-    fn name(&self) -> &CompactString {
-        match self {
-            Mention::Item(reference) => &reference.name,
-            Mention::Element(reference) => &reference.name,
-        }
-    }
-
-    fn resolve(self, items: &Found, messages: &Positions) {
-        let item = items.get(self.name()).copied().flatten();
-        match self {
-            Mention::Item(reference) => reference.id = item,
-            Mention::Element(reference) => {
-                let message = || messages.find(&reference.name).map(|at| ElementId::Message(MessageId(at)));
-                reference.id = item.map(ElementId::Item).or_else(message);
-            }
+/// Sets the id of a reference.
+fn resolve(mention: Mention<'_>, items: &Found, messages: &Positions) {
+    let item = items.get(mention.name()).copied().flatten();
+    match mention {
+        Mention::Item(reference) => reference.id = item,
+        Mention::Element(reference) => {
+            let message = || messages.find(&reference.name).map(|at| ElementId::Message(MessageId(at)));
+            reference.id = item.map(ElementId::Item).or_else(message);
         }
     }
 }
-
-impl<'r> From<&'r mut ItemRef> for Mention<'r> {
-    fn from(reference: &'r mut ItemRef) -> Self {
-        Mention::Item(reference)
-    }
-}
-
-type Visit<'v> = &'v mut dyn FnMut(Mention<'_>);
 
 fn messages(device: &mut Device) {
     if device.messages.is_empty() {
@@ -153,15 +131,6 @@ fn state_types(device: &mut Device) {
     }
 }
 
-/// Returns the window sides for reading and for writing of an indirect binding.
-fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
-    let window = match binding {
-        Binding::Indirect(window) => Some(window),
-        _ => None,
-    };
-    window.into_iter().flat_map(|window| [&mut window.read, &mut window.write]).flatten()
-}
-
 /// Sets the ids of the items that PDO entries map. `first` is the number of groups that precede `groups`.
 fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     let items = Entries::new(groups);
@@ -188,113 +157,11 @@ fn find(names: &mut Found, groups: &[&[Group]], types: &[TypeDef]) {
     }
 }
 
-/// Visits all references to items in a device.
-fn for_each(device: &mut Device, visit: Visit<'_>) {
-    of_items_and_types(device.groups.iter_mut(), &mut device.types, visit);
-    for message in &mut device.messages {
-        if let Completion::Polled { item, .. } = &mut message.completion {
-            visit(item.into());
-        }
-        message.accepted_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
-        of_fields(&mut message.request, visit);
-        of_fields(&mut message.reply, visit);
-    }
-    for machine in &mut device.machines {
-        visit((&mut machine.status_item).into());
-        visit((&mut machine.control_item).into());
-    }
-    let steps = device.procedures.iter_mut().flat_map(|procedure| &mut procedure.steps);
-    steps.filter_map(target).for_each(|item| visit(item.into()));
-    for composite in &mut device.composites {
-        composite.parts.iter_mut().for_each(|item| visit(item.into()));
-        composite.sign.iter_mut().for_each(|(item, _)| visit(item.into()));
-    }
-}
-
-fn of_items_and_types<'g>(groups: impl Iterator<Item = &'g mut Group>, types: &mut [TypeDef], visit: Visit<'_>) {
-    for item in groups.flat_map(|group| &mut group.items) {
-        of_item(item, visit);
-    }
-    of_types(types, visit);
-}
-
-fn of_item(item: &mut Item, visit: Visit<'_>) {
-    if let Some(behaviour) = &mut item.behaviour {
-        if let Storage::OnCommand(command) = &mut behaviour.storage {
-            visit(Mention::Element(command));
-        }
-        behaviour.write_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
-    }
-    if let Some(availability) = &mut item.availability {
-        availability.replaced_by.iter_mut().for_each(|other| visit(Mention::Element(other)));
-    }
-    if let Some(related) = &mut item.related {
-        related.all_mut().for_each(|item| visit(item.into()));
-    }
-    if let Some(scale) = item.quantity.as_mut().and_then(|quantity| quantity.scale.as_mut()) {
-        of_scale(scale).into_iter().for_each(|item| visit(item.into()));
-    }
-    for side in item.bindings.iter_mut().flat_map(window_sides) {
-        visit((&mut side.number).into());
-        visit((&mut side.value).into());
-    }
-}
-
-fn of_fields(fields: &mut [MessageField], visit: Visit<'_>) {
-    for field in fields {
-        match field {
-            MessageField::Value(value) => of_item(&mut value.item, visit),
-            MessageField::Repeat { fields, .. } => of_fields(fields, visit),
-            _ => {}
-        }
-    }
-}
-
-fn of_scale(scale: &mut Scale) -> Option<&mut ItemRef> {
-    match scale {
-        Scale::Exponent { exponent, .. } => Some(exponent),
-        Scale::ByItem { item, .. } | Scale::TimesItem { item, .. } => Some(item),
-        Scale::Linear { .. } | Scale::Reciprocal { .. } | Scale::Fraction { .. } => None,
-    }
-}
-
-fn of_types(types: &mut [TypeDef], visit: Visit<'_>) {
-    for_each_condition(types, &mut |condition| visit((&mut condition.item).into()));
-    for definition in types {
-        if let Shape::Scaled { scale, .. } = &mut definition.shape {
-            of_scale(scale).into_iter().for_each(|item| visit(item.into()));
-        }
-    }
-}
-
-/// Visits the conditions of the bits and values of types.
-pub(super) fn for_each_condition(types: &mut [TypeDef], visit: &mut dyn FnMut(&mut Condition)) {
-    for definition in types {
-        match &mut definition.shape {
-            Shape::Enumeration { values, .. } => {
-                values.iter_mut().filter_map(|value| value.when.as_mut()).for_each(&mut *visit)
-            }
-            Shape::BitField { fields, .. } => {
-                fields.iter_mut().filter_map(|field| field.when.as_mut()).for_each(&mut *visit)
-            }
-            _ => {}
-        }
-    }
-}
-
-/// Returns the item that a step writes, reads or waits for.
-fn target(step: &mut Step) -> Option<&mut ItemRef> {
-    match step {
-        Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => Some(item),
-        Step::Read(item) | Step::WaitFor(item, ..) => Some(item),
-        Step::Delay(_) | Step::Send(_) | Step::Exchange(_) | Step::Manual(_) => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::{mentions::target, removal};
     use super::*;
-    use crate::ir::{GroupKind, ObjectCode, RelatedItems, Value};
+    use crate::ir::{Binding, GroupKind, Item, ObjectCode, RelatedItems, Value};
 
     fn item(name: &str, index: u16) -> Item {
         let mut item = Item::new(Binding::canopen(index, 0));
@@ -339,9 +206,8 @@ mod tests {
         let related = device.groups[0].items[0].related.as_deref().expect("relations");
         assert_eq!(related.same_as.as_ref().and_then(|reference| reference.id), id(0, 1));
         assert_eq!(related.same_quantity.as_ref().and_then(|reference| reference.id), None);
-        // Resolving again after the removal of a group updates the ids.
-        device.groups.remove(0);
-        super::device(&mut device);
+        // After the removal of a group, the ids refer to the same items as before.
+        removal::of_device(&mut device, |group| group.name != "Axis");
         let ids: Vec<_> =
             device.procedures[0].steps.iter_mut().filter_map(target).map(|reference| reference.id).collect();
         assert_eq!(ids, [None, None, id(0, 0)]);

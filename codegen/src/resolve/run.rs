@@ -1,20 +1,40 @@
-//! Runs the steps that derive facts.
+//! Runs the steps that complete a description.
 
-use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping, references};
+use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping, profiles, references};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Module};
 
-/// Derives facts from the descriptions in `catalog`, and reports PDO entries whose object is missing.
-pub fn resolve(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
-    for device in &mut catalog.devices {
-        resolve_device(device, &catalog.modules, diagnostics);
-    }
-    for module in &mut catalog.modules {
-        resolve_module(module, diagnostics);
-    }
+/// Whether profiles complete a description.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profiles {
+    /// The profiles that a device follows add facts.
+    Applied,
+    /// Profiles add no facts.
+    Ignored,
 }
 
-fn resolve_device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
+/// Completes the descriptions in `catalog`, and reports PDO entries whose object is missing. Each step uses the results of the
+/// steps before it.
+pub fn resolve(catalog: &mut Catalog, profiles: Profiles, diagnostics: &mut Diagnostics) {
+    for device in &mut catalog.devices {
+        complete_device(device, &catalog.modules, diagnostics);
+    }
+    for module in &mut catalog.modules {
+        pdo_entries::module(module, diagnostics);
+        mapped_objects::module(module);
+    }
+    if profiles == Profiles::Applied {
+        profiles::apply(catalog);
+    }
+    for device in &mut catalog.devices {
+        if references::device(device) {
+            conditions::run(device);
+        }
+    }
+    catalog.modules.iter_mut().for_each(references::module);
+}
+
+fn complete_device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
     identity::run(device);
     implicit_pdos::run(device);
     pdo_mapping::run(device, modules);
@@ -22,21 +42,4 @@ fn resolve_device(device: &mut Device, modules: &[Module], diagnostics: &mut Dia
         pdo_entries::device(device, diagnostics);
         mapped_objects::device(device);
     }
-    if references::device(device) {
-        conditions::run(device);
-    }
-}
-
-fn resolve_module(module: &mut Module, diagnostics: &mut Diagnostics) {
-    pdo_entries::module(module, diagnostics);
-    mapped_objects::module(module);
-    references::module(module);
-}
-
-/// Resolves all references again, after elements were added or removed.
-pub(crate) fn resolve_references(catalog: &mut Catalog) {
-    for device in &mut catalog.devices {
-        references::device(device);
-    }
-    catalog.modules.iter_mut().for_each(references::module);
 }

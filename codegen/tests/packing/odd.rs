@@ -16,6 +16,7 @@ fn enumeration(name: &str, base: Type, values: std::ops::Range<i128>) -> TypeDef
         shape: Shape::Enumeration { base, values: values.map(value).collect(), closed: false },
         bits: base.bits(),
         documentation: None,
+        stated_by: None,
         origin: Origin::default(),
     }
 }

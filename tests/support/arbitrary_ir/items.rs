@@ -122,6 +122,7 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
         documentation: names::documentation(b),
         doubts: names::doubts(b),
         extensions: names::extensions(b),
+        origins: names::origins(b),
         ..Group::object(index, code)
     }
 }

@@ -35,6 +35,7 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         commands: commands.into(),
         transitions: transitions.into(),
         documentation: names::documentation(b),
+        stated_by: names::stated_by(b),
     }
 }
 
@@ -106,6 +107,7 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
             availability: b.maybe(8, availability).map(Box::new),
             documentation: names::documentation(b),
             cells: b.list(3, values::any),
+            stated_by: names::stated_by(b),
         }
     });
     let buses = names::buses(b);
@@ -115,6 +117,7 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
         rows: rows.into(),
         buses,
         documentation: names::documentation(b),
+        stated_by: names::stated_by(b),
         origin: Origin::default(),
     }
 }

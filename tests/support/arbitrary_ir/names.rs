@@ -252,8 +252,10 @@ pub fn texts(b: &mut Bytes<'_>) -> Texts {
 fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
     match b.within(0..=4) {
         0 => b.pick(&[FactOrigin::Stated, FactOrigin::PrintedName]),
-        1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any() },
-        2 => FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject])),
+        1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any(), why: name(b) },
+        2 => {
+            FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject, Rule::MissingKey]))
+        }
         _ => FactOrigin::Standard(text(b)),
     }
 }
@@ -261,6 +263,11 @@ fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
 /// Returns origins of facts that are not in the device description.
 pub fn origins(b: &mut Bytes<'_>) -> FactOrigins {
     FactOrigins(b.few(4, 3, |b| (b.pick(&Fact::ALL), fact_origin(b))).into_iter().collect())
+}
+
+/// Returns the origin of a definition that is not in the device description.
+pub fn stated_by(b: &mut Bytes<'_>) -> Option<Box<FactOrigin>> {
+    b.maybe(8, fact_origin).map(Box::new)
 }
 
 pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {

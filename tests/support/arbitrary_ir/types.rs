@@ -81,7 +81,8 @@ pub fn definitions(b: &mut Bytes<'_>, most: usize) -> Vec<TypeDef> {
         let shape = shape(b, &types);
         let documentation = names::documentation(b);
         let (code, bits) = (b.maybe(4, |b| b.within(0x40..=0x60)), b.maybe(4, |b| b.within(1..=64)));
-        types.push(TypeDef { name: names::name(b), code, shape, bits, documentation, origin: Origin::default() });
+        let (name, stated_by) = (names::name(b), names::stated_by(b));
+        types.push(TypeDef { name, code, shape, bits, documentation, stated_by, origin: Origin::default() });
     }
     types
 }

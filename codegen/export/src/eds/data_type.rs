@@ -130,6 +130,7 @@ mod tests {
             shape,
             bits: None,
             documentation: None,
+            stated_by: None,
             origin: Origin::default(),
         };
         let types = [

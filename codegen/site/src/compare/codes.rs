@@ -20,7 +20,7 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
         columns: fact("columns", Judgement::API),
         rows: list(rows(), row),
         buses: only_on,
-        documentation,
+        documentation, stated_by,
     }, POSITION => [origin]);
 }
 
@@ -46,7 +46,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
     compare_fields!(CodeRow, old, new, comparison, {
         printed: text("printed code"),
         printed_cells: text("printed cells"),
-        name, names, availability, documentation,
+        name, names, availability, documentation, stated_by,
         cells: fact("further columns", Judgement::BEHAVIOR),
     }, COMPARED => [code, last]);
 }

@@ -150,6 +150,12 @@ macro_rules! rule {
     (extensions) => {
         $crate::compare::texts::extensions
     };
+    (origins) => {
+        $crate::compare::texts::origins
+    };
+    (stated_by) => {
+        $crate::compare::texts::stated_by
+    };
     (availability) => {
         $crate::compare::conditions::availability
     };

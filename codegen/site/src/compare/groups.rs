@@ -175,7 +175,7 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
         described: fact("number of described entries", Judgement::NONE),
-        documentation, doubts, extensions,
+        documentation, doubts, extensions, origins,
     }, COMPARED => [items], POSITION => [origin, name_at]);
 }
 

@@ -7,13 +7,13 @@ use super::comparison::{
 };
 use super::conditions::{conditions, restricted};
 use super::show::Show;
-use super::texts::{described, origin, renamed};
+use super::texts::{described, renamed};
 use super::types;
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::words::{fact_name, PLAIN};
+use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
-    Access, Behaviour, CompactString, Configured, Conversion, FactOrigins, Item, ItemVariant, Limits, MachineUnit,
-    Mappable, Quantity, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
+    Access, Behaviour, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
+    Quantity, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
 };
 
 /// Compares all facts of an item.
@@ -52,11 +52,7 @@ pub(super) fn compare_named(
         is_optional: fact("optional", Judgement::BEHAVIOR),
         shared_by_axes: fact("shared by all axes", Judgement::API),
         flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
-        documentation, doubts, extensions,
-        origins: positioned("origins", Judgement::NONE, |origins: &FactOrigins| {
-            let all = origins.0.iter().map(|(fact, from)| format!("{}: {}", fact_name(*fact), origin(from)));
-            all.collect::<Vec<_>>().join("; ")
-        }),
+        documentation, doubts, extensions, origins,
     }, POSITION => [origin, at]);
 }
 

@@ -21,7 +21,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
                 .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR),
             command_outcomes,
         ),
-        documentation,
+        documentation, stated_by,
     });
 }
 

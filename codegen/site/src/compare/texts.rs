@@ -4,8 +4,8 @@ use super::change::Judgement;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
 use super::names::identifier;
 use super::show::Show;
-use lexibus_codegen::facts::words::{origin_name, PLAIN};
-use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, FactOrigin, Manual, ManualSection};
+use lexibus_codegen::facts::words::{fact_name, origin_name, PLAIN};
+use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, FactOrigin, FactOrigins, Manual, ManualSection};
 
 /// Compares two descriptions of an element.
 pub(super) fn documentation(
@@ -25,10 +25,26 @@ pub(super) fn documentation(
 /// Formats the origin of a fact without its position in the file.
 pub(super) fn origin(origin: &FactOrigin) -> String {
     match origin {
-        FactOrigin::Overlay { file, replaces: false, .. } => format!("overlay {file}"),
-        FactOrigin::Overlay { file, replaces: true, .. } => format!("overlay {file}, replacing the description"),
+        FactOrigin::Overlay { file, replaces, why, line: _ } => {
+            let replacing = if *replaces { ", replacing the description" } else { "" };
+            let why = if why.is_empty() { String::new() } else { format!(" ({why})") };
+            format!("overlay {file}{replacing}{why}")
+        }
         other => origin_name(other),
     }
+}
+
+/// Compares the origins of the facts of an item or group.
+pub(super) fn origins(old: &FactOrigins, new: &FactOrigins, comparison: &mut Comparison<'_>) {
+    positioned("origins", Judgement::NONE, |origins: &FactOrigins| {
+        let all = origins.0.iter().map(|(fact, from)| format!("{}: {}", fact_name(*fact), origin(from)));
+        all.collect::<Vec<_>>().join("; ")
+    })(old, new, comparison);
+}
+
+/// Compares the origins of a definition.
+pub(super) fn stated_by(old: &Option<Box<FactOrigin>>, new: &Option<Box<FactOrigin>>, comparison: &mut Comparison<'_>) {
+    positioned("origin", Judgement::NONE, text_from)(old, new, comparison);
 }
 
 fn text_from(from: &Option<Box<FactOrigin>>) -> String {

@@ -135,7 +135,7 @@ fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mu
                 fact("length of the type in bits", Judgement::WIRE)(old, new, comparison);
             }
         },
-        documentation,
+        documentation, stated_by,
     }, POSITION => [origin]);
 }
 

@@ -54,6 +54,8 @@ fn model(
             .into_iter()
             .flat_map(|text| [String::new(), text]),
     );
+    let origin = WORDS.defined_by(table.stated_by.as_deref(), table.documentation.as_deref());
+    docs.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
     docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("These codes occur on {}.", bus_names(table.buses))]);

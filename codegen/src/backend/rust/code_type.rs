@@ -153,6 +153,7 @@ fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVarian
     docs::words(row.documentation.as_deref(), &mut sentences);
     sentences.extend(row.availability.as_ref().map(|availability| WORDS.availability(availability)));
     sentences.extend(WORDS.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
+    sentences.extend(WORDS.defined_by(row.stated_by.as_deref(), row.documentation.as_deref()));
     for sentence in sentences {
         text.push(' ');
         text.push_str(&sentence);

@@ -150,6 +150,8 @@ fn documentation(
     };
     let mut lines = vec![format!("{noun} of {}{item}.", docs::escape(&machine.name))];
     docs::described(machine.documentation.as_deref(), &context.manual, &mut lines);
+    let origin = docs::WORDS.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref());
+    lines.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
     docs::doubts_about(context, SubjectKind::Machine, &machine.name, &mut lines);
     let row = |pattern: &PatternModel| {
         [format!("[`{0}`](Self::{0})", pattern.name), format!("`{}`", pattern.bits), pattern.meaning.clone()]

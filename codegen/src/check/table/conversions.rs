@@ -4,7 +4,7 @@
 use super::physical;
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
+use crate::ir::{stated, Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
 
 /// The number of digits after the first significant digit. The resulting seven digits are enough for a raw value of 16
@@ -15,7 +15,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     let fields = device.messages.iter().flat_map(|message| message.values().map(|value| &value.item));
     for item in owner.items().chain(fields) {
-        let Some(quantity) = &item.quantity else { continue };
+        let Some(quantity) = stated::quantity(item) else { continue };
         for conversion in &quantity.conversions {
             if let Some((text, help)) = problem(device, item, quantity, conversion) {
                 diagnostics.push(codes::CONVERSION_DIFFERS.at(conversion.at, text).help(help));

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{texts, Device};
+use crate::ir::{stated, texts, Device};
 use crate::limits;
 use crate::text::{brief, edit_distance};
 
@@ -51,7 +51,7 @@ impl<'a> Names<'a> {
         let items = device.items().map(|item| item.name.as_str());
         let of_items = || items.clone().chain(device.groups.iter().map(|group| group.name.as_str()));
         // Words that are names of types, procedures or messages are not reported as misspelled item names.
-        let others = device.types.iter().map(|definition| definition.name.as_str());
+        let others = stated::types(&device.types).map(|(_, definition)| definition.name.as_str());
         let others = others.chain(device.procedures.iter().map(|procedure| procedure.name.as_str()));
         let all = of_items().chain(others.chain(device.messages.iter().map(|message| message.name.as_str())));
         let single =

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use super::physical;
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
+use crate::ir::{stated, CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
 use crate::text::{brief, glob};
 
 /// The relative difference that two defaults may have because they were rounded to different raw values.
@@ -69,7 +69,7 @@ struct Physical {
 impl Physical {
     fn new(device: &Device, item: &Item, model: Option<&Variant>) -> Option<Self> {
         let raw = default(item, model)?;
-        let Some(quantity) = &item.quantity else {
+        let Some(quantity) = stated::quantity(item) else {
             return Some(Physical { number: raw, unit: CompactString::default(), machine: None });
         };
         let other = |name: &CompactString| match &quantity.scale {

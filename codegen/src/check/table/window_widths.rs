@@ -6,7 +6,7 @@ use super::windows::{behind, windows};
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, Bus, CompactString, Item, Procedure, Step, WindowSide};
+use crate::ir::{stated, Binding, Bus, CompactString, Item, Procedure, Step, WindowSide};
 use crate::text::brief;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -63,7 +63,7 @@ fn order(
 ) {
     let number = context.device.referred(&side.number);
     let is_cyclic = |item: &Item| item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
-    let by_row = number.and_then(|number| number.behaviour.as_ref()).is_some_and(|behaviour| behaviour.self_clearing);
+    let by_row = number.and_then(stated::behaviour).is_some_and(|behaviour| behaviour.self_clearing);
     if context.device.referred(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;
     }

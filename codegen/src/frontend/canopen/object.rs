@@ -154,6 +154,7 @@ pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Di
         shape: Shape::Alias(target),
         bits,
         documentation: None,
+        stated_by: None,
         origin: group.origin,
     });
     Some((u32::from(index), target))

@@ -7,7 +7,10 @@ use super::reader::Reader;
 use super::sections::Refinement;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::value::Role;
-use crate::ir::{Access, Binding, CompactString, Configured, Extensions, Group, Item, ObjectCode, Type, Value};
+use crate::ir::{
+    Access, Binding, CompactString, Configured, Extensions, Fact, FactOrigins, Group, Item, ObjectCode, Rule, Type,
+    Value,
+};
 use crate::limits;
 use crate::syntax::ini::{Entry, Section};
 
@@ -32,6 +35,8 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
         item.access = Access::ReadOnly;
         item.default = Some(Value::Int(i128::from(count)));
         item.origin = raw.origin;
+        let facts = [Fact::Name, Fact::Type, Fact::Access, Fact::Default];
+        item.origins = FactOrigins::by_rule(&facts, Rule::CompactObject);
         group.items.push(item);
     }
     // The keywords of the object apply to all sub-indices, so they are read once and their errors are reported once.

@@ -25,6 +25,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Ve
         rows: SharedList::default(),
         buses: Buses::NONE,
         documentation: None,
+        stated_by: None,
         origin,
     };
     let mut messages = table("DiagMessages", &COLUMNS);
@@ -44,6 +45,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Ve
                 availability: None,
                 documentation: value.documentation,
                 cells: Vec::new(),
+                stated_by: None,
             }));
         } else {
             reader.unknown(&tag)?;
@@ -87,7 +89,18 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
     let cells = cells.into_iter().map(Value::Text).collect();
     let (name, names) = (names.name(), names.others());
     let (last, availability, printed_cells) = (None, None, Vec::new());
-    Ok(Some(CodeRow { printed, printed_cells, code, last, name, names, availability, documentation, cells }))
+    Ok(Some(CodeRow {
+        printed,
+        printed_cells,
+        code,
+        last,
+        name,
+        names,
+        availability,
+        documentation,
+        cells,
+        stated_by: None,
+    }))
 }
 
 /// Returns a hexadecimal code such as `#x8000` in the notation that all outputs use (`0x8000`). Returns an empty string

@@ -17,7 +17,7 @@ use super::value::{self, Role};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::etg::unit;
 use crate::frontend::xml::Given;
-use crate::ir::{Access, Binding, Group, GroupKind, Item, ObjectCode, Quantity, Type};
+use crate::ir::{Access, Binding, Fact, FactOrigin, Group, GroupKind, Item, ObjectCode, Quantity, Rule, Type};
 use crate::text::brief;
 
 /// Converts the objects of a dictionary to groups, sorted by index. Adds types that are defined only by their names,
@@ -88,7 +88,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             code => code,
         };
         group.kind = GroupKind::Object { index, code, category: raw.flags.category };
-        self.access_given(reader, &group, &raw.flags);
+        self.access_given(reader, &mut group, &raw.flags);
         group
     }
 
@@ -365,13 +365,17 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Reports an object for which the file does not declare access rights.
-    fn access_given(&self, reader: &mut Reader<'_, '_>, group: &Group, flags: &Flags) {
-        if flags.access.is_some() || !reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
+    /// Reports an object for which the file does not declare access rights, and records the rule that determines them.
+    fn access_given(&self, reader: &mut Reader<'_, '_>, group: &mut Group, flags: &Flags) {
+        if flags.access.is_some() {
             return;
         }
-        let silent = group.items.iter().filter(|item| item.at.access.is_empty()).count();
-        if silent > 0 {
+        let mut silent = 0;
+        for item in group.items.iter_mut().filter(|item| item.at.access.is_empty()) {
+            silent += 1;
+            item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
+        }
+        if silent > 0 && reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
             let message = "the file does not declare the access rights of this object";
             let label = if silent == group.items.len() {
                 "kept as read-only".to_owned()

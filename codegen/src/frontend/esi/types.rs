@@ -133,6 +133,7 @@ impl<'t, 'a> Types<'t, 'a> {
             shape: Shape::Alias(opaque),
             bits: ty.bits,
             documentation: ty.comment.documentation(),
+            stated_by: None,
             origin: ty.origin,
         };
         types.defs = raw.iter().map(empty).collect();
@@ -398,7 +399,15 @@ impl<'t, 'a> Types<'t, 'a> {
         };
         let ty = Type::Named(TypeId(self.defs.len() as u32));
         let origin = Origin::default();
-        self.defs.push(TypeDef { name: name.into(), code: None, shape, bits, documentation: None, origin });
+        self.defs.push(TypeDef {
+            name: name.into(),
+            code: None,
+            shape,
+            bits,
+            documentation: None,
+            stated_by: None,
+            origin,
+        });
         self.made.insert(name.into(), ty);
         ty
     }

@@ -251,6 +251,7 @@ fn table(name: &'static str, columns: &[&'static str], rows: Vec<CodeRow>, origi
         rows: rows.into(),
         buses: Buses::NONE,
         documentation: None,
+        stated_by: None,
         origin,
     }
 }
@@ -266,6 +267,7 @@ fn empty_row(code: i128) -> CodeRow {
         availability: None,
         documentation: None,
         cells: Vec::new(),
+        stated_by: None,
     }
 }
 

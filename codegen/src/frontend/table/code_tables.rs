@@ -52,6 +52,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             availability: availability(row),
             documentation: reader.documentation_of(row),
             cells: row.cells.iter().map(cell).collect(),
+            stated_by: None,
         });
     }
     device.code_tables.push(CodeTable {
@@ -60,6 +61,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         rows: rows.into(),
         buses: table.buses.as_ref().map(|list| buses::read(reader, list)).unwrap_or_default(),
         documentation: reader.documentation_of(table),
+        stated_by: None,
         origin: reader.origin(name),
     });
 }

@@ -190,6 +190,7 @@ impl Definitions {
             shape,
             bits: base.bits(),
             documentation: reader.documentation(about.doc, about.cite),
+            stated_by: None,
             origin: about.origin,
         });
         id

@@ -63,6 +63,7 @@ pub(super) fn machine(
         transitions: transitions.into(),
         outcomes: rows,
         documentation: reader.documentation_of(table),
+        stated_by: None,
     });
     true
 }

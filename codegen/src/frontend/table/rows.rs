@@ -185,6 +185,7 @@ impl Rows {
             shape: Shape::Array { element, dimensions: vec![(0, count)] },
             bits,
             documentation: None,
+            stated_by: None,
             origin: reader.origin(named.key),
         });
         Type::Named(id)

@@ -11,8 +11,8 @@ use crate::frontend::canopen::object;
 use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
 use crate::ir::{
-    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Item, Limits, Mappable, ObjectCode,
-    Quantity, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
+    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, FactOrigins, Item,
+    Limits, Mappable, ObjectCode, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
 use crate::source::Span;
 
@@ -43,6 +43,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         if ty.is_none() {
             // A value without a data type has an unknown length, so it cannot be written.
             item.access = Access::ReadOnly;
+            item.origins = FactOrigins::by_rule(&[Fact::Type, Fact::Access], Rule::MissingKey);
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
         let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));
@@ -130,6 +131,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             return self.parameter_access(given);
         }
         item.at.access = raw.origin.span;
+        item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
         // The CiA 311 schema defines `read` as the default access of a parameter.
         let is_read = view.parameter().is_some_and(|parameter| !parameter.is_variable);
         match code {
@@ -204,6 +206,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             shape: Shape::Enumeration { base: ty, values, closed: false },
             bits: ty.bits(),
             documentation: None,
+            stated_by: None,
             origin: crate::source::Origin::default(),
         });
         Type::Named(id)

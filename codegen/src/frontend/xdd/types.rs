@@ -25,6 +25,7 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
         shape: shape.unwrap_or(Shape::Alias(Type::Opaque(None))),
         bits,
         documentation: raw.texts.descriptions.documentation(),
+        stated_by: None,
         origin: raw.origin,
     })
     .collect()

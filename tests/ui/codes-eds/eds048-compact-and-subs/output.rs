@@ -4,6 +4,8 @@
     pub mod speeds {
         /// NrOfObjects: Default 2, 0x2000:00, UNSIGNED8, read-only.
         /// Accessor: [`SpeedsAccessors::nr_of_objects`].
+        ///
+        /// Name, type, access rights and default from the rule for compact sub-indices.
         pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2000,
             0x00,

@@ -7,12 +7,12 @@ use super::super::format::AppliesTable;
 use super::super::machine_budget::MachineBudget;
 use super::super::tree::Reader;
 use super::super::{code_tables, device, machines, resolve};
-use super::change::{ObjectSet, RowEffect, RowPatcher};
+use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
-    Bus, Buses, Catalog, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId,
+    Bus, Buses, Catalog, CodeRow, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId,
     ObjectBuses, Submodule, SubmoduleId, SubmoduleUse, TypeDef,
 };
 use crate::source::{FileId, Source, Span};
@@ -165,11 +165,12 @@ impl<'o> Applied<'o> {
         }
         for (name, table) in &patch.codes {
             code_tables::table(reader, name, table, device);
-            merge(&mut device.code_tables);
+            merge(&mut device.code_tables, &self.change(reader, reader.origin(name).line));
         }
         let mut budget = MachineBudget::new();
         for (name, table) in &patch.machines {
             let before = device.machines.len();
+            let replaces = device.machines.iter().any(|machine| machine.name == name.value);
             if !machines::machine(reader, name, table, device, &mut budget, &mut self.patcher.rows.references) {
                 break;
             }
@@ -179,6 +180,8 @@ impl<'o> Applied<'o> {
             if let Some(machine) = device.machines.last_mut() {
                 machine.status_item = item_name(&device.groups, &machine.status_item);
                 machine.control_item = item_name(&device.groups, &machine.control_item);
+                let change = self.change(reader, reader.origin(name).line);
+                machine.stated_by = Some(Box::new(change.origin(replaces)));
             }
         }
         for (name, table) in &patch.procedures {
@@ -187,6 +190,12 @@ impl<'o> Applied<'o> {
         }
         self.overlay_doubts(reader, &mut device.doubts);
         self.resolve_in(reader, device);
+    }
+
+    /// Returns the change that a definition on a line of the overlay makes.
+    fn change(&self, reader: &Reader<'_, '_>, line: u32) -> Change {
+        let why = self.patcher.overlay.head.value.why.as_deref().unwrap_or_default().into();
+        Change { file: file_name(reader), line, why }
     }
 
     /// Adds the ambiguities that concern the whole overlay to `kept`.
@@ -287,7 +296,12 @@ impl<'o> Applied<'o> {
         let names = self.patcher.rows.definitions.made.keys().cloned();
         self.used.extend(names);
         *set.types = std::mem::take(&mut self.patcher.rows.definitions.types);
-        name_conditions(set.groups, set.types.get_mut(made..).unwrap_or_default(), &|_| None);
+        let new = set.types.get_mut(made..).unwrap_or_default();
+        for definition in &mut *new {
+            let line = definition.origin.line;
+            definition.stated_by = Some(Box::new(self.change(reader, line).origin(false)));
+        }
+        name_conditions(set.groups, new, &|_| None);
         best
     }
 
@@ -393,11 +407,11 @@ impl<'c> ObjectSet<'c> {
 }
 
 /// Merges the last table of codes into an earlier table with the same name. The row of the last table applies if both
-/// tables contain a code.
-fn merge(tables: &mut Vec<CodeTable>) {
+/// tables contain a code. The overlay is recorded as the origin of a new table, or of changed rows.
+fn merge(tables: &mut Vec<CodeTable>, change: &Change) {
     let Some(last) = tables.pop() else { return };
     let Some(table) = tables.iter_mut().find(|table| table.name == last.name) else {
-        tables.push(last);
+        tables.push(CodeTable { stated_by: Some(Box::new(change.origin(false))), ..last });
         return;
     };
     let rows = table.rows.to_mut();
@@ -407,9 +421,11 @@ fn merge(tables: &mut Vec<CodeTable>) {
     }
     for row in &last.rows {
         let position = *known.entry((row.code, row.last)).or_insert(rows.len());
+        let replaces = position < rows.len();
+        let row = CodeRow { stated_by: Some(Box::new(change.origin(replaces))), ..row.clone() };
         match rows.get_mut(position) {
-            Some(earlier) => *earlier = row.clone(),
-            None => rows.push(row.clone()),
+            Some(earlier) => *earlier = row,
+            None => rows.push(row),
         }
     }
 }

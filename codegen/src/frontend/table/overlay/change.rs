@@ -14,8 +14,8 @@ use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::codes;
 use crate::ir::object_names::in_range;
 use crate::ir::{
-    Documentation, Extension, Extensions, Fact, FactOrigin, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type,
-    TypeDef, TypeId,
+    CompactString, Documentation, Extension, Extensions, Fact, FactOrigin, Group, GroupKind, Item, ObjectBuses,
+    ObjectCode, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -83,6 +83,12 @@ impl RowPatcher<'_> {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
 
+    /// Returns the change that a row makes.
+    fn change(&self, reader: &Reader<'_, '_>, row: &PatchRow) -> Change {
+        let why = self.why(&row.row.value).into();
+        Change { file: file_name(reader), line: reader.origin(&row.key).line, why }
+    }
+
     fn objects(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -105,7 +111,7 @@ impl RowPatcher<'_> {
             let changed = match objects.subs {
                 None if has_subs || group.items.is_empty() => self.head(reader, group, row, number),
                 None => {
-                    let head = self.group_name(reader, group, &row.row.value, number);
+                    let head = self.group_name(reader, group, row, number);
                     let items = group.items.iter_mut().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0));
                     RowEffect::from(head).max(self.items(reader, items, row, number))
                 }
@@ -178,9 +184,9 @@ impl RowPatcher<'_> {
             *item = before;
             return false;
         }
-        record(reader, item, &before, row);
-        let (why, span) = (self.why(patch).to_owned(), reader.span(&row.key));
-        explain("Changed", &why, span, &mut item.documentation, &mut item.extensions);
+        let change = self.change(reader, row);
+        change.record(item, &before, row.row.value.ty.is_some());
+        explain("Changed", &change.why, &mut item.documentation);
         true
     }
 
@@ -250,32 +256,38 @@ impl RowPatcher<'_> {
             return RowEffect::Changed;
         }
         let before = (group.names.clone(), group.documentation.clone(), group.doubts.len());
-        let mut changed = self.group_name(reader, group, patch, number);
+        let (mut changed, change) = (self.group_name(reader, group, row, number), self.change(reader, row));
         if patch.orig.is_some() {
             group.names = reader.original(patch.orig.as_deref());
         }
         if patch.doc.is_some() {
             group.documentation = reader.documentation_of(patch);
+            if group.documentation != before.1 {
+                group.origins.set(Fact::Description, Some(change.origin(is_described(&before.1))));
+            }
         }
         let origin = reader.origin(&row.key);
         group.doubts.extend(reader.doubts_of(patch, origin));
         changed |= before != (group.names.clone(), group.documentation.clone(), group.doubts.len());
         if changed {
-            let (why, span) = (self.why(patch).to_owned(), reader.span(&row.key));
-            explain("Changed", &why, span, &mut group.documentation, &mut group.extensions);
+            explain("Changed", &change.why, &mut group.documentation);
         }
         changed.into()
     }
 
     /// Changes the name and the object code of an object. Returns whether the name or the object code changed.
-    fn group_name(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &Row, number: u32) -> bool {
+    fn group_name(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> bool {
         let mut changed = false;
-        if let Some(name) = &row.name {
+        let patch = &row.row.value;
+        if let Some(name) = &patch.name {
             let text = notation::filled(&name.value, number, None);
-            changed |= group.name != text;
+            if group.name != text {
+                changed = true;
+                group.origins.set(Fact::Name, Some(self.change(reader, row).origin(!group.name.is_empty())));
+            }
             (group.name, group.name_at) = (text.into(), reader.span(name));
         }
-        let given = row.code.as_ref().and_then(|code| reader.word(code, "object code", &OBJECT_CODES));
+        let given = patch.code.as_ref().and_then(|code| reader.word(code, "object code", &OBJECT_CODES));
         if let (GroupKind::Object { code, .. }, Some(given)) = (&mut group.kind, given) {
             changed |= *code != given;
             *code = given;
@@ -330,11 +342,19 @@ impl RowPatcher<'_> {
             dictionary.insert(group.index().unwrap_or_default(), group);
         }
         objects::add(reader, &mut self.rows, &mut dictionary, &row.key, &row.row, None, None);
-        let (why, span) = (self.why(&row.row.value).to_owned(), reader.span(&row.key));
+        let (change, span) = (self.change(reader, row), reader.span(&row.key));
         let is_new = |origin: Span| (origin.file, origin.start) == (span.file, span.start);
         for group in dictionary.values_mut() {
             for item in group.items.iter_mut().filter(|item| is_new(item.origin.span)) {
-                explain("Added", &why, span, &mut item.documentation, &mut item.extensions);
+                change.record_new(item);
+                explain("Added", &change.why, &mut item.documentation);
+            }
+            if is_new(group.origin.span) {
+                let facts =
+                    [(Fact::Name, !group.name.is_empty()), (Fact::Description, is_described(&group.documentation))];
+                for (fact, _) in facts.into_iter().filter(|(_, is_stated)| *is_stated) {
+                    group.origins.set(fact, Some(change.origin(false)));
+                }
             }
         }
         set.groups.extend(dictionary.into_values());
@@ -343,19 +363,51 @@ impl RowPatcher<'_> {
     }
 }
 
-/// Records the overlay as the origin of the facts that its row changed. An assumed access right stays an assumption.
-fn record(reader: &Reader<'_, '_>, item: &mut Item, before: &Item, row: &PatchRow) {
-    let file = reader.source.name().rsplit(['/', '\\']).next().unwrap_or_default();
-    let line = reader.origin(&row.key).line;
-    for fact in Fact::ALL {
-        let is_type = row.row.value.ty.is_some();
-        let is_other = matches!(fact, Fact::Type if !is_type) || matches!(fact, Fact::Meaning if is_type);
-        if is_other || !fact.differs(item, before) || item.is_access_assumed() && fact == Fact::Access {
-            continue;
-        }
-        let replaces = fact.is_stated(before);
-        item.origins.set(fact, Some(FactOrigin::Overlay { file: file.into(), line, replaces }));
+/// A change by an overlay, for the origins of the changed facts.
+pub(super) struct Change {
+    /// File name of the overlay, without folders.
+    pub file: CompactString,
+    /// Line of the change in the overlay.
+    pub line: u32,
+    /// Reason for the change.
+    pub why: CompactString,
+}
+
+impl Change {
+    /// Returns the origin of a changed fact. `replaces` is true if the description states another fact.
+    pub fn origin(&self, replaces: bool) -> FactOrigin {
+        FactOrigin::Overlay { file: self.file.clone(), line: self.line, replaces, why: self.why.clone() }
     }
+
+    /// Records the origins of the facts of an item that a row changed. `is_type` is true if the row has a type. An assumed access
+    /// right stays an assumption.
+    fn record(&self, item: &mut Item, before: &Item, is_type: bool) {
+        for fact in Fact::ALL {
+            let is_other = matches!(fact, Fact::Type if !is_type) || matches!(fact, Fact::Meaning if is_type);
+            if is_other || !fact.differs(item, before) || item.is_access_assumed() && fact == Fact::Access {
+                continue;
+            }
+            item.origins.set(fact, Some(self.origin(fact.is_stated(before))));
+        }
+    }
+
+    /// Records the origins of the facts of an item that a row added. Facts from a rule of the compiler keep their origins.
+    fn record_new(&self, item: &mut Item) {
+        for fact in Fact::ALL {
+            if fact.is_stated(item) && item.origins.get(fact).is_none() {
+                item.origins.set(fact, Some(self.origin(false)));
+            }
+        }
+    }
+}
+
+/// Returns the file name of the overlay, without folders.
+pub(super) fn file_name(reader: &Reader<'_, '_>) -> CompactString {
+    reader.source.name().rsplit(['/', '\\']).next().unwrap_or_default().into()
+}
+
+fn is_described(documentation: &Option<Box<Documentation>>) -> bool {
+    documentation.as_deref().is_some_and(|documentation| !documentation.text.is_empty())
 }
 
 fn name_of<T>(given: &TextOr<T>) -> Option<String> {
@@ -415,22 +467,12 @@ fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Do
     }
 }
 
-/// Records the reason for a change: in the documentation for readers, and as an extension for programs.
-fn explain(
-    what: &str,
-    why: &str,
-    span: Span,
-    documentation: &mut Option<Box<Documentation>>,
-    extensions: &mut Extensions,
-) {
+/// Adds the reason for a change to the description.
+fn explain(what: &str, why: &str, documentation: &mut Option<Box<Documentation>>) {
     let documentation = documentation.get_or_insert_default();
     if !documentation.text.is_empty() {
         documentation.text.push('\n');
     }
     let end = if why.ends_with(['.', '!', '?']) { "" } else { "." };
     documentation.text += &format!("{what} by an overlay: {why}{end}");
-    match extensions.iter_mut().find(|extension| extension.key == "overlay") {
-        Some(extension) => extension.value.push_str(&format!("; {why}")),
-        None => extensions.push(Extension { key: "overlay".into(), value: why.into(), span }),
-    }
 }

@@ -10,7 +10,7 @@ use super::super::{buses, code_tables, machines, notation, process, types, Table
 use super::{Patch, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Buses, CodeTable, CompactString, Device, Doubts, Item, StateMachine, Type, TypeDef, TypeId};
-use crate::profiles::{Described, Profile, Signal, Telegram};
+use crate::resolve::profiles::{Described, Profile, Signal, Telegram};
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::standard_and_clause;
 
@@ -163,7 +163,7 @@ fn without_origin(doubts: &mut Doubts) -> Doubts {
 mod tests {
     use super::*;
     use crate::ir::{Group, ObjectCode, Shape};
-    use crate::profiles::Completion;
+    use crate::resolve::profiles::Completion;
 
     const PROFILE: &str = "lexibus = 1\n[profile]\nname = \"P\"\n\
         [enums.Phase.values]\n0 = \"Off\"\n1 = \"On\"\n\

@@ -1,7 +1,7 @@
 //! Profiles as text: the fields of each structure in order, each followed by a tab. Each element of a list starts on a new line.
 //!
 //! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. The test writes the
-//! files with `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib profiles::stored`.
+//! files with `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib resolve::profiles::stored`.
 
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
@@ -113,12 +113,12 @@ structures! {
         | backup, setting, safety, srdo, pdi_access, read_states, write_states
     }
     Condition { item, values, mask | names }
-    TypeDef { name, shape, bits, documentation | code, origin }
+    TypeDef { name, shape, bits, documentation | code, stated_by, origin }
     BitFieldEntry { name, offset, bits, meaning, when, trigger, access, documentation | names, availability, at }
     EnumValue { name, value, last, zone, when, documentation | names, availability, at }
-    CodeTable { name, columns, rows, documentation | buses, origin }
-    CodeRow { printed, code, last, name, documentation, cells | printed_cells, names, availability }
-    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation | outcomes }
+    CodeTable { name, columns, rows, documentation | buses, stated_by, origin }
+    CodeRow { printed, code, last, name, documentation, cells | printed_cells, names, availability, stated_by }
+    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation | outcomes, stated_by }
     Pattern { name, mask, value, documentation | names }
     Transition { number, from, to, command, documentation }
     Doubt { says, chosen, why, cite, severity, subject | origin }
@@ -286,7 +286,7 @@ mod tests {
             profile.write(&mut text);
             assert_eq!(read(&text).as_ref(), Some(&profile), "{name} has facts that cannot be stored");
             if std::env::var_os("LEXIBUS_BLESS").is_some() {
-                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/profiles/stored");
+                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/resolve/profiles/stored");
                 std::fs::write(Path::new(folder).join(name).with_extension("txt"), &text).expect("written");
             } else {
                 assert!(text == stored, "{name}.txt is stale: run `tests/bindings.sh`");

@@ -43,10 +43,10 @@ impl<'p> Completion<'p> {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
         // The codes of the profile are left out if the manual lists codes, because both lists may contradict each
         // other. The diagnosis texts of an ESI have other codes, which do not conflict with those of the profile.
-        let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && !is_from_profile(table);
+        let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && table.stated_by.is_none();
         let has_codes = device.code_tables.iter().any(of_manual);
         for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
-            device.code_tables.push(table.clone());
+            device.code_tables.push(CodeTable { stated_by: self.standard(&table.documentation), ..table.clone() });
             device.doubts.extend(doubts.iter().cloned());
         }
         for (machine, doubts) in &self.profile.machines {
@@ -58,7 +58,9 @@ impl<'p> Completion<'p> {
             if !device.machines.iter().any(|other| other.status_item == status_item) {
                 let control_item = item_name(&device.groups, &machine.control_item);
                 let state_type = self.state_type(machine, &device.types);
-                device.machines.push(StateMachine { status_item, control_item, state_type, ..machine.clone() });
+                let stated_by = self.standard(&machine.documentation);
+                let completed = StateMachine { status_item, control_item, state_type, stated_by, ..machine.clone() };
+                device.machines.push(completed);
                 device.doubts.extend(doubts.iter().cloned());
             }
         }
@@ -118,7 +120,9 @@ impl<'p> Completion<'p> {
 
     fn group(&mut self, group: &mut Group, described: &Described, replaced: &mut Replaced) {
         if described.subs.is_none() && group.object_code().is_some_and(ObjectCode::has_subs) {
-            describe(&mut group.documentation, described.documentation.as_deref());
+            if describe(&mut group.documentation, described.documentation.as_deref()) {
+                group.origins.set(Fact::Description, Some(FactOrigin::Standard(described.standard.clone())));
+            }
             return;
         }
         let (first, last) = described.subs.unwrap_or((0, 0));
@@ -154,7 +158,9 @@ impl<'p> Completion<'p> {
             }
             item.origins.set(fact, Some(standard.clone()));
         }
-        describe(&mut item.documentation, described.documentation.as_deref());
+        if describe(&mut item.documentation, described.documentation.as_deref()) {
+            item.origins.set(Fact::Description, Some(standard));
+        }
         (item.ty != old).then_some((old, item.ty))
     }
 
@@ -216,6 +222,12 @@ impl<'p> Completion<'p> {
         }
     }
 
+    /// Returns the origin of a definition: the clause that its description cites, or the standard as a whole.
+    fn standard(&self, documentation: &Option<Box<Documentation>>) -> Option<Box<FactOrigin>> {
+        let cited = documentation.as_deref().and_then(|documentation| documentation.text_from.clone());
+        Some(cited.unwrap_or_else(|| Box::new(FactOrigin::Standard(self.profile.name.clone()))))
+    }
+
     /// Moves the types of a device into this struct, so that types can be added.
     fn start(&mut self, types: &mut Vec<TypeDef>) {
         self.types = std::mem::take(types);
@@ -234,6 +246,7 @@ impl<'p> Completion<'p> {
             of_device.iter().filter(is_value).map(|definition| letters(&definition.name)).collect();
         for definition in new {
             definition.origin = Origin::default();
+            definition.stated_by = self.standard(&definition.documentation);
             if names.contains(&letters(&definition.name)) {
                 definition.name = format!("{} {}", self.profile.name, definition.name).into();
             }
@@ -305,21 +318,19 @@ fn is_on_bus(item: &Item, described: &Described) -> bool {
     })
 }
 
-/// Adds the description of a profile if the element has no description. An existing citation does not change.
-fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&Documentation>) {
-    match (documentation, of_profile) {
-        (documentation @ None, of_profile) => *documentation = of_profile.cloned().map(Box::new),
-        (Some(documentation), Some(of_profile)) if documentation.text.is_empty() => {
+/// Adds the description of a profile if the element has no description, and returns whether it was added. An existing citation
+/// does not change.
+fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&Documentation>) -> bool {
+    let Some(of_profile) = of_profile else { return false };
+    match documentation {
+        None => *documentation = Some(Box::new(of_profile.clone())),
+        Some(documentation) if documentation.text.is_empty() => {
             documentation.text.clone_from(&of_profile.text);
             documentation.text_from.clone_from(&of_profile.text_from);
         }
-        _ => {}
+        Some(_) => return false,
     }
-}
-
-/// Returns whether a code table comes from a profile.
-fn is_from_profile(table: &CodeTable) -> bool {
-    table.documentation.as_deref().is_some_and(|documentation| documentation.text_from.is_some())
+    true
 }
 
 /// Returns the letters and digits of a name in lower case. Names that only differ in other characters have the same Rust name.

@@ -1,8 +1,9 @@
 //! Profiles: facts of standards about the objects of all devices that follow them.
 //!
 //! A profile is a table with `[profile]`, written like an overlay (`dictionaries/README.md`). The compiler contains each profile
-//! in a compact form, so that profiles do not need the front end of register tables. Profiles are applied after overlays and
-//! checks. Profiles do not change facts of a device or its overlays.
+//! in a compact form, so that profiles do not need the front end of register tables. Profiles are applied after overlays, and do
+//! not change facts of a device or its overlays. Each added fact has the origin [`FactOrigin::Standard`](crate::ir::FactOrigin),
+//! so that lints judge only the description.
 //!
 //! | file | subject |
 //! |---|---|
