@@ -1,5 +1,5 @@
-//! Operations of drives with the profile CiA 402 (CiA 402-2 and -3, IEC 61800-7-201): change of the mode with
-//! confirmation, homing, moves with handshake, velocities, and a watch over cyclic set-points.
+//! Operations of drives with the profile CiA 402 (CiA 402-2 and -3, IEC 61800-7-201). The operations are a change of
+//! the mode with confirmation, homing, moves with handshake, velocities, and a watch over cyclic set-points.
 //!
 //! The method `cia402` of a generated device returns a [`Drive`]. The compiler generates the method for each device that
 //! has the controlword, the statusword, and the requested and active mode of operation. The further methods of the drive

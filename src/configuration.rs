@@ -111,9 +111,9 @@ impl Setting {
         }
     }
 
-    /// Returns whether the setting changes nothing in a device with the default values of the description. A setting that
-    /// disables or enables a PDO, or clears its mapping, changes nothing if all settings of the PDO, or of its mapping, are
-    /// equal to the default.
+    /// Returns whether the setting changes nothing in a device with the default values of the description. A setting
+    /// that disables or enables a PDO changes nothing if all settings of the PDO are equal to the default. A setting
+    /// that clears a mapping changes nothing if all settings of the mapping are equal to the default.
     #[must_use]
     pub const fn is_default(&self) -> bool {
         self.is_default

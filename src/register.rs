@@ -207,8 +207,8 @@ impl Register {
     ///
     /// # Errors
     ///
-    /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or if the value is
-    /// a bit field in a number of more than four words.
+    /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count). [`LengthError`]
+    /// also occurs if the value is a bit field in a number of more than four words.
     pub fn decode(&self, words: &[u16], buffer: &mut [u8]) -> Result<usize, LengthError> {
         self.check(words)?;
         let length = 2 * words.len();

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Generates the files that are checked in: the bindings in generated/src and benches/instructions, the schema of register tables,
-# the profiles, and the book's catalog of diagnostics. With --check, only checks that the files are up to date. Set
-# `$LEXIBUS` to use an existing compiler.
+# Generates the files that are checked in. These are the bindings in generated/src and benches/instructions, the schema of
+# register tables, the profiles, and the book's catalog of diagnostics. With --check, only checks that the files are up to date.
+# Set `$LEXIBUS` to use an existing compiler.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {

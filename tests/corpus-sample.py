@@ -57,9 +57,9 @@ WIDTHS = {1, 8, 16, 24, 32, 64}
 KEYS = 5
 
 # Regular expressions that find the notations described in the rows of QUIRKS.md. Matching ignores case; `^` and `$` match the
-# start and end of a line. This table does not contain rows with a diagnostic code, rows that the script recognizes by the
-# encoding or the intermediate representation (E52, E84, X25, G01), and rows that no regular expression recognizes (E38, E79, X26,
-# X29).
+# start and end of a line. This table does not contain rows with a diagnostic code. It also does not contain rows that the script
+# recognizes by the encoding or the intermediate representation (E52, E84, X25, G01). It does not contain rows that no regular
+# expression recognizes (E38, E79, X26, X29).
 SECTION = r"^\[[0-9a-f]{4}(?:sub[0-9a-f]+)?\].*\n"
 NONZERO = r" *= *0*(x0*)?[1-9a-f]"
 QUIRKS = {

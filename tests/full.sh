@@ -20,8 +20,8 @@ parts=(programs format clippy features outside packages rustdoc build sample bin
 # Names of test programs for `cargo test --test`. Each test program of the workspace belongs to one part. The part `rest` runs the
 # programs that are not listed.
 ui=(ui)
-corpus=(corpus_exports corpus_fixes corpus_esi corpus_gsdml corpus_lexer corpus_values frozen profinet_corpus rust_format)
-generated=(generated_code rustdoc table_code)
+corpus=(corpus corpus_exports frozen)
+generated=(rust)
 packing=(packing)
 differential=(differential)
 arbitrary=(arbitrary)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Packages all crates as for crates.io, then builds two crates with these packages: the drive crate in tests/drive-crate, and the
-# command line with `cargo install lexibus-cli`. Both builds use a local folder that contains all crates, including external ones.
+# Packages all crates as for crates.io, then builds two crates with these packages. The two crates are the drive crate in
+# tests/drive-crate, and the command line with `cargo install lexibus-cli`. Both builds use a local folder that contains all
+# crates, including external ones.
 #
 #     tests/packages.sh
 #

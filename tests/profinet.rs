@@ -120,8 +120,8 @@ mod profisafe {
         let second = records.next().unwrap();
         assert_eq!((second.index, second.data), (0x100, &F_PARAMETERS.default_bytes()[..]));
         assert_eq!(records.next(), None);
-        // The inputs consist of 3 + 4 bytes with a provider status, a consumer status for the outputs, and one status
-        // byte each for head, interface and port.
+        // The inputs consist of 3 + 4 bytes with a provider status, and a consumer status for the outputs. The inputs
+        // also contain one status byte each for head, interface and port.
         assert_eq!(plan.lengths(), (8 + 1 + 3, 6 + 1 + 3));
         assert_eq!(safe_inputs::SUBMODULE.input_len, Some(7));
     }

@@ -620,7 +620,7 @@ fn a_site_of_documentation() {
     let output = lexibus(&["docs", DEMO, COUPLER, "--out", &out.to_string_lossy()]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let read = |path: &str| std::fs::read_to_string(out.join(path)).unwrap_or_else(|_| panic!("{path}"));
-    assert!(read("index.html").contains("href=\"./lexibus/demo-drive-0x00004021/0x00010000/index.html\""));
+    assert!(read("index.html").contains("href=\"lexibus/demo-drive-0x00004021/0x00010000/index.html\""));
     assert!(read("lexibus/demo-drive-0x00004021/0x00010000/profile-objects.html").contains("id=\"0x6040\""));
     for shared in ["site.css", "site.js", "search.js"] {
         assert!(!read(shared).is_empty());

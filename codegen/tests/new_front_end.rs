@@ -1,5 +1,5 @@
 //! Tests that a new front end needs changes in only four files outside its folder. The test follows the steps of the
-//! chapter "A new front end" in a copy of this crate and reads a file of the new format.
+//! chapter "A new front end" in a copy of this crate. Then it reads a file of the new format.
 
 #[path = "../../tests/support/lane.rs"]
 mod lane;

@@ -593,7 +593,7 @@ pub mod types {
     }
     impl core::str::FromStr for ModesOfOperation {
         type Err = rt::UnknownName;
-        fn from_str(text: &str) -> Result<Self, Self::Err> {
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
             rt::parse_name(text)
         }
     }
@@ -703,7 +703,7 @@ pub mod types {
     }
     impl core::str::FromStr for StoreParameters {
         type Err = rt::UnknownName;
-        fn from_str(text: &str) -> Result<Self, Self::Err> {
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
             rt::parse_name(text)
         }
     }
@@ -796,7 +796,7 @@ pub mod types {
     }
     impl core::str::FromStr for ReceiveType {
         type Err = rt::UnknownName;
-        fn from_str(text: &str) -> Result<Self, Self::Err> {
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
             rt::parse_name(text)
         }
     }
@@ -910,7 +910,7 @@ pub mod types {
     }
     impl core::str::FromStr for TransmitType {
         type Err = rt::UnknownName;
-        fn from_str(text: &str) -> Result<Self, Self::Err> {
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
             rt::parse_name(text)
         }
     }
@@ -3357,6 +3357,8 @@ pub mod objects {
     pub mod pre_defined_error_field {
         /// NrOfObjects: Default 4, 0x1003:00, UNSIGNED8, read-only.
         /// Accessor: [`PreDefinedErrorFieldAccessors::nr_of_objects`].
+        ///
+        /// Name, type, access rights and default from the rule for compact sub-indices.
         pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1003,
             0x00,

@@ -116,8 +116,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// # run().unwrap();
     /// ```
     ///
-    /// If the item is read at another address than it is written at (see [`Split`](crate::Split)), `change` receives the
-    /// value that the device shows, and not the last written value.
+    /// An item can have different addresses for reading and writing (see [`Split`](crate::Split)). For such an item,
+    /// `change` receives the value that the device shows, and not the last written value.
     ///
     /// # Errors
     ///

@@ -66,12 +66,12 @@ macro_rules! operations {
 
             /// Changes the mode of operation: writes the mode (0x6060) and waits until the drive confirms it (0x6061).
             ///
-            /// If the mode changes, the method first clears the bits 4, 5, 6 and 9 of the controlword, because the meaning
-            /// of these bits depends on the mode. The controlword isn't written if the write could enable the drive or end a
-            /// quick stop. This method works in all states. Stop
-            /// the axis before you change the mode, unless the drive supports the change in motion. If the operation is
-            /// enabled, write the target of the new mode before you activate a velocity, torque or cyclic mode: in these
-            /// modes, the axis follows an old target at once.
+            /// If the mode changes, the method first clears the bits 4, 5, 6 and 9 of the controlword. The meaning of
+            /// these bits depends on the mode. The controlword isn't written if the write could enable the drive or end
+            /// a quick stop. This method works in all states. Stop the axis before you change the mode, unless the
+            /// drive supports the change in motion. If the operation is enabled, write the target of the new mode
+            /// before you activate a velocity, torque or cyclic mode. In these modes, the axis follows an old target at
+            /// once.
             ///
             /// `mode` is a [`Mode`], a value of the device's generated enumeration, or an `i8`.
             ///
@@ -210,10 +210,11 @@ macro_rules! operations {
             /// Executes homing with the homing method that the drive has (0x6098). After homing, the mode "homing" stays
             /// active.
             ///
-            /// The method activates the mode 6, sets bit 4 of the controlword ("homing operation start"), waits for bit
-            /// 12 ("homing attained") with bit 10 ("target reached") of the statusword, and clears bit 4 (CiA 402-2 13).
-            /// It also tries to clear bit 4 after each error, so that the drive aborts homing and doesn't start it again
-            /// when it is enabled. A statusword that shows the result of an earlier homing procedure is ignored for 100 ms.
+            /// The method activates the mode 6 and sets bit 4 of the controlword ("homing operation start"). Then it
+            /// waits for bit 12 ("homing attained") with bit 10 ("target reached") of the statusword, and clears bit 4
+            /// (CiA 402-2 13). It also tries to clear bit 4 after each error, so that the drive aborts homing and
+            /// doesn't start it again when it is enabled. A statusword that shows the result of an earlier homing
+            /// procedure is ignored for 100 ms.
             ///
             /// # Errors
             ///
@@ -293,10 +294,10 @@ macro_rules! operations {
             /// Sends a set-point in the mode "profile position", with the handshake of CiA 402-2 12.2. The method returns
             /// as soon as the drive has accepted the set-point; `wait_reached` waits for the end of the move.
             ///
-            /// The method waits until the drive can accept a set-point, writes the target position (0x607A), sets bit 4
-            /// of the controlword ("new set-point") together with the bits 5 and 6, waits for bit 12 of the statusword
-            /// ("set-point acknowledge"), and clears bit 4. It also tries to clear bit 4 after each error. Write the profile
-            /// velocity and the ramps before.
+            /// The method waits until the drive can accept a set-point, and writes the target position (0x607A). Then
+            /// it sets bit 4 of the controlword ("new set-point") together with the bits 5 and 6. It waits for bit 12
+            /// of the statusword ("set-point acknowledge"), and clears bit 4. It also tries to clear bit 4 after each
+            /// error. Write the profile velocity and the ramps before.
             ///
             /// # Errors
             ///

@@ -105,8 +105,8 @@ pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
 /// # Late replies
 ///
 /// A reply doesn't identify its request, except by the object. After a timeout, an unexpected reply or a dropped
-/// transfer, the next transfer first waits for the missing reply, for at most one timeout, and discards it. If a
-/// datagram with a reply is lost, the client requests the reply again.
+/// transfer, the next transfer first waits for the missing reply and discards it. It waits for at most one timeout. If
+/// a datagram with a reply is lost, the client requests the reply again.
 ///
 /// # Pauses between polls
 ///

@@ -48,9 +48,9 @@
 //!
 //! A frame does not identify the request to which it replies. After a timeout, an invalid reply or a dropped exchange,
 //! the next exchange first discards the late reply. Before its request, the next exchange waits until a frame arrives,
-//! a read of the stream times out, or the timeout of the line has expired. A blocking line can discard late replies
-//! only if reads of the stream time out. An async line can discard late replies only if the line has a timer. If the
-//! stream implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
+//! a read of the stream times out, or the line's timeout expires. A blocking line can discard late replies only if
+//! reads of the stream time out. An async line can discard late replies only if the line has a timer. If the stream
+//! implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
 
 use core::error;
 use core::fmt;

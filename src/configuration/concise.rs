@@ -17,9 +17,9 @@ impl Configuration {
     /// A CANopen manager stores the concise DCF of a node in the object 0x1F22 (CiA 302-3), at the sub-index that is the
     /// node-ID. The manager writes the values to the node when the network starts.
     ///
-    /// The concise DCF consists of the number of entries (UNSIGNED32), followed by the entries: index (UNSIGNED16),
-    /// sub-index (UNSIGNED8), length of the value in bytes (UNSIGNED32), and the value. Numbers have their least
-    /// significant byte first.
+    /// The concise DCF consists of the number of entries (UNSIGNED32), followed by the entries. An entry consists of
+    /// index (UNSIGNED16), sub-index (UNSIGNED8), length of the value in bytes (UNSIGNED32), and the value. Numbers
+    /// have their least significant byte first.
     ///
     /// ```
     /// use lexibus::{Configuration, NodeId, SdoWrite, Setting};

@@ -6,7 +6,8 @@ use crate::value_error::LengthError;
 /// Framing with an end byte, and usually a start byte: start, data, checksum, end.
 ///
 /// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. If both are equal,
-/// one byte can be both the end of a frame and the start of the next frame, and frames without data are ignored.
+/// one byte can be both the end of a frame and the start of the next frame. In this case, frames without data are
+/// ignored.
 ///
 /// A checksum without escapes can contain the end byte. The decoder ends a frame at the first end byte that follows a
 /// matching checksum. In rare cases, an end byte inside the frame follows a matching checksum, which the decoder cannot

@@ -135,8 +135,8 @@ macro_rules! walks {
             ///
             /// # Errors
             ///
-            /// Returns a [`WalkError`] if an access fails, a fault occurs, no command leads to the state, or the device is
-            /// not in the state at the deadline.
+            /// Returns a [`WalkError`] if an access fails, a fault occurs, or no command leads to the state.
+            /// [`WalkError`] also occurs if the device is not in the state at the deadline.
             pub $($async)? fn $walk<S: MachineState, C: $Client>(
                 self,
                 client: &mut C,

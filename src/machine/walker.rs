@@ -38,10 +38,10 @@ pub trait MachineState: Copy + 'static {
     }
 }
 
-/// Leads a state machine to a target state in cyclic process data: each cycle turns the status word of the device into
+/// Leads a state machine to a target state in cyclic process data. Each cycle turns the status word of the device into
 /// the next control word.
 ///
-/// - A command that reacts to an edge, such as a fault reset, works even if its bit is already set: the walker first
+/// - A command that reacts to an edge, such as a fault reset, works even if its bit is already set. The walker first
 ///   clears the bit for one cycle.
 /// - The walker waits for automatic transitions of the device.
 /// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
@@ -173,8 +173,8 @@ impl<S: MachineState> Walker<S> {
         }
     }
 
-    /// Returns the control word that sends a command. If the control word already contains the command, returns a control
-    /// word without the bits that only this command sets, so that the next cycle sends a rising edge.
+    /// Returns the control word that sends a command. If the control word already contains the command, returns a
+    /// control word without the bits that only this command sets. The next cycle then sends a rising edge.
     fn send(&mut self, state: S, command: S::Command, control: u32) -> u32 {
         let (mask, value) = S::pattern(command);
         let sent = Some((state.number(), (mask, value)));

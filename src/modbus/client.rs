@@ -179,9 +179,9 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     /// the holding registers, [`ModbusClient`](crate::clients) writes and reads with one request. The device writes
     /// before it reads.
     ///
-    /// Requests are combined if one request can write all items, or the last of them, and the first request of
-    /// the read is for holding registers. The other requests are sent as in [`write_block`](Self::write_block)
-    /// and [`read_block`](Self::read_block).
+    /// Requests are combined if one request can write all items, or the last of them. The first request of the read
+    /// must also be for holding registers. The other requests are sent as in [`write_block`](Self::write_block) and
+    /// [`read_block`](Self::read_block).
     ///
     /// # Errors
     ///
@@ -309,9 +309,9 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     /// the holding registers, [`ModbusClient`](crate::clients) writes and reads with one request. The device writes
     /// before it reads.
     ///
-    /// Requests are combined if one request can write all items, or the last of them, and the first request of
-    /// the read is for holding registers. The other requests are sent as in [`write_block_async`](Self::write_block_async)
-    /// and [`read_block_async`](Self::read_block_async).
+    /// Requests are combined if one request can write all items, or the last of them. The first request of the read
+    /// must also be for holding registers. The other requests are sent as in
+    /// [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async).
     ///
     /// # Errors
     ///

@@ -51,8 +51,8 @@
 //! consistent. [`Plan`] can compute the requests at compile time.
 //!
 //! [`RegisterClient::write_block`] writes adjacent holding registers with one request. [`RegisterClient::exchange`]
-//! writes and reads with one request if the device supports function 23, and [`RegisterClient::write_masked`] changes
-//! some bits of a register with one request if the device supports function 22.
+//! writes and reads with one request if the device supports function 23. [`RegisterClient::write_masked`] changes some
+//! bits of a register with one request if the device supports function 22.
 
 mod block;
 mod client;

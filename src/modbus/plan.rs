@@ -91,7 +91,7 @@ impl<const N: usize> Plan<N> {
         &self.request_of
     }
 
-    /// Returns the item at which the next request begins: the item with the lowest address among the items that are
+    /// Returns the item at which the next request begins. This item has the lowest address among the items that are
     /// compatible with the first unassigned item.
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);

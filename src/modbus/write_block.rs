@@ -212,7 +212,7 @@ impl<const N: usize> Writing<N> {
 }
 
 /// Returns the address and the masks of a mask write request (function 22) that sets the bits of `mask` to those of
-/// `value`: the bits to keep and the bits to set.
+/// `value`. The masks contain the bits to keep and the bits to set.
 pub(super) fn masks<I: WriteItem, E>(item: &I, value: I::Native, mask: I::Native) -> Result<(u16, u16, u16), Error<E>> {
     let register = item.register();
     let length = I::LENGTH.min(8);

@@ -18,8 +18,9 @@ impl PdoParameters {
     /// Returns the writes that configure a PDO with these parameters. `configuration` contains the writes that
     /// `configuration(node_id)` or `configuration_as(cob_id)` of a PDO struct returns.
     ///
-    /// The writes are in the order of CiA 301 7.5.2.35 to 7.5.2.38: disable the PDO, set the transmission type, inhibit
-    /// time, event timer and SYNC start value, clear the mapping, write the entries and their number, enable the PDO.
+    /// The writes are in the order of CiA 301 7.5.2.35 to 7.5.2.38. They disable the PDO, then set the transmission
+    /// type, inhibit time, event timer and SYNC start value. Then they clear the mapping, write the entries and their
+    /// number, and enable the PDO.
     ///
     /// # Errors
     ///

@@ -146,8 +146,8 @@ impl PdoParameters {
         Self { event_timer: Some(time), ..self }
     }
 
-    /// Sets the SYNC start value (sub-index 6): the counter value of the SYNC message that counts as the first SYNC for
-    /// a cyclic TPDO, 1 to 240. 0 disables the SYNC start value. The SYNC messages must contain a counter (0x1019).
+    /// Sets the SYNC start value (sub-index 6), 1 to 240. The SYNC message with this counter value counts as the first
+    /// SYNC for a cyclic TPDO. 0 disables the SYNC start value. The SYNC messages must contain a counter (0x1019).
     #[must_use]
     pub const fn sync_start(self, counter: u8) -> Self {
         Self { sync_start: Some(counter), ..self }

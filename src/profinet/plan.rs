@@ -159,8 +159,9 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns a [`PlanError`] if the slot doesn't exist or already has a module, if the module isn't allowed in the
-    /// slot, or if there are too many submodules or data. After an error, the plan is unchanged.
+    /// Returns a [`PlanError`] if the slot doesn't exist or already has a module. [`PlanError`] also occurs if the
+    /// module isn't allowed in the slot, or if there are too many submodules or data. After an error, the plan is
+    /// unchanged.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
         if let Some(entry) = self.used().find(|entry| entry.slot == slot) {
             return Err(if self.is_fixed_module(slot, entry.module) {
@@ -199,9 +200,9 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns a [`PlanError`] if the slot is empty, if the subslot doesn't exist or already has a submodule, if the
-    /// submodule isn't allowed in the subslot, or if there are too many submodules or data. After an error, the plan is
-    /// unchanged.
+    /// Returns a [`PlanError`] if the slot is empty, or if the subslot doesn't exist or already has a submodule.
+    /// [`PlanError`] also occurs if the submodule isn't allowed in the subslot, or if there are too many submodules or
+    /// data. After an error, the plan is unchanged.
     pub fn plug_submodule(&mut self, slot: u16, subslot: u16, submodule: &'static Submodule) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;
         if let Some(there) = self.submodules().find(|(entry, _)| entry.slot == slot && entry.subslot == subslot) {

@@ -64,9 +64,11 @@ impl<E> From<TransferError> for Error<E> {
 
 /// Client side of an SDO transfer (CiA 301 7.2.4.3), without input and output.
 ///
-/// Repeat these steps until [`result`](Self::result) returns the result: send all messages that [`next`](Self::next)
-/// returns, then pass the next message of the server to [`handle`](Self::handle), or call [`time_out`](Self::time_out)
-/// if no message arrives that the transfer [accepts](Self::accepts).
+/// Repeat these steps until [`result`](Self::result) returns the result:
+///
+/// 1. Send all messages that [`next`](Self::next) returns.
+/// 2. Pass the next message of the server to [`handle`](Self::handle). Call [`time_out`](Self::time_out) instead if no
+///    message arrives that the transfer [accepts](Self::accepts).
 ///
 /// Values with at least the minimum length of a block transfer are transferred in blocks with CRC (CiA 301 7.2.4.3.9 to
 /// 7.2.4.3.16). The length of an upload is not known before the transfer, so the length of the buffer decides. If the
@@ -183,17 +185,17 @@ impl<'a> Transfer<'a> {
         self.result.is_none() && self.expected().accepts(message)
     }
 
-    /// Returns the maximum duration of the whole transfer for a `timeout` of each reply: one timeout, plus one tenth of
-    /// the timeout for each segment of 7 bytes. Call [`time_out`](Self::time_out) if the transfer takes longer. The
-    /// duration of an upload grows until its length is known.
+    /// Returns the maximum duration of the whole transfer for a `timeout` of each reply. The duration is one timeout,
+    /// plus one tenth of the timeout for each segment of 7 bytes. Call [`time_out`](Self::time_out) if the transfer
+    /// takes longer. The duration of an upload grows until its length is known.
     #[must_use]
     pub fn limit(&self, timeout: Duration) -> Duration {
         let segments = u32::try_from(self.length.div_ceil(SEGMENT)).unwrap_or(u32::MAX);
         timeout.saturating_add((timeout / SEGMENTS_PER_TIMEOUT).saturating_mul(segments))
     }
 
-    /// Returns the result if the transfer has ended: the length of the value, which can be greater than the length of the
-    /// buffer if the value has at most 4 bytes. Send the messages that [`next`](Self::next) returns first.
+    /// Returns the result if the transfer has ended: the length of the value. The length can be greater than the length
+    /// of the buffer if the value has at most 4 bytes. Send the messages that [`next`](Self::next) returns first.
     #[must_use]
     pub const fn result(&self) -> Option<Result<usize, TransferError>> {
         self.result

@@ -355,7 +355,7 @@ pub mod types {
     }
     impl core::str::FromStr for Mode {
         type Err = rt::UnknownName;
-        fn from_str(text: &str) -> Result<Self, Self::Err> {
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
             rt::parse_name(text)
         }
     }
@@ -512,7 +512,7 @@ pub mod types {
     }
     impl core::str::FromStr for ModesOfOperation {
         type Err = rt::UnknownName;
-        fn from_str(text: &str) -> Result<Self, Self::Err> {
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
             rt::parse_name(text)
         }
     }

@@ -274,8 +274,8 @@ fn distinct_addresses(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diag
     }
 }
 
-/// Removes the object address of a row if the row is a part of a register, is repeated, or has the object address of
-/// another row.
+/// Removes the object address of a row if the row is a part of a register, is repeated, or has another row's object
+/// address.
 fn distinct_objects(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let of_objects = rows.iter().filter(|row| matches!(row.address, Ok(RowAddress::Object { .. })));
     let mut used: HashMap<String, Span> =

@@ -1,5 +1,5 @@
-//! The folders of devices. The folder of a device depends on its identity, and never on the order in which a site writes
-//! its devices, so that links to a device stay valid.
+//! The folders of devices. The folder of a device depends on its identity, and never on the order in which a site writes its
+//! devices. Therefore, links to a device stay valid.
 
 use std::collections::{BTreeMap, HashMap};
 

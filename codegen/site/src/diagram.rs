@@ -1,5 +1,5 @@
 //! Draws state machines. The states are in one column, and arrows between neighbors are straight. Each other arrow has a separate lane
-//! next to the column: on the left if the arrow leads down, on the right if it leads up. So no two arrows overlap.
+//! next to the column. The lane is on the left if the arrow leads down, and on the right if it leads up. So no two arrows overlap.
 
 use std::collections::VecDeque;
 

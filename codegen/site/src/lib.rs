@@ -121,7 +121,8 @@ impl Site {
     }
 
     /// Announces a catalog that will be added. The site then knows all revisions of a product and all descriptions of a
-    /// revision before it writes the first page, so that neither links nor folders depend on the order of the catalogs.
+    /// revision before it writes the first page. Therefore, neither links nor folders depend on the order of the
+    /// catalogs.
     ///
     /// Each catalog has its own name. Add every catalog that is announced.
     pub fn announce(&mut self, name: &str, catalog: &Catalog) {

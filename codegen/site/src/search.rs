@@ -165,8 +165,9 @@ impl Index {
         separated(&numbers)
     }
 
-    /// Returns the entries of the pages as runs of consecutive entries. A page has the number of its runs, then two numbers
-    /// per run: the difference of its first entry from the end of the run before, and its length.
+    /// Returns the entries of the pages as runs of consecutive entries. A page has the number of its runs, then two numbers per
+    /// run. The first number is the difference of the run's first entry from the end of the run before. The second number is the
+    /// length of the run.
     fn runs(&self) -> String {
         let (mut end, mut numbers) = (0, Vec::new());
         for page in self.devices.iter().flat_map(|device| &device.pages) {

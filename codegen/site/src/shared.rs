@@ -36,8 +36,8 @@ pub(super) fn diagnostics(rows: &mut [Row], of_object: &mut Vec<ShownDiagnostic>
     of_object.extend(take(rows, |row| &mut row.diagnostics, key).into_iter().map(|(shown, _)| shown));
 }
 
-/// Removes the notes that several rows have from the rows, and returns them with the positions of the rows, in the order of their first
-/// occurrence. `list` returns the notes of a row. Notes with equal keys are the same.
+/// Removes the notes that several rows have from the rows, and returns them with the positions of the rows. The notes are in the order
+/// of their first occurrence. `list` returns the notes of a row. Notes with equal keys are the same.
 fn take<T, K: Eq + Hash>(
     rows: &mut [Row],
     list: impl Fn(&mut Row) -> &mut Vec<T>,

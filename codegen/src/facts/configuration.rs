@@ -54,8 +54,8 @@ pub enum LeftOut {
     ReadOnly,
     /// The object refuses writes during a download (bit 0 of ObjFlags, CiA 306).
     RefusesDownload,
-    /// Writing to the object starts an action: the error history, the commands that store and restore parameters, and the
-    /// controlword and targets of a CiA 402 drive.
+    /// Writing to the object starts an action. Such objects are the error history, the commands that store and restore
+    /// parameters, and the controlword and targets of a CiA 402 drive.
     Command,
     /// The entry is not part of the PDO mapping, because its sub-index is greater than the number of entries.
     NotMapped,
@@ -192,7 +192,7 @@ fn configured(
 }
 
 /// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings clear the mapping first,
-/// and contain all entries, because some devices lose entries that are not written again.
+/// and contain all entries. Some devices lose entries that are not written again.
 fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), LeftOut)>) -> Vec<Setting> {
     let mut settings = configured(group, types, None, left_out);
     let count = group.sub(0).filter(|item| reason(group, item).is_none());

@@ -106,8 +106,8 @@ impl Device {
         self.modules.iter().filter_map(|accepted| modules.get(accepted.module.0 as usize))
     }
 
-    /// Returns the item at an index and sub-index: a value of an object, or a register with an object address if the
-    /// device has no object with this index.
+    /// Returns the item at an index and sub-index. The item is a value of an object, or a register with an object
+    /// address if the device has no object with this index.
     pub fn entry(&self, index: u16, sub_index: u8) -> Option<&super::Item> {
         match self.object(index) {
             Some(object) => object.sub(sub_index),

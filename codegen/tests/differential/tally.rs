@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::facts::{compare, Difference, Elements};
 
-/// The accepted reasons for differences: the identifiers of rows in the table of quirks, and the known limitations of the
-/// independent reader, each with an explanation.
+/// The accepted reasons for differences. These are the identifiers of rows in the table of quirks, and the known limitations of
+/// the independent reader, each with an explanation.
 #[derive(Clone, Copy)]
 pub struct Reasons {
     pub quirks: &'static [&'static str],

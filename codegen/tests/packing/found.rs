@@ -179,7 +179,7 @@ fn indices(text: &str) -> HashMap<String, u16> {
 }
 
 /// Returns the types in the order of their layouts. A module imports the PDOs that it shares with another module before it defines its
-/// own, so PDOs of such a module are found by their index.
+/// own. Therefore, PDOs of such a module are found by their index.
 fn in_order<'t>(found: Vec<Found<'t>>, layouts: &[Layout], indices: &HashMap<String, u16>) -> Vec<Found<'t>> {
     let (mut ordered, mut rest, mut layouts) = (Vec::new(), found.into_iter().peekable(), layouts.iter());
     while let Some(first) = rest.next() {

@@ -1,4 +1,4 @@
-//! Items that the Eco has only on some buses: the following error has no Modbus register, the EtherCAT error codes have
+//! Items that the Eco has only on some buses. The following error has no Modbus register, the EtherCAT error codes have
 //! no CANopen object, and the Modbus register `save_to_flash` has no object.
 
 use lexibus::{CanOpen, Client, CoE, Modbus};

@@ -1,4 +1,4 @@
-//! Tests values of all data types in both directions: generated accessors encode and decode the values on one side, and
+//! Tests values of all data types in both directions. Generated accessors encode and decode the values on one side, and
 //! the Python library on the other side.
 
 use lexibus::{TimeDifference, TimeOfDay};

@@ -1,7 +1,7 @@
 //! The data types of a dictionary: the device's types with their names, and additional types for its objects.
 //!
-//! The file must define all types that it uses, including basic types, because the schema of ETG.2000 checks that each
-//! type name refers to a definition. The data type of an object with sub-indices has a sub-item for each sub-index. The
+//! The file must define all types that it uses, including basic types. The schema of ETG.2000 checks that each type
+//! name refers to a definition. The data type of an object with sub-indices has a sub-item for each sub-index. The
 //! sub-items contain the access rights.
 
 use std::collections::HashMap;

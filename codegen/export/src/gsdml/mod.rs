@@ -1,5 +1,5 @@
-//! Exports PROFINET device descriptions (GSDML): all device access points of a catalog, or a new one for a device of
-//! another format that has fixed process images.
+//! Exports PROFINET device descriptions (GSDML). The export has all device access points of a catalog, or a new one for
+//! a device of another format that has fixed process images.
 //!
 //! If the source is a GSDML, the export has all its facts in the order that the schema requires. The export keeps
 //! attributes of later schema versions. If the source has another format, the file has a device access point with one

@@ -121,7 +121,7 @@ impl<'a> Comparison<'a> {
 
 /// Compares all fields of a type. The caller gives a rule for each field; a field without a rule is a compile error.
 /// The macro `rule` contains the rules of common fields. The list of ignored fields comes last and gives a reason for
-/// each: the field is not a fact of the device, or is compared elsewhere.
+/// each. An ignored field is not a fact of the device, or is compared elsewhere.
 macro_rules! compare_fields {
     ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident $(: $rule:expr)?),* $(,)? }
         $(, $reason:expr => [$($ignored:ident),+])* $(,)?) => {{

@@ -251,8 +251,7 @@ fn position(field: &BitFieldEntry) -> String {
     }
 }
 
-/// Returns the position of a bit field and the condition under which it has its meaning, such as `bits 7 to 4 while
-/// Mode is 1`.
+/// Returns the position of a bit field and the condition of its meaning, such as `bits 7 to 4 while Mode is 1`.
 fn bits(field: &BitFieldEntry) -> String {
     let when = field.when.as_ref().map(|condition| format!(" while {}", condition.show()));
     position(field) + &when.unwrap_or_default()

@@ -1,4 +1,4 @@
-//! Checks the documentation of all corpus files as HTML and as Markdown: all links must be valid, texts must not add markup, and no
+//! Checks the documentation of all corpus files as HTML and as Markdown. All links must be valid, texts must not add markup, and no
 //! page may be too large.
 
 use crate::corpus_support::{all_files, lane, File};

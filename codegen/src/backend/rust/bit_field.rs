@@ -100,7 +100,7 @@ pub(super) struct ViewModel {
 }
 
 /// Names that getters must not have. These are other methods of bit fields, methods that clippy expects in trait
-/// implementations only, and methods of all types, which would be called instead of the getter.
+/// implementations only, and methods of all types. The methods of all types would be called instead of the getter.
 const RESERVED: [&str; 16] = [
     "self",
     "super",
@@ -269,8 +269,8 @@ fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     (zeros & !used, ones & !used)
 }
 
-/// Returns the mask of all flags. Returns `None` if a bit is not a flag or is active low, so that an operation on all bits would
-/// not be one on all flags.
+/// Returns the mask of all flags. Returns `None` if a bit is not a flag or is active low. An operation on all bits would then not
+/// be one on all flags.
 fn flags(entries: &[&BitFieldEntry], has_no_views: bool) -> Option<String> {
     let is_flag = |entry: &&BitFieldEntry| {
         entry.bits == 1 && matches!(entry.meaning, BitMeaning::Flag { inverted: false }) && entry.when.is_none()

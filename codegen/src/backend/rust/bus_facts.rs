@@ -26,8 +26,8 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
     facts
 }
 
-/// For each Modbus table: the field and the constant in the runtime, and the maximum number of values in a read request
-/// and in a write request.
+/// For each Modbus table: the field and the constant in the runtime, and the maximum numbers of values in a read
+/// request and a write request.
 const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
     (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),

@@ -11,8 +11,8 @@ use super::locations::Locations;
 use super::objects::ObjectModel;
 use super::value_type;
 
-/// Objects that contain the error code of a fault, by preference: the error code of CiA 402, 6.2, and the first entry of the
-/// pre-defined error field of CiA 301, 7.5.2.4.
+/// Objects that contain the error code of a fault, in order of preference. These are the error code of CiA 402, 6.2, and the
+/// first entry of the pre-defined error field of CiA 301, 7.5.2.4.
 const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
 
 /// Access to the constants of items.

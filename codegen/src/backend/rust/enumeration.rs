@@ -49,8 +49,8 @@ const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
 /// Returns the model of the enumeration at `position` in the list of types.
 ///
-/// The enumeration has no variant `Unknown` if it is the type of a field in a bit field and names all numbers of up to
-/// [`COMPLETE`] bits.
+/// The enumeration has no variant `Unknown` if two conditions are met. It is the type of a field in a bit field, and it
+/// names all numbers of up to [`COMPLETE`] bits.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,

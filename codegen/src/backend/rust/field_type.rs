@@ -107,8 +107,8 @@ fn cast(value: &Doc, ty: &str) -> Doc {
 
 /// Returns the Rust type for `bits` bits with the IR type `ty`.
 pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldType {
-    // A field with a signed enumeration must have the width of a primitive integer, because only then the sign bit is
-    // the most significant bit of this integer.
+    // A field with a signed enumeration must have the width of a primitive integer. Only then is the sign bit the most
+    // significant bit of this integer.
     let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
     if let Some(named) = context.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
         return FieldType::Named(named.name.clone(), named.native);

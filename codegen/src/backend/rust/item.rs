@@ -22,8 +22,8 @@ pub(super) struct ItemModel {
     pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// Type arguments of the handle, as written in its own module: the type of the value and, if there are several
-    /// locations, the type of the location.
+    /// Type arguments of the handle, as written in its own module. They are the type of the value, and the type of the
+    /// location if there are several locations.
     pub arguments: Vec<Doc>,
     /// Type arguments of the handle, as written in the device's module.
     pub arguments_at_top: Vec<Doc>,

@@ -38,7 +38,7 @@ pub(super) struct ItemAddresses<'i> {
 }
 
 /// Returns the code that creates an item's address on a bus. Returns `None` if the item has no address on the bus, or
-/// if the bus does not allow reading it, or writing it if `writes` is set.
+/// if the bus does not allow the access. The access is a write if `writes` is set, and a read otherwise.
 pub(super) fn address(scope: &Scope<'_>, item: &Item, bus: RouteBus, writes: bool) -> Option<String> {
     let addresses = ItemAddresses::without_routes(scope, item);
     addresses.is_possible(item, bus, writes).then(|| addresses.address(bus))?

@@ -233,15 +233,15 @@ impl Links {
         sentence("Value type of", &paths.collect::<Vec<_>>(), doc_module)
     }
 
-    /// Returns the sentences that link the documentation of an item's accessor to the constant and the type of the
-    /// item, and to the PDOs that map it.
+    /// Returns the sentences that link the documentation of an item's accessor to the item's constant and type, and to
+    /// the PDOs that map it.
     pub fn related_to_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", doc_module.whole(path)));
         self.related(entry, [constant, values(ty, doc_module)], doc_module)
     }
 
-    /// Returns the sentences that link the documentation of an item's constant to the accessor and the type of the
-    /// item, and to the PDOs that map it.
+    /// Returns the sentences that link the documentation of an item's constant to the item's accessor and type, and to
+    /// the PDOs that map it.
     pub fn related_to_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let method = self.handles.get(&entry.id).and_then(|handle| handle.method.as_ref());
         let link = |path: &String| if doc_module.is_of(path) { doc_module.whole(path) } else { doc_module.code(path) };

@@ -239,7 +239,7 @@ impl Route<'_> {
     }
 
     /// Returns the code that creates the route. Returns `None` if the item has no route on the bus. `address` is the
-    /// code of the address, `window` returns the name of a window, and `number` replaces the number that selects the
+    /// code of the address, and `window` returns the name of a window. `number` replaces the number that selects the
     /// item in the window.
     pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> Option<Doc> {
         let code_of = |access_path: &AccessPath<'_>| match access_path.window {

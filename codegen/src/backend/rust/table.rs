@@ -46,9 +46,9 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
 /// Sort key of a row. The runtime sorts objects and registers in the same way.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
-/// Adds the rows of an item. An item has several rows if its object addresses on CANopen and EtherCAT differ, or if its
-/// type or access rights at the register and at the object differ. An item has no row if it has neither an object nor a
-/// register.
+/// Adds the rows of an item. An item has several rows if its object addresses on CANopen and EtherCAT differ. It also
+/// has several rows if its type or access rights at the register and at the object differ. An item has no row if it has
+/// neither an object nor a register.
 fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();

@@ -12,8 +12,8 @@ use crate::text::{brief, edit_distance};
 /// are too similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// A letter counts as a prefix if at least this number of item names, and at least nine tenths of all item names, begin
-/// with this letter.
+/// A letter counts as a prefix if at least this number of item names, and at least nine tenths of all names, begin with
+/// it.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

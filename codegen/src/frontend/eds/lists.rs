@@ -125,8 +125,8 @@ fn by_number(
 }
 
 /// Returns whether `entry` announces the correct number of entries. Reports an incorrect or hexadecimal number. The
-/// diagnostic about an incorrect number has no fix if the list has a gap, because the announced number may be right and
-/// the numbering wrong.
+/// diagnostic about an incorrect number has no fix if the list has a gap. In this case, the announced number may be
+/// right and the numbering wrong.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));

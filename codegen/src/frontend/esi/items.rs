@@ -165,8 +165,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Stores the default value, limits and unit of a whole record as extensions of the group, and adds its display
-    /// names to the names of the group.
+    /// Stores the default value, limits and unit of a whole record as extensions of the group. Adds the display names
+    /// of the record to the names of the group.
     fn keep_whole(&self, raw: &RawObject<'a>, group: &mut Group) {
         let more = raw.info.more.as_deref();
         let limits = more.into_iter().flat_map(|more| [("Min", more.min.as_ref()), ("Max", more.max.as_ref())]);

@@ -275,8 +275,8 @@ impl<'t, 'a> Types<'t, 'a> {
         (Shape::Array { element, dimensions }, bits.or(ty.bits))
     }
 
-    /// Returns an array type for an alias whose name ends with `ARR` and whose length is that of at least two elements
-    /// of the base type, without a remainder.
+    /// Returns an array type for an alias whose name ends with `ARR`. The length of the alias must be that of at least
+    /// two elements of the base type, without a remainder.
     fn array_without_info(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Option<Shape> {
         let (size, element) = (ty.bits?, self.bits(base).filter(|&bits| bits > 0)?);
         let count = size / element;

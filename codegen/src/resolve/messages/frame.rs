@@ -17,8 +17,8 @@ pub(crate) struct Frame {
     pub max_bits: usize,
     /// True if the frame can be longer than `min_bits`.
     pub is_open: bool,
-    /// Bit offset of the first misalignment, if any: a field of whole bytes that does not start at a byte boundary, or
-    /// an end of the data within a byte.
+    /// Bit offset of the first misalignment, if any. A misalignment is a field of whole bytes that does not start at a
+    /// byte boundary, or an end of the data within a byte.
     pub broken: Option<usize>,
 }
 

@@ -17,7 +17,7 @@
             0x01,
             "Speed",
         );
-        /// Accessors for the entries of 0x2022.
+        /// Accessors for the entries of the object. 0x2022.
         pub struct Object2022Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

@@ -26,7 +26,7 @@
             0x02,
             "Speeds2",
         );
-        /// Accessors for the entries of Speeds: 0x2000.
+        /// Accessors for the entries of the object. Speeds: 0x2000.
         pub struct SpeedsAccessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }

@@ -5,5 +5,5 @@
     /// | Bits | Name |
     /// |---|---|
     /// | 7 | [`running`](Self::running) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Status(u8);

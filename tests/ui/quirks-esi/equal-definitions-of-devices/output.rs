@@ -8,7 +8,7 @@
         /// | Value | Name |
         /// |---|---|
         /// | 0 | [`Off`](Self::Off) |
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Copy, Debug)]
         pub enum Dt0800En08 {
             /// 0: Off.
             Off,
@@ -16,6 +16,8 @@
             Unknown(u8),
         }
         impl Dt0800En08 {
+            /// All values with names.
+            pub const ALL: [Self; 1] = [Self::Off];
             /// Returns the variant for this number.
             pub const fn from_raw(raw: u8) -> Self {
                 match raw {
@@ -40,6 +42,41 @@
                 self.raw()
             }
         }
+        impl From<Dt0800En08> for u8 {
+            fn from(value: Dt0800En08) -> Self {
+                value.raw()
+            }
+        }
+        impl From<u8> for Dt0800En08 {
+            fn from(raw: u8) -> Self {
+                Self::from_raw(raw)
+            }
+        }
+        impl PartialEq for Dt0800En08 {
+            fn eq(&self, other: &Self) -> bool {
+                self.raw() == other.raw()
+            }
+        }
+        impl Eq for Dt0800En08 {}
+        impl core::hash::Hash for Dt0800En08 {
+            fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+                core::hash::Hash::hash(&self.raw(), state);
+            }
+        }
+        impl rt::Named for Dt0800En08 {
+            const NAMES: &'static [(Self, &'static str)] = &[(Self::Off, "Off")];
+        }
+        impl core::fmt::Display for Dt0800En08 {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                rt::display_name(*self, f)
+            }
+        }
+        impl core::str::FromStr for Dt0800En08 {
+            type Err = rt::UnknownName;
+            fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+                rt::parse_name(text)
+            }
+        }
     }
     /// Enumerations of named values.
     pub mod types {
@@ -55,7 +92,7 @@
         /// | Value | Name |
         /// |---|---|
         /// | 0 | [`Stopped`](Self::Stopped) |
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Copy, Debug)]
         pub enum Dt0800En08 {
             /// 0: Stopped.
             Stopped,
@@ -63,6 +100,8 @@
             Unknown(u8),
         }
         impl Dt0800En08 {
+            /// All values with names.
+            pub const ALL: [Self; 1] = [Self::Stopped];
             /// Returns the variant for this number.
             pub const fn from_raw(raw: u8) -> Self {
                 match raw {
@@ -85,6 +124,41 @@
             }
             fn native(self) -> u8 {
                 self.raw()
+            }
+        }
+        impl From<Dt0800En08> for u8 {
+            fn from(value: Dt0800En08) -> Self {
+                value.raw()
+            }
+        }
+        impl From<u8> for Dt0800En08 {
+            fn from(raw: u8) -> Self {
+                Self::from_raw(raw)
+            }
+        }
+        impl PartialEq for Dt0800En08 {
+            fn eq(&self, other: &Self) -> bool {
+                self.raw() == other.raw()
+            }
+        }
+        impl Eq for Dt0800En08 {}
+        impl core::hash::Hash for Dt0800En08 {
+            fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+                core::hash::Hash::hash(&self.raw(), state);
+            }
+        }
+        impl rt::Named for Dt0800En08 {
+            const NAMES: &'static [(Self, &'static str)] = &[(Self::Stopped, "Stopped")];
+        }
+        impl core::fmt::Display for Dt0800En08 {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                rt::display_name(*self, f)
+            }
+        }
+        impl core::str::FromStr for Dt0800En08 {
+            type Err = rt::UnknownName;
+            fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+                rt::parse_name(text)
             }
         }
     }

@@ -6,7 +6,7 @@
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
     /// | 16 | [`On`](Self::On) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Dt0800En08 {
         /// 0: Off.
         Off,

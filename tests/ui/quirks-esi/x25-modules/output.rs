@@ -45,7 +45,7 @@
             /// | Value | Name |
             /// |---|---|
             /// | 5 | [`Slow`](Self::Slow) |
-            #[derive(Clone, Copy, Debug, PartialEq)]
+            #[derive(Clone, Copy, Debug)]
             pub enum Filter {
                 /// 5: Slow.
                 Slow,

@@ -11,7 +11,7 @@
     /// | Bits | Name |
     /// |---|---|
     /// | 0 | [`start`](Self::start) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct Control(u16);
     /// Mode.
     ///
@@ -22,7 +22,7 @@
     /// | Value | Name |
     /// |---|---|
     /// | 0 | [`Off`](Self::Off) |
-    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Mode {
         /// 0: off.
         Off,

@@ -40,5 +40,5 @@
     /// | 2 | [`home_switch`](Self::home_switch) |
     /// | 3 | [`interlock`](Self::interlock) |
     /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |
-    #[derive(Clone, Copy, PartialEq)]
+    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     pub struct DigitalInputs(u32);

@@ -96,8 +96,8 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
     })
 }
 
-/// Names that field methods of a view must not have: keywords, the other methods of the view, and methods of traits
-/// that any type may implement.
+/// Names that field methods of a view must not have. These are keywords, the other methods of the view, and methods of
+/// traits that any type may implement.
 const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
 /// Maximum length of a field's name. The limit keeps the generated lines that unpack the field short.

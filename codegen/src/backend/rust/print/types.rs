@@ -123,7 +123,7 @@ fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     code.lines(gate);
     open!(code, "impl core::str::FromStr for ", name, " {");
     line!(code, "type Err = rt::UnknownName;");
-    open!(code, "fn from_str(text: &str) -> Result<Self, Self::Err> {");
+    open!(code, "fn from_str(text: &str) -> Result<Self, rt::UnknownName> {");
     line!(code, "rt::parse_name(text)");
     code.close("}");
     code.close("}");
