@@ -3,6 +3,7 @@
 #[path = "../support/now.rs"]
 mod now;
 
+mod boot;
 mod can;
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 mod coe;
