@@ -49,6 +49,11 @@ impl Faulty {
         self.now
     }
 
+    /// Returns the number of frames that have not been received.
+    pub fn waiting(&self) -> usize {
+        self.frames.len()
+    }
+
     /// Moves the clock of the nodes forward, and takes the frames that they have sent.
     fn collect(&mut self) {
         self.bus.advance(self.now.saturating_sub(self.bus.now()));
