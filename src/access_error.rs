@@ -177,7 +177,7 @@ impl<E> AccessError<E> {
     }
 
     fn number(&self, at: usize) -> RawValue {
-        let bits = self.numbers[at];
+        let bits = self.numbers.get(at).copied().unwrap_or_default();
         match self.form {
             Form::Signed => RawValue::Signed(bits as i64),
             Form::Unsigned => RawValue::Unsigned(bits),

@@ -47,7 +47,7 @@ pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
         _ => {}
     }
     let low = from_bytes(rest) >> shift;
-    let high = if rest.len() > 8 { above(rest[8] as u64, shift) } else { 0 };
+    let high = if let [_, _, _, _, _, _, _, _, ninth, ..] = rest { above(*ninth as u64, shift) } else { 0 };
     (low | high) & mask(width)
 }
 
@@ -55,6 +55,7 @@ pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
 /// and beyond the 64th bit of the field.
 #[must_use]
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`first + 8` is below `N`")]
 pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value: u64) -> [u8; N] {
     let (first, shift) = (bit / 8, (bit % 8) as u32);
     // If the offset is a constant, the compiler writes whole bytes with one store.
@@ -74,6 +75,7 @@ pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value:
 /// Returns the first `N` bytes of `words`. Each word starts with its lowest byte. Bytes after the last word are 0.
 #[must_use]
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`at` is below `W`")]
 pub const fn from_words<const W: usize, const N: usize>(words: [u64; W]) -> [u8; N] {
     let mut out = [0; N];
     let mut at = 0;
@@ -135,7 +137,10 @@ pub fn set_bytes(data: &mut [u8], bit: usize, bytes: &[u8]) {
     if bit % 8 == 0 {
         let rest = data.get_mut(bit / 8..).unwrap_or_default();
         let fitting = rest.len().min(bytes.len());
-        return rest[..fitting].copy_from_slice(&bytes[..fitting]);
+        if let (Some(to), Some(from)) = (rest.get_mut(..fitting), bytes.get(..fitting)) {
+            to.copy_from_slice(from);
+        }
+        return;
     }
     set_bits(data, bit, 8 * bytes.len(), bytes);
 }
@@ -172,6 +177,7 @@ pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
 /// `data`, are 0.
 #[must_use]
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`at` is below `N`")]
 pub const fn get_bits<const N: usize>(data: &[u8], bit: usize, width: usize) -> [u8; N] {
     let mut out = get_bytes(data, bit);
     let mut at = width / 8;
@@ -235,6 +241,7 @@ const fn put_word<const N: usize>(buffer: [u8; N], first: usize, word: u64) -> [
 /// Writes the `count` lowest bytes of `word` to `buffer`, lowest byte first, and returns `buffer`. `first` is the byte
 /// offset in `buffer`. Writes at most eight bytes, and ignores bytes beyond the end of `buffer`.
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`at` is below 8, and `first + at` is below `N`")]
 const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, word: u64) -> [u8; N] {
     let bytes = word.to_le_bytes();
     let mut out = buffer;

@@ -47,6 +47,7 @@ impl<const N: usize> Composite<N> {
     /// # Errors
     ///
     /// Returns [`OutOfRange`] if a digit isn't below the base, or if the number needs more than 32 bits.
+    #[expect(clippy::indexing_slicing, reason = "`at` is below `N`")]
     pub const fn join(&self, digits: [u16; N]) -> Result<u32, OutOfRange> {
         let mut number: u32 = 0;
         let mut at = 0;
@@ -71,6 +72,7 @@ impl<const N: usize> Composite<N> {
     /// # Errors
     ///
     /// Returns [`OutOfRange`] if the number has more than `N` digits.
+    #[expect(clippy::indexing_slicing, reason = "`at` is below `N`")]
     pub const fn split(&self, number: u32) -> Result<[u16; N], OutOfRange> {
         let mut digits = [0; N];
         let (mut rest, mut at) = (number, N);

@@ -16,6 +16,7 @@ mod pdo;
 mod plan;
 mod startup;
 mod sync_manager;
+mod wire_macro;
 
 pub use assignment::{AssignedPdo, Assignment, AssignmentError};
 pub use clock::{ClockMode, ClockTime};

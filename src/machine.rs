@@ -53,7 +53,7 @@ impl<C: Copy> Step<C> {
         if state == target {
             return Step::Reached;
         }
-        let transitions = &transitions[..transitions.len().min(MAX_TRANSITIONS)];
+        let transitions = transitions.get(..MAX_TRANSITIONS).unwrap_or(transitions);
         // Bit set of the transitions from which the target can be reached in at most the current number of steps.
         let mut leads: u128 = 0;
         loop {

@@ -54,7 +54,7 @@ impl fmt::Display for RawValue {
 
 /// Returns the minimum and the maximum of a type, or `None` if the values of the type aren't numbers.
 fn type_limits<V: Fixed>() -> Option<[RawValue; 2]> {
-    let zero = V::decode(&[0; 8][..byte_len(V::BITS)]).ok()?;
+    let zero = V::decode([0; 8].get(..byte_len(V::BITS))?).ok()?;
     Some(match V::raw_value(zero)? {
         RawValue::Signed(_) => {
             let maximum = mask(V::BITS.saturating_sub(1)) as i64;

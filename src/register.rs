@@ -215,12 +215,12 @@ impl Register {
         if let Some(part) = self.part {
             let bits = self.number(words)? >> (part.first & 63) & mask(part.bits.into());
             let filled = buffer.len().min(byte_len(part.bits.into()));
-            buffer[..filled].copy_from_slice(&bits.to_le_bytes()[..filled]);
+            buffer.iter_mut().zip(bits.to_le_bytes()).take(filled).for_each(|(to, from)| *to = from);
             return Ok(filled);
         }
         for (pair, at) in buffer.chunks_mut(2).zip(0..words.len()) {
-            let bytes = self.bytes(words[self.position(at, words.len())]);
-            pair.copy_from_slice(&bytes[..pair.len()]);
+            let bytes = self.bytes(words.get(self.position(at, words.len())).copied().unwrap_or_default());
+            pair.iter_mut().zip(bytes).for_each(|(to, from)| *to = from);
         }
         Ok(if self.order == WordOrder::Bytes { length } else { length.min(buffer.len()) })
     }
@@ -246,17 +246,20 @@ impl Register {
             let beyond = if is_negative { 0xFF } else { 0 };
             for at in 0..count {
                 let byte = |offset: usize| data.get(2 * at + offset).copied().unwrap_or(beyond);
-                words[self.position(at, count)] = self.word([byte(0), byte(1)]);
+                if let Some(word) = words.get_mut(self.position(at, count)) {
+                    *word = self.word([byte(0), byte(1)]);
+                }
             }
             return Ok(());
         };
         let (first, bits) = (part.first & 63, mask(part.bits.into()));
         let mut value = [0; 8];
-        let length = data.len().min(8);
-        value[..length].copy_from_slice(&data[..length]);
+        value.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
         let number = self.number(words)? & !(bits << first) | (u64::from_le_bytes(value) & bits) << first;
         for (at, pair) in (0..count).zip(number.to_le_bytes().chunks(2)) {
-            words[self.position(at, count)] = self.word([pair[0], pair[1]]);
+            if let (Some(word), Ok(pair)) = (words.get_mut(self.position(at, count)), pair.try_into()) {
+                *word = self.word(pair);
+            }
         }
         Ok(())
     }
@@ -309,7 +312,8 @@ impl Register {
         }
         let mut bytes = [0; 2 * WORDS];
         for (at, pair) in (0..words.len()).zip(bytes.chunks_mut(2)) {
-            pair.copy_from_slice(&self.bytes(words[self.position(at, words.len())]));
+            let word = words.get(self.position(at, words.len())).copied().unwrap_or_default();
+            pair.copy_from_slice(&self.bytes(word));
         }
         Ok(u64::from_le_bytes(bytes))
     }

@@ -93,7 +93,7 @@ impl<'b> Utf16<'b> {
     /// Returns [`TextError`] if the number of bytes is odd or one half of a surrogate pair is missing.
     pub fn new(bytes: &'b [u8]) -> Result<Self, TextError> {
         let length = units(bytes).take_while(|&unit| unit != 0).count() * 2;
-        let text = Self { bytes: &bytes[..length] };
+        let text = Self { bytes: bytes.get(..length).unwrap_or(bytes) };
         let whole = bytes.len() % 2 == 0 && decode_utf16(units(text.bytes)).all(|unit| unit.is_ok());
         whole.then_some(text).ok_or(TextError)
     }
@@ -124,7 +124,7 @@ impl PartialEq<&str> for Utf16<'_> {
 }
 
 fn units(bytes: &[u8]) -> impl Iterator<Item = u16> + '_ {
-    bytes.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]))
+    bytes.chunks_exact(2).filter_map(|pair| pair.try_into().ok()).map(u16::from_le_bytes)
 }
 
 #[cfg(test)]

@@ -166,7 +166,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
 /// Returns the part of `buffer` that can hold a value of type `V`.
 #[inline]
 fn room<V: Fixed>(buffer: &mut [u8; 8]) -> &mut [u8] {
-    &mut buffer[..byte_len(V::BITS)]
+    buffer.get_mut(..byte_len(V::BITS)).unwrap_or_default()
 }
 
 /// Decodes the value in `room`. `length` is the length that the client reported in bytes.

@@ -64,6 +64,8 @@ mod cycle;
 mod mailbox;
 mod memory;
 mod protocol;
+#[doc(hidden)]
+pub mod wire;
 
 use core::time::Duration;
 

@@ -94,7 +94,7 @@ impl Configuration {
     }
 
     /// Returns the progress after each write.
-    fn steps(self, node_id: NodeId) -> impl Iterator<Item = Progress> {
+    pub(crate) fn steps(self, node_id: NodeId) -> impl Iterator<Item = Progress> {
         let total = self.settings().count();
         self.settings().zip(1..).map(move |((phase, setting), done)| Progress {
             phase,
@@ -106,7 +106,8 @@ impl Configuration {
 }
 
 impl Progress {
-    fn failed<E>(self, error: Error<E>) -> ApplyError<E> {
+    /// Returns the error of the write.
+    pub(crate) fn failed<E>(self, error: Error<E>) -> ApplyError<E> {
         ApplyError { phase: self.phase, write: self.write, error }
     }
 }

@@ -30,6 +30,7 @@ impl Transitions {
 
     /// Creates a set from a list of transitions.
     #[must_use]
+    #[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
     pub const fn of(list: &[Transition]) -> Self {
         let mut bits = 0;
         let mut at = 0;

@@ -38,7 +38,7 @@ impl Setting {
     pub fn new(parameter: Parameter, value: [u8; 8], length: usize) -> Self {
         let length = length.min(8);
         let mut bytes = [0; 8];
-        bytes[..length].copy_from_slice(&value[..length]);
+        bytes.iter_mut().zip(value).take(length).for_each(|(to, from)| *to = from);
         // `length` is at most 8, so the conversion is lossless.
         Self { parameter, value: bytes, length: length as u8 }
     }

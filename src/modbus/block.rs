@@ -95,7 +95,7 @@ impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
     const LENGTHS: [usize; N] = [T::LENGTH; N];
 
     fn registers(&self) -> [Register; N] {
-        core::array::from_fn(|at| self[at].register())
+        self.each_ref().map(|item| item.register())
     }
 
     fn values(&self, bytes: &[[u8; 8]; N]) -> Result<Self::Values, LengthError> {
@@ -110,7 +110,7 @@ impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
 
 /// Decodes one value from the first bytes.
 fn value<T: BlockItem>(item: &T, bytes: &[u8; 8]) -> Result<T::Native, LengthError> {
-    item.decode(&bytes[..T::LENGTH.min(8)])
+    item.decode(bytes.get(..T::LENGTH).unwrap_or(bytes))
 }
 
 macro_rules! tuples {

@@ -17,8 +17,9 @@ macro_rules! read_all {
     ($client:ident, $reading:ident $(, $await:ident)?) => {
         while let Some((request, length)) = $reading.request() {
             let mut answer = [0; MAX_BYTES];
-            let received = $client.read(request, &mut answer[..length])$(.$await)??;
-            $reading.answered(&answer[..length], received)?;
+            let answer = answer.get_mut(..length).unwrap_or_default();
+            let received = $client.read(request, answer)$(.$await)??;
+            $reading.answered(answer, received)?;
         }
     };
 }
@@ -37,8 +38,9 @@ macro_rules! exchange {
                 continue;
             };
             let mut answer = [0; MAX_BYTES];
-            let received = $client.write_and_read(register, data, request, &mut answer[..length])$(.$await)??;
-            reading.answered(&answer[..length], received)?;
+            let answer = answer.get_mut(..length).unwrap_or_default();
+            let received = $client.write_and_read(register, data, request, answer)$(.$await)??;
+            reading.answered(answer, received)?;
         }
         read_all!($client, reading $(, $await)?);
         Ok($read.values(reading.values())?)

@@ -104,6 +104,7 @@ impl TableLimits {
 
     /// Returns whether the device description lists this function for the table.
     #[must_use]
+    #[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
     pub const fn names(&self, function: u8) -> bool {
         let mut at = 0;
         while at < self.functions.len() {

@@ -40,6 +40,7 @@ impl<const N: usize> Plan<N> {
     ///
     /// Returns [`LengthError`], in bytes, if an item has no registers. [`LengthError`] also occurs if an item exceeds
     /// one request and the device doesn't allow a [split](super::TableLimits::split).
+    #[expect(clippy::indexing_slicing, reason = "`at` and `first` are below `N`, and there are at most `N` requests")]
     pub const fn new(items: [Register; N], limits: &Limits) -> Result<Self, LengthError> {
         let mut at = 0;
         while at < N {
@@ -93,6 +94,7 @@ impl<const N: usize> Plan<N> {
 
     /// Returns the item at which the next request begins. This item has the lowest address among the items that are
     /// compatible with the first unassigned item.
+    #[expect(clippy::indexing_slicing, reason = "`at` and `found` are below `N`")]
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);
         while at < N {
@@ -112,6 +114,7 @@ impl<const N: usize> Plan<N> {
 
     /// Returns the address after the last address of the request that begins with item `first`. The request includes
     /// further items, and readable addresses between the items, up to the limit.
+    #[expect(clippy::indexing_slicing, reason = "`at` and `first` are below `N`")]
     const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
         let start = items[first];
         let max = limits.max_read(start.table);
@@ -174,6 +177,7 @@ const fn is_alike(one: &Register, other: &Register) -> bool {
 }
 
 /// Returns whether each address of a range belongs to an item or to a readable span.
+#[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
 const fn is_known(items: &[Register], kind: &Register, addresses: Range<u32>, limits: &Limits) -> bool {
     let spans = limits.of(kind.table).readable;
     let mut address = addresses.start;

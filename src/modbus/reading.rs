@@ -31,7 +31,7 @@ impl<const N: usize> Reading<N> {
     pub(super) fn request(&self) -> Option<(Register, usize)> {
         let request = self.plan.requests().get(self.answered)?;
         let length = match self.only_item() {
-            Some(at) => self.lengths[at],
+            Some(at) => *self.lengths.get(at)?,
             None => bytes(request.table, request.count).min(MAX_BYTES),
         };
         Some((*request, length))
@@ -43,11 +43,15 @@ impl<const N: usize> Reading<N> {
             return Err(LengthError::new(answer.len(), length));
         }
         match (self.only_item(), self.plan.requests().get(self.answered)) {
-            (Some(at), _) => self.values[at][..length].copy_from_slice(answer),
+            (Some(at), _) => {
+                let value = self.values.get_mut(at).into_iter().flatten();
+                value.zip(answer).for_each(|(to, from)| *to = *from);
+            }
             (None, Some(request)) => {
                 let request = *request;
-                for at in (0..N).filter(|&at| self.plan.request_of()[at] == self.answered) {
-                    take(answer, &request, &self.items[at], &mut self.values[at][..self.lengths[at]])?;
+                let items = self.plan.request_of().iter().zip(&self.items).zip(&mut self.values).zip(self.lengths);
+                for (((_, item), value), length) in items.filter(|(((of, _), _), _)| **of == self.answered) {
+                    take(answer, &request, item, value.get_mut(..length).unwrap_or_default())?;
                 }
             }
             (None, None) => {}
@@ -64,7 +68,7 @@ impl<const N: usize> Reading<N> {
     /// Returns the item of the current request if the request reads only this item. A request for one item reads the
     /// item in the same way as a request outside a block.
     fn only_item(&self) -> Option<usize> {
-        let mut items = (0..N).filter(|&at| self.plan.request_of()[at] == self.answered);
+        let mut items = (0..N).zip(self.plan.request_of()).filter(|(_, of)| **of == self.answered).map(|(at, _)| at);
         items.next().filter(|_| items.next().is_none())
     }
 }
@@ -91,7 +95,7 @@ fn take(answer: &[u8], request: &Register, item: &Register, value: &mut [u8]) ->
 fn take_words(answer: &[u8], first: usize, item: &Register, value: &mut [u8]) -> Result<usize, LengthError> {
     let mut words = [0; MAX_BYTES / 2];
     for (word, pair) in words.iter_mut().zip(answer.chunks_exact(2)) {
-        *word = u16::from_le_bytes([pair[0], pair[1]]);
+        *word = pair.try_into().map_or(0, u16::from_le_bytes);
     }
     let behind = first + usize::from(item.count);
     let part = words.get(first..behind).ok_or(LengthError::new(2 * behind, answer.len()))?;

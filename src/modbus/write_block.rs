@@ -203,7 +203,7 @@ impl<const N: usize> Writing<N> {
             let first = usize::from(item.address.saturating_sub(register.address)) * usize::from(item.step());
             let count = usize::from(item.count);
             let part = words.get_mut(first..first + count).ok_or(LengthError::new(MAX_BYTES, 2 * (first + count)))?;
-            item.encode(&bytes[..length], part)?;
+            item.encode(bytes.get(..length).unwrap_or(bytes), part)?;
         }
         let mut data = [0; MAX_BYTES];
         data.chunks_exact_mut(2).zip(words).for_each(|(to, word)| to.copy_from_slice(&word.to_le_bytes()));
@@ -221,7 +221,9 @@ pub(super) fn masks<I: WriteItem, E>(item: &I, value: I::Native, mask: I::Native
     }
     let word = |value: [u8; 8]| {
         let mut word = [0];
-        register.encode(&value[..length], &mut word).map(|()| word[0])
+        register.encode(value.get(..length).unwrap_or(&value), &mut word)?;
+        let [word] = word;
+        Ok::<_, LengthError>(word)
     };
     let (value, mask) = (word(item.encode(value)?)?, word(item.encode(mask)?)?);
     Ok((register.address, !mask, value & mask))

@@ -72,6 +72,7 @@ const fn communication(configuration: &[SdoWrite]) -> Option<u16> {
 }
 
 /// Returns the value that the configuration writes first to a sub-index of an object.
+#[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
 const fn value(configuration: &[SdoWrite], index: u16, sub_index: u8) -> Option<u32> {
     let mut at = 0;
     while at < configuration.len() {

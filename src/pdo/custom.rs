@@ -193,6 +193,7 @@ pub mod check {
 
     /// Returns whether the mapping contains all fixed entries.
     #[must_use]
+    #[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
     pub const fn keeps_fixed<P: Remappable>(mapping: &[MappedEntry]) -> bool {
         let mut at = 0;
         while at < P::KEPT.len() {
@@ -204,6 +205,7 @@ pub mod check {
         true
     }
 
+    #[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
     const fn contains(mapping: &[MappedEntry], word: u32) -> bool {
         let mut at = 0;
         while at < mapping.len() {
@@ -251,6 +253,7 @@ const fn bits_of_type(code: u32) -> u32 {
 
 /// Decodes mapping entries from their representation in a mapping object.
 #[must_use]
+#[expect(clippy::indexing_slicing, reason = "`at` is below `N`")]
 pub const fn entries<const N: usize>(words: [u32; N]) -> [MappedEntry; N] {
     let mut out = [MappedEntry::from_word(0); N];
     let mut at = 0;
@@ -263,6 +266,7 @@ pub const fn entries<const N: usize>(words: [u32; N]) -> [MappedEntry; N] {
 
 /// Returns the length of a mapping in bits.
 #[must_use]
+#[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
 pub const fn bits(mapping: &[MappedEntry]) -> u32 {
     let (mut bits, mut at) = (0u32, 0);
     while at < mapping.len() {
@@ -293,6 +297,7 @@ pub const fn configuration_len<P: Remappable>(mapping: &[MappedEntry]) -> usize 
 /// Returns the writes that configure a CANopen PDO (CiA 301 7.5.2.36). In order, they disable the PDO, clear the
 /// mapping, write the entries and their number, set the timing, and enable the PDO. Read-only parameters are left out.
 #[must_use]
+#[expect(clippy::indexing_slicing, reason = "`N` is `configuration_len`")]
 pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry], cob_id: u32) -> [SdoWrite; N] {
     let mut out = [SdoWrite::new_u8(P::INDEX, 0, 0); N];
     let mut next = 0;
@@ -315,6 +320,7 @@ pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry
 
 /// Writes a mapping into `out` from `first` on. The element of `out` at `first` is already the write that clears the
 /// mapping.
+#[expect(clippy::indexing_slicing, reason = "`N` is at least `first` and the number of writes of the mapping")]
 const fn put_mapping<P: Remappable, const N: usize>(
     mut out: [SdoWrite; N],
     first: usize,

@@ -14,6 +14,7 @@ pub const fn mask(bits: u32) -> u64 {
 /// Returns the low `N` bytes of `word` in little-endian order. Bytes after the eighth are 0.
 #[must_use]
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`at` is below `N` and 8")]
 pub const fn to_bytes<const N: usize>(word: u64) -> [u8; N] {
     let bytes = word.to_le_bytes();
     let mut out = [0; N];
@@ -28,6 +29,7 @@ pub const fn to_bytes<const N: usize>(word: u64) -> [u8; N] {
 /// Returns the first 8 bytes of `data` as a little-endian word. Missing bytes are 0.
 #[must_use]
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`data` has less than 8 bytes")]
 pub const fn from_bytes(data: &[u8]) -> u64 {
     if let Some(bytes) = data.first_chunk() {
         return u64::from_le_bytes(*bytes);

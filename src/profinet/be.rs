@@ -97,6 +97,7 @@ const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
 /// on.
 #[must_use]
 #[inline]
+#[expect(clippy::indexing_slicing, reason = "`next` is below the length")]
 pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
     let (mut word, mut next) = (0, at);
     if let Some(low) = in_ninth(shift, width) {

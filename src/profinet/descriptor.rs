@@ -172,6 +172,7 @@ impl Places {
 }
 
 /// Returns whether `number` is in one of the ranges.
+#[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
 pub(super) const fn contains(ranges: &[(u16, u16)], number: u16) -> bool {
     let mut at = 0;
     while at < ranges.len() {

@@ -152,6 +152,7 @@ impl FParameters {
     }
 
     /// Returns the record in a buffer of the maximum length, and the actual length of the record.
+    #[expect(clippy::indexing_slicing, reason = "the record has at most 16 bytes")]
     pub(super) const fn record(&self, crc: u16) -> ([u8; 16], usize) {
         let mut record = [0; 16];
         let mut at = 0;

@@ -125,6 +125,7 @@ impl<const LEN: usize> FRecord<LEN> {
         }
     }
 
+    #[expect(clippy::indexing_slicing, reason = "`at` is below `LEN` and the length of the record")]
     const fn bytes(parameters: &FParameters, crc: u16) -> [u8; LEN] {
         let (record, len) = parameters.record(crc);
         let mut data = [0; LEN];

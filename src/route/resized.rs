@@ -110,7 +110,7 @@ pub(super) fn written(data: &[u8], bits: u32, is_signed: bool) -> Result<[u8; 8]
 
 /// Returns the first bytes of `bytes`, as many as `bits` bits need.
 pub(super) fn truncated(bytes: &mut [u8; 8], bits: u32) -> &mut [u8] {
-    &mut bytes[..byte_len(bits)]
+    bytes.get_mut(..byte_len(bits)).unwrap_or_default()
 }
 
 pub(super) fn check(expected: usize, actual: usize) -> Result<(), LengthError> {

@@ -186,7 +186,8 @@ impl Receiver {
         }
         let room = buffer.get_mut(self.length..all).ok_or(AbortCode::OUT_OF_MEMORY)?;
         room.iter_mut().zip(&self.previous[1..]).for_each(|(to, from)| *to = *from);
-        let is_right = !has_crc || crc(&buffer[..all]) == u16::from_le_bytes([low, high]);
+        let expected = u16::from_le_bytes([low, high]);
+        let is_right = !has_crc || buffer.get(..all).is_some_and(|value| crc(value) == expected);
         if is_right {
             Ok(all)
         } else {

@@ -152,13 +152,14 @@ pub(super) fn segment(specifier: u8, toggle: bool, rest: &[u8]) -> (Message, usi
     let is_last = rest.len() <= SEGMENT;
     let [command, ..] = toggled(specifier, toggle);
     let command = command | ((SEGMENT - length) as u8) << 1 | u8::from(is_last);
-    (with_data(command, &rest[..length]), length)
+    (with_data(command, rest.get(..length).unwrap_or(rest)), length)
 }
 
 /// Returns the data of a segment of a segmented transfer, and whether the segment is the last one.
 pub(super) fn segment_data(message: &Message) -> (&[u8], bool) {
-    let length = SEGMENT - usize::from(message[0] >> 1 & 7);
-    (&message[1..=length], message[0] & 1 == 1)
+    let [command, data @ ..] = message;
+    let length = SEGMENT - usize::from(command >> 1 & 7);
+    (data.get(..length).unwrap_or_default(), command & 1 == 1)
 }
 
 #[cfg(test)]

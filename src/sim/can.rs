@@ -3,6 +3,7 @@
 mod bus;
 mod guard;
 mod layer_setting;
+mod nmt;
 mod pdo;
 mod port;
 mod sdo;
@@ -13,11 +14,12 @@ use std::vec::Vec;
 
 use self::guard::Guard;
 use self::layer_setting::LayerSetting;
+use self::nmt::Heartbeat;
 use self::pdo::Pdos;
 use self::sdo::Servers;
 use super::device::Device;
 use crate::abort::AbortCode;
-use crate::clients::canopen::{CanFrame, NmtCommand, NmtState};
+use crate::clients::canopen::{CanFrame, NmtState};
 use crate::lss::{self, BitRate};
 use crate::node_id::NodeId;
 use crate::pdo::can_id;
@@ -83,13 +85,6 @@ pub struct CanNode {
     lss: LayerSetting,
     guard: Guard,
     time_of_day: Option<TimeOfDay>,
-}
-
-/// Heartbeat producer.
-#[derive(Clone, Copy, Debug)]
-struct Heartbeat {
-    period: Duration,
-    due: Duration,
 }
 
 impl CanNode {
@@ -271,22 +266,6 @@ impl CanNode {
         }
     }
 
-    /// Sends the heartbeat if it is due (0x1017, CiA 301 7.2.8.3.2.2).
-    fn beat(&mut self) {
-        let period = Duration::from_millis(self.device.slots.number(0x1017, 0).unwrap_or(0));
-        if period.is_zero() {
-            self.heartbeat = None;
-            return;
-        }
-        let heartbeat = self.heartbeat.filter(|heartbeat| heartbeat.period == period);
-        let mut heartbeat = heartbeat.unwrap_or(Heartbeat { period, due: self.now + period });
-        while heartbeat.due <= self.now {
-            self.emit(self.state.heartbeat(self.device.node_id()));
-            heartbeat.due += period;
-        }
-        self.heartbeat = Some(heartbeat);
-    }
-
     /// Sends the emergency messages of the device if they are enabled (0x1014, CiA 301 7.5.2.17).
     fn tell(&mut self) {
         const UNUSED: u64 = 1 << 31;
@@ -296,66 +275,6 @@ impl CanNode {
         for emergency in emergencies.iter().filter(|_| cob_id & UNUSED == 0) {
             let frame = can_id(cob_id as u32).and_then(|id| CanFrame::new(id, &emergency.to_bytes()));
             frame.into_iter().for_each(|frame| self.emit(frame));
-        }
-    }
-
-    /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3). A node without a node-ID waits for LSS
-    /// before that.
-    fn boot(&mut self) {
-        self.heartbeat = None;
-        self.guard = Guard::default();
-        self.servers.reset();
-        if self.node_id().is_none() {
-            self.enter(NmtState::BootUp);
-            return;
-        }
-        self.enter(NmtState::PreOperational);
-        self.emit(NmtState::BootUp.heartbeat(self.device.node_id()));
-        self.settle();
-    }
-
-    fn enter(&mut self, state: NmtState) {
-        if self.state != state {
-            self.pdos = Pdos::default();
-        }
-        if state == NmtState::Stopped {
-            self.servers.reset();
-        }
-        self.state = state;
-    }
-
-    /// Executes an NMT command to this node or to all nodes.
-    fn command(&mut self, frame: &CanFrame) {
-        let is_addressed = |node: Option<NodeId>| node.map_or(true, |node| node == self.device.node_id());
-        match NmtCommand::of(frame).filter(|(_, node)| is_addressed(*node)).map(|(command, _)| command) {
-            Some(NmtCommand::Start) => self.enter(NmtState::Operational),
-            Some(NmtCommand::Stop) => self.enter(NmtState::Stopped),
-            Some(NmtCommand::EnterPreOperational) => self.enter(NmtState::PreOperational),
-            Some(NmtCommand::ResetNode) => {
-                self.lss.power_on();
-                self.adopt_node_id();
-                self.device.power_cycle();
-                self.boot();
-            }
-            Some(NmtCommand::ResetCommunication) => {
-                self.lss.restart();
-                self.restart_communication();
-            }
-            None => {}
-        }
-    }
-
-    fn restart_communication(&mut self) {
-        let is_communication = |index: u16| (0x1000..=0x1FFF).contains(&index);
-        self.adopt_node_id();
-        self.device.reset(|entry| entry.object.is_some_and(|object| is_communication(object.index)));
-        self.boot();
-    }
-
-    /// Sets the node-ID of the device to that of the LSS slave.
-    fn adopt_node_id(&mut self) {
-        if let Some(node) = self.node_id() {
-            self.device.set_node_id(node);
         }
     }
 

@@ -46,7 +46,7 @@ fn encode(register: Register, value: &[u8], held: Vec<u16>) -> Vec<u16> {
     // If the register is shorter than the object, the register contains only the lower bytes.
     let length = value.len().min(2 * words.len());
     // The encoding fails only for a bit field in more than four registers, which no client can access.
-    let _ = register.encode(&value[..length], &mut words);
+    let _ = register.encode(value.get(..length).unwrap_or(value), &mut words);
     words
 }
 

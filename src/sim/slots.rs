@@ -70,13 +70,13 @@ impl Slots {
     /// value that the test has set, otherwise the initial value in the description.
     pub fn power_on(&mut self, node: NodeId, which: impl Fn(&Entry) -> bool) {
         for at in 0..self.list.len() {
-            let Slot { entry, initial, stored, .. } = &self.list[at];
+            let Slot { entry, initial, stored, .. } = self.get(at);
             if !which(entry) {
                 continue;
             }
             let known = stored.as_ref().or(initial.as_ref()).cloned();
             let value = known.or_else(|| self.count(entry)).unwrap_or_else(|| values::initial(entry, node));
-            self.list[at].value = value;
+            self.get_mut(at).value = value;
         }
     }
 
@@ -92,7 +92,7 @@ impl Slots {
         let object = entry.object.filter(|object| is_count(object) && is_meant(object))?;
         let subs = self.objects.range(Object::new(object.index, 1)..=Object::new(object.index, u8::MAX));
         let is_mapping = matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C12..=0x1C2F);
-        let is_given = |at: usize| matches!(self.list[at].entry.initial, RawInitial::Bytes(bytes) if bytes != [0; 4]);
+        let is_given = |at: usize| matches!(self.get(at).entry.initial, RawInitial::Bytes(bytes) if bytes != [0; 4]);
         let last = match object.index {
             ERRORS => Some(0),
             _ if is_mapping => subs.take_while(|(_, at)| is_given(**at)).last().map(|(object, _)| object.sub_index),
@@ -105,10 +105,12 @@ impl Slots {
         self.list.len()
     }
 
+    #[expect(clippy::indexing_slicing, reason = "positions are those of the list, from which no slot is removed")]
     pub fn get(&self, at: usize) -> &Slot {
         &self.list[at]
     }
 
+    #[expect(clippy::indexing_slicing, reason = "positions are those of the list, from which no slot is removed")]
     pub fn get_mut(&mut self, at: usize) -> &mut Slot {
         &mut self.list[at]
     }

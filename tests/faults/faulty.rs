@@ -9,6 +9,9 @@ use lexibus::sim::CanBus;
 /// Timeout of the clients under test.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
 
+/// Longest step of the simulated time, after which the frames that the nodes send by themselves are taken.
+const STEP: Duration = Duration::from_millis(10);
+
 /// A fault in the answers to one request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
@@ -44,6 +47,11 @@ impl Faulty {
 
     pub fn time(&self) -> Duration {
         self.now
+    }
+
+    /// Returns the number of frames that have not been received.
+    pub fn waiting(&self) -> usize {
+        self.frames.len()
     }
 
     /// Moves the clock of the nodes forward, and takes the frames that they have sent.
@@ -100,9 +108,13 @@ impl CanPort for Faulty {
         loop {
             self.collect();
             let first = (0..self.frames.len()).min_by_key(|&at| self.frames[at].0);
-            let Some(first) = first.filter(|&at| self.frames[at].0 <= end) else {
-                self.now = end;
-                return Ok(None);
+            let next = end.min(self.now + STEP);
+            let Some(first) = first.filter(|&at| self.frames[at].0 <= next) else {
+                if self.now == end {
+                    return Ok(None);
+                }
+                self.now = next;
+                continue;
             };
             let (at, frame) = self.frames.remove(first);
             self.now = self.now.max(at);

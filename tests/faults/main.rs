@@ -3,6 +3,7 @@
 #[path = "../support/now.rs"]
 mod now;
 
+mod boot;
 mod can;
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 mod coe;
@@ -12,6 +13,8 @@ mod coe;
 mod ethercat;
 mod faulty;
 mod guarding;
+#[path = "../support/lane.rs"]
+mod lane;
 mod lss;
 mod matrix;
 mod modbus;
@@ -21,6 +24,7 @@ mod random;
 #[path = "../support/segment.rs"]
 mod segment;
 mod serial;
+mod soak;
 
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 lexibus::dictionary! {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use lexibus::Error;
 
-use crate::{can, guarding, lss, modbus_rows, serial};
+use crate::{boot, can, guarding, lss, modbus_rows, serial};
 
 /// Results of a request with a fault, and of the next request, which has no fault. The code that creates a row checks the values.
 pub struct Row {
@@ -38,10 +38,11 @@ fn matrix() {
     let ethercat = crate::coe::rows();
     #[cfg(not(all(feature = "ethercat", feature = "macros")))]
     let ethercat = Vec::new();
-    let rows: Vec<Row> = [can::rows(), lss::rows(), guarding::rows(), ethercat, modbus_rows::rows(), serial::rows()]
-        .into_iter()
-        .flatten()
-        .collect();
+    let rows: Vec<Row> =
+        [can::rows(), lss::rows(), guarding::rows(), boot::rows(), ethercat, modbus_rows::rows(), serial::rows()]
+            .into_iter()
+            .flatten()
+            .collect();
     let mut table = "| client | | fault | result | time | next request |\n|---|---|---|---|---|---|\n".to_string();
     for row in &rows {
         let mode = if row.is_async { "async" } else { "blocking" };
@@ -57,8 +58,8 @@ fn matrix() {
         assert!(row.time <= 2 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.time);
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
-    // The table has one row for each client (SDO, LSS, node guarding and serial) with each of six faults, blocking and asynchronous, and
+    // The table has one row for each client (SDO, LSS, node guarding, boot and serial) with each of six faults, blocking and asynchronous, and
     // the rows for Modbus. The client for EtherCAT is only asynchronous, and has one more fault.
     let ethercat = if cfg!(all(feature = "ethercat", feature = "macros")) { 7 } else { 0 };
-    assert_eq!(rows.len(), 4 * 6 * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
+    assert_eq!(rows.len(), 5 * 6 * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
 }

@@ -1,7 +1,8 @@
 //! CANopen over any CAN interface.
 //!
 //! Supports SDO transfers (CiA 301 7.2.4; expedited, segmented and block transfers), NMT and heartbeat (7.2.8), emergency messages
-//! (7.2.7), node guarding (7.2.8.3.2.1), SYNC (7.2.5), TIME (7.2.6), PDOs (7.2.2), and LSS (CiA 305).
+//! (7.2.7), node guarding (7.2.8.3.2.1), SYNC (7.2.5), TIME (7.2.6), PDOs (7.2.2), LSS (CiA 305), and the boot of a
+//! node (CiA 302-2).
 //!
 //! ```
 //! use std::time::{Duration, Instant};
@@ -45,6 +46,7 @@
 //!
 //! This module doesn't allocate memory. SDO transfers use the buffer of the caller.
 
+mod boot;
 mod buffered;
 mod emergency;
 mod frame;
@@ -63,6 +65,7 @@ mod sdo;
 mod time_stamp;
 
 pub use crate::sdo::Channel;
+pub use boot::{Boot, BootError, Booted, ErrorControl, VersionText};
 pub use buffered::Buffered;
 pub use frame::CanFrame;
 pub use guarding::{GuardError, Guarding};

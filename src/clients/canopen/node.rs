@@ -134,7 +134,7 @@ pub(super) fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
 }
 
 /// Returns the state in the frame if the frame is a heartbeat of `id`.
-fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
+pub(super) fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 

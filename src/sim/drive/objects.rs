@@ -122,7 +122,7 @@ fn encoded(data_type: DataType, value: i64) -> std::vec::Vec<u8> {
         false if bits == 63 => value.max(0),
         false => value.clamp(0, (1 << bits) - 1),
     };
-    value.to_le_bytes()[..bits.div_ceil(8) as usize].to_vec()
+    value.to_le_bytes().into_iter().take(bits.div_ceil(8) as usize).collect()
 }
 
 /// Velocity and ramps of a motion, in position units and seconds.

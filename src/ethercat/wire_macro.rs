@@ -1,0 +1,76 @@
+//! The macro `ethercrab_wire!`.
+
+/// Implements the wire traits of the crate `ethercrab` for a PDO struct, if the feature `ethercat` of `lexibus` is
+/// enabled: `EtherCrabWireRead`, `EtherCrabWireWrite`, `EtherCrabWireSized` and `EtherCrabWireWriteSized`. The traits
+/// `EtherCrabWireReadWrite` and `EtherCrabWireReadSized` follow from them. Without the feature, the macro expands to
+/// nothing.
+///
+/// `ethercrab_wire!(Type, BYTES)` needs a type with the methods `pack(&self) -> [u8; BYTES]` and
+/// `unpack(&[u8]) -> Result<Self, LengthError>`, as each generated PDO struct and each struct of [`pdo!`](crate::pdo!) has.
+///
+/// ```
+/// # use lexibus_drives::demo_drive;
+/// lexibus::pdo! {
+///     pub struct Fast: demo_drive::pdo::RxPdo2 { controlword, profile_velocity }
+/// }
+///
+/// lexibus::ethercrab_wire!(Fast, 6);
+/// ```
+///
+/// If a buffer is too short, `unpack_from_slice` and `pack_to_slice` return an error of `ethercrab`. As `ethercrab`
+/// requires, `pack_to_slice_unchecked` panics.
+#[cfg(feature = "ethercat")]
+#[macro_export]
+macro_rules! ethercrab_wire {
+    ($type:ty, $bytes:expr $(,)?) => {
+        impl $crate::clients::ethercat::wire::EtherCrabWireSized for $type {
+            const PACKED_LEN: usize = $bytes;
+            type Buffer = [u8; $bytes];
+
+            fn buffer() -> Self::Buffer {
+                [0; $bytes]
+            }
+        }
+
+        impl $crate::clients::ethercat::wire::EtherCrabWireWriteSized for $type {
+            fn pack(&self) -> Self::Buffer {
+                <$type>::pack(self)
+            }
+        }
+
+        impl $crate::clients::ethercat::wire::EtherCrabWireWrite for $type {
+            fn pack_to_slice_unchecked<'buffer>(&self, buffer: &'buffer mut [u8]) -> &'buffer [u8] {
+                $crate::clients::ethercat::wire::copy::<{ $bytes }>(<$type>::pack(self), buffer)
+            }
+
+            fn packed_len(&self) -> usize {
+                $bytes
+            }
+        }
+
+        impl $crate::clients::ethercat::wire::EtherCrabWireRead for $type {
+            fn unpack_from_slice(
+                buffer: &[u8],
+            ) -> ::core::result::Result<Self, $crate::clients::ethercat::wire::WireError> {
+                $crate::clients::ethercat::wire::read(<$type>::unpack(buffer))
+            }
+        }
+    };
+}
+
+/// Implements the wire traits of the crate `ethercrab` for a PDO struct, if the feature `ethercat` of `lexibus` is
+/// enabled. The feature is not enabled, so the macro expands to nothing.
+///
+/// ```
+/// # use lexibus_drives::demo_drive;
+/// lexibus::pdo! {
+///     pub struct Fast: demo_drive::pdo::RxPdo2 { controlword, profile_velocity }
+/// }
+///
+/// lexibus::ethercrab_wire!(Fast, 6);
+/// ```
+#[cfg(not(feature = "ethercat"))]
+#[macro_export]
+macro_rules! ethercrab_wire {
+    ($type:ty, $bytes:expr $(,)?) => {};
+}

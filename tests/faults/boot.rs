@@ -1,0 +1,102 @@
+//! Tests the boot of a node with answers that are delayed, lost or corrupted.
+
+use std::convert::Infallible;
+use std::time::Duration;
+
+use lexibus::clients::canopen::{Boot, BootError, Booted, CanFrame, ErrorControl, NmtCommand, NmtState, Node};
+use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::{Configuration, Error, NodeId, SdoWrite, Setting};
+use lexibus_drives::demo_drive::{ENTRIES, IDENTITY};
+
+use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::matrix::Row;
+use crate::now::now;
+use crate::random::Random;
+
+const CONFIGURATION: Configuration =
+    Configuration { communication: &[Setting::fixed(SdoWrite::new_u16(0x1017, 0, 50))], ..Configuration::EMPTY };
+
+const BOOT: Boot = Boot::new(ErrorControl::Heartbeat(TIMEOUT))
+    .device_type(0x0002_0192)
+    .identity(&IDENTITY)
+    .configuration(CONFIGURATION);
+
+fn node() -> Node<Faulty> {
+    let id = NodeId::new(5).expect("a node-ID");
+    let mut bus = CanBus::new();
+    bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id)));
+    Node::new(Faulty::new(bus), id)
+}
+
+/// Boots the node, which is the right one. The result must be that, or an error of the bus.
+fn boot(node: &mut Node<Faulty>, is_async: bool) -> Result<Booted, BootError<Infallible>> {
+    let result = match is_async {
+        true => now(node.boot_async(&BOOT)),
+        false => node.boot(&BOOT),
+    };
+    match result {
+        Ok(booted) => {
+            assert_eq!((booted.device_type, booted.is_configured), (0x0002_0192, true));
+            assert_eq!(node.port().bus.nodes()[0].state(), NmtState::Operational);
+        }
+        Err(error) => drop(name(Err(error))),
+    }
+    result
+}
+
+fn name(result: Result<Booted, BootError<Infallible>>) -> &'static str {
+    match result {
+        Ok(_) => "right value",
+        Err(BootError::Access { error: Error::Timeout, .. }) => "`Timeout`",
+        Err(BootError::Configuration(error)) if error.error == Error::Timeout => "`Timeout`",
+        Err(BootError::NotOperational { .. }) => "`NotOperational`",
+        Err(other) => panic!("an error without a name in the table: {other:?}"),
+    }
+}
+
+#[test]
+fn a_fault_is_not_a_wrong_device() {
+    let (mut node, mut random, mut failed) = (node(), Random::new(11), 0);
+    for _ in 0..500 {
+        node.port().fault = match random.below(6) {
+            0 => Fault::Lost,
+            1 => Fault::Late(Duration::from_millis(random.below(950))),
+            2 => Fault::Duplicated,
+            3 => Fault::Truncated,
+            _ => Fault::Nothing,
+        };
+        failed += u32::from(boot(&mut node, false).is_err());
+        node.port().fault = Fault::Nothing;
+        node.nmt(NmtCommand::EnterPreOperational).expect("a bus");
+    }
+    println!("500 boots: {failed} errors, no wrong device");
+    assert!((50..350).contains(&failed), "{failed}");
+}
+
+/// Returns the rows for the boot of a node in the table of faults.
+pub fn rows() -> Vec<Row> {
+    let foreign = CanFrame::new(0x706, &[4]).expect("a frame");
+    let faults = [
+        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign(foreign)),
+        ("noise", Fault::Noise),
+    ];
+    let mut rows = Vec::new();
+    for (fault_name, fault) in faults {
+        for is_async in [false, true] {
+            let mut node = node();
+            let start = node.port().time();
+            node.port().fault = fault;
+            let result = name(boot(&mut node, is_async));
+            let middle = node.port().time();
+            node.port().fault = Fault::Nothing;
+            boot(&mut node, is_async).expect("the next boot is right");
+            let (time, next) = (middle - start, node.port().time() - middle);
+            rows.push(Row { client: "boot", is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
+        }
+    }
+    rows
+}

@@ -1,0 +1,125 @@
+//! Soak test: an hour of simulated time with random faults, over the clients for SDO and Modbus and the state machine
+//! walker. No value may be wrong, and no buffer may grow.
+
+use std::convert::Infallible;
+use std::time::Duration;
+
+use lexibus::clients::canopen::{CanPort, NmtCommand, Node};
+use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::{CanOpen, Client, Error, NodeId, Object};
+use lexibus_drives::demo_drive::types::State;
+use lexibus_drives::demo_drive::{objects, DemoDrive, ENTRIES};
+
+use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::lane;
+use crate::modbus;
+use crate::random::Random;
+
+const HOUR: Duration = Duration::from_secs(3600);
+
+/// A node whose client waits in simulated time.
+struct Simulated(Node<Faulty>);
+
+impl Client for Simulated {
+    type Bus = CanOpen;
+    type Error = Infallible;
+
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+        Client::read(&mut self.0, object, buffer)
+    }
+
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Infallible>> {
+        Client::write(&mut self.0, object, data)
+    }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Infallible>> {
+        CanPort::receive(self.0.port(), time, &mut |_| false).map(|_| ()).map_err(Error::Client)
+    }
+}
+
+fn fault(random: &mut Random) -> Fault {
+    match random.below(40) {
+        0 => Fault::Late(TIMEOUT + Duration::from_millis(random.below(450))),
+        1 => Fault::Lost,
+        2 => Fault::Duplicated,
+        3 => Fault::Truncated,
+        _ => Fault::Nothing,
+    }
+}
+
+#[test]
+fn an_hour_over_can() {
+    if lane::skips("the soak test over CAN") {
+        return;
+    }
+    let id = NodeId::new(5).expect("a node-ID");
+    let mut bus = CanBus::new();
+    bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id).with_cia402()));
+    let mut drive = DemoDrive::new(Simulated(Node::new(Faulty::new(bus), id)));
+    let mut random = Random::new(28);
+    let (mut requests, mut errors, mut walks, mut longest, mut restarts) = (0_u32, 0, 0, 0, 0);
+    while drive.client().0.port().time() < HOUR {
+        requests += 1;
+        let value = requests % 50_000;
+        let port = drive.client().0.port();
+        port.fault = fault(&mut random);
+        if random.below(500) == 0 {
+            restarts += 1;
+            port.bus.nodes()[0].handle(&NmtCommand::ResetNode.frame(None));
+        }
+        let is_right = match random.below(20) {
+            0 => {
+                walks += 1;
+                let target = [State::OperationEnabled, State::SwitchOnDisabled][random.below(2) as usize];
+                let result = drive.walk(target, Duration::from_secs(2));
+                let status = drive.client().0.port().bus.nodes()[0].device().get(objects::STATUSWORD);
+                result.map(|_| assert_eq!(status.map(|status| status.state()), Ok(Some(target)))).is_ok()
+            }
+            1..=10 => {
+                let device = drive.client().0.port().bus.nodes()[0].device();
+                device.set(objects::PROFILE_VELOCITY, value).expect("an object");
+                drive.profile_velocity().read().map(|read| assert_eq!(read, value, "request {requests}")).is_ok()
+            }
+            _ => drive.profile_velocity().write(value).is_ok_and(|()| {
+                let device = drive.client().0.port().bus.nodes()[0].device();
+                assert_eq!(device.get(objects::PROFILE_VELOCITY), Ok(value), "request {requests}");
+                true
+            }),
+        };
+        errors += u32::from(!is_right);
+        longest = longest.max(drive.client().0.port().waiting());
+    }
+    println!("{requests} accesses, {walks} of them walks, {restarts} restarts: {errors} errors, no wrong value, {longest} waiting frames");
+    assert!(requests > 10_000 && restarts > 10 && errors > 100 && errors < requests / 4, "{errors} errors");
+    assert!(longest < 100, "{longest} waiting frames");
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_hour_over_modbus() {
+    if lane::skips("the soak test over Modbus") {
+        return;
+    }
+    for is_rtu in [true, false] {
+        let world = modbus::world();
+        let mut device = modbus::client(modbus::link(is_rtu, &world));
+        let (mut random, start) = (Random::new(29), tokio::time::Instant::now());
+        let (mut requests, mut errors) = (0, 0);
+        while start.elapsed() < HOUR / 2 {
+            world.lock().unwrap().fault = match random.below(40) {
+                0 => modbus::Fault::Late(Duration::from_millis(200 + random.below(190))),
+                1 => modbus::Fault::Lost,
+                2 => modbus::Fault::Duplicated,
+                3 => modbus::Fault::Truncated,
+                4 => modbus::Fault::Foreign,
+                _ => modbus::Fault::Nothing,
+            };
+            let kind = [modbus::Kind::Read, modbus::Kind::Write][random.below(2) as usize];
+            errors += u32::from(modbus::request(&mut device, &world, requests, kind).await.is_err());
+            requests += 1;
+        }
+        let tasks = tokio::runtime::Handle::current().metrics().num_alive_tasks();
+        assert!(tasks <= 2, "{tasks} tasks");
+        println!("{requests} requests (RTU: {is_rtu}): {errors} errors, no wrong value");
+        assert!(requests > 10_000 && errors > 100 && errors < requests / 4, "{errors} of {requests}");
+    }
+}
