@@ -18,12 +18,17 @@ pub fn source(file: &File) -> Source {
     Source::new(file.name.as_str(), file.bytes.clone())
 }
 
-/// Returns the IR as JSON, without positions and without the list of files.
+/// Returns the IR as JSON, without positions and without the list of files. Origins by the rules for missing and compact keys are left
+/// out, because an export writes these keys.
 pub fn content(catalog: &Catalog) -> Value {
     let mut value = serde_json::to_value(catalog).expect("JSON");
     value["files"] = Value::Null;
     each_object(&mut value, &mut |fields| {
         fields.retain(|name, _| !matches!(name.as_str(), "origin" | "span" | "at" | "name_at"));
+        if let Some(origins) = fields.get_mut("origins").and_then(Value::as_array_mut) {
+            let is_written = |rule: &Value| matches!(rule.as_str(), Some("missing_key" | "compact_object"));
+            origins.retain(|origin| !is_written(&origin[1]["rule"]));
+        }
     });
     value
 }
