@@ -49,9 +49,13 @@ fn life_guarding() {
         assert_eq!(client.guard(&mut guarding), Ok(NmtState::PreOperational));
         assert_eq!(client.emergency(Duration::from_millis(290)), Ok(None));
     }
-    let error = Emergency { code: 0x8130, register: 0x11, vendor: [0; 5] };
+    client.nmt(NmtCommand::Start).unwrap();
+    set(client.port(), 0x1001, 0, &[0x20]);
+    let error = Emergency { code: 0x8130, register: 0x31, vendor: [0; 5] };
     assert_eq!(client.emergency(GUARD_TIME), Ok(Some(error)));
     assert_eq!(client.emergency(Duration::from_secs(9)), Ok(None));
+    // Without object 0x1029, the node leaves Operational.
+    assert_eq!(client.port().state(), NmtState::PreOperational);
 }
 
 #[test]
