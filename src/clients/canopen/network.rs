@@ -4,6 +4,8 @@ mod handle;
 mod kept;
 #[cfg(all(test, feature = "std"))]
 mod tests;
+#[cfg(all(test, feature = "std"))]
+mod turn_tests;
 
 use core::cell::{Cell, RefCell};
 use core::fmt;

@@ -2,13 +2,12 @@
 
 use core::pin::pin;
 use core::task::Context;
-use std::sync::Arc;
-use std::task::Wake;
 use std::vec::Vec;
 
 use super::*;
 use crate::bus::Object;
 use crate::client::{AsyncClient, Client};
+use crate::clients::canopen::slow::silent;
 use crate::clients::canopen::{AsyncCanPort, CanPort, NmtCommand, NmtState, Node};
 use crate::data_type::DataType;
 use crate::emergency::Emergency;
@@ -19,7 +18,7 @@ use crate::sim::{CanBus, CanNode, Device};
 use crate::table::{AccessRights, Bound, Entry, RawInitial};
 
 const TEXT: Object = Object::new(0x2000, 0);
-const PDO: CobId = CobId::from_node(0x180);
+pub(super) const PDO: CobId = CobId::from_node(0x180);
 
 const fn entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
     Entry {
@@ -36,7 +35,7 @@ const fn entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
     }
 }
 
-fn id(node: u8) -> NodeId {
+pub(super) fn id(node: u8) -> NodeId {
     NodeId::new(node).expect("a node-ID")
 }
 
@@ -121,15 +120,6 @@ fn two_nodes_side_by_side() {
     }
     // The boot-up message of node 2 arrived during the transfers of node 1.
     assert_eq!(two.wait_for(NmtState::BootUp, Duration::ZERO), Ok(()));
-}
-
-/// Returns a waker without effect.
-fn silent() -> Waker {
-    struct Silent;
-    impl Wake for Silent {
-        fn wake(self: Arc<Self>) {}
-    }
-    Arc::new(Silent).into()
 }
 
 /// Polls several futures in turn until all have ended.
@@ -221,7 +211,7 @@ fn script(frames: impl IntoIterator<Item = CanFrame>) -> Script {
     Script(frames.into_iter().collect())
 }
 
-fn frame(id: u32, data: &[u8]) -> CanFrame {
+pub(super) fn frame(id: u32, data: &[u8]) -> CanFrame {
     CanFrame::new(id, data).expect("a frame")
 }
 
@@ -325,111 +315,4 @@ fn lss_answers_are_kept_for_the_services() {
     let mut answers = || services.receive(Duration::ZERO, &mut |frame| frame.id() == 0x7E4).unwrap();
     assert_eq!([answers(), answers(), answers()], [Some(answer), Some(answer), None]);
     assert!(Node::new(services, id(1)).time(Duration::ZERO).unwrap().is_some());
-}
-
-/// An async interface on which each wait ends only when its time has passed. The test advances the time.
-#[derive(Default)]
-struct Slow {
-    now: core::cell::Cell<Duration>,
-    received: RefCell<std::collections::VecDeque<CanFrame>>,
-    sent: RefCell<Vec<(Duration, CanFrame)>>,
-    is_busy: Cell<bool>,
-}
-
-impl Slow {
-    async fn sleep(&self, time: Duration) {
-        let end = self.now.get() + time;
-        core::future::poll_fn(|_| match self.now.get() >= end {
-            true => core::task::Poll::Ready(()),
-            false => core::task::Poll::Pending,
-        })
-        .await;
-    }
-}
-
-impl AsyncCanPort for &Slow {
-    type Error = ();
-
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, ()> {
-        if self.is_busy.get() && frame.id() != 0 {
-            self.sleep(patience).await;
-            return Ok(false);
-        }
-        self.sent.borrow_mut().push((self.now.get(), *frame));
-        Ok(true)
-    }
-
-    async fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, ()> {
-        loop {
-            let frame = self.received.borrow_mut().pop_front();
-            match frame {
-                Some(frame) if wanted(&frame) => return Ok(Some(frame)),
-                Some(_) => {}
-                None => break,
-            }
-        }
-        self.sleep(patience).await;
-        Ok(None)
-    }
-
-    fn now(&mut self) -> Option<Duration> {
-        Some(self.now.get())
-    }
-}
-
-/// Polls a future that waits for long, and then another one for at most 3 ms in steps of 0.1 ms. Returns the output of the
-/// second future.
-fn beside<T>(slow: &Slow, long: impl core::future::Future, short: impl core::future::Future<Output = T>) -> Option<T> {
-    let waker = silent();
-    let mut context = Context::from_waker(&waker);
-    let (mut long, mut short) = (pin!(long), pin!(short));
-    for _ in 0..30 {
-        assert!(long.as_mut().poll(&mut context).is_pending());
-        if let core::task::Poll::Ready(output) = short.as_mut().poll(&mut context) {
-            return Some(output);
-        }
-        slow.now.set(slow.now.get() + Duration::from_micros(100));
-    }
-    None
-}
-
-#[test]
-fn a_handle_that_waits_doesnt_block_another_handle_of_its_node() {
-    let hour = Duration::from_secs(3600);
-    for other in [1, 2] {
-        let slow = Slow::default();
-        let network = Network::<_, 8>::new(&slow);
-        let mut one = Node::new(network.node(id(1)), id(1));
-        let network = &network;
-        // The second handle is created while the first one already waits.
-        let stop = async move { Node::new(network.node(id(other)), id(other)).nmt_async(NmtCommand::Stop).await };
-        assert_eq!(beside(&slow, one.emergency_async(hour), stop), Some(Ok(())));
-    }
-}
-
-#[test]
-fn a_handle_that_sends_doesnt_block_another_handle() {
-    let (slow, hour) = (Slow::default(), Duration::from_secs(3600));
-    slow.is_busy.set(true);
-    let network = Network::<_, 8>::new(&slow);
-    let mut one = Node::new(network.node(id(1)), id(1)).with_timeout(hour);
-    let mut two = Node::new(network.node(id(2)), id(2));
-    assert_eq!(beside(&slow, one.sync_async(), two.nmt_async(NmtCommand::Stop)), Some(Ok(())));
-}
-
-#[test]
-fn frames_are_received_without_patience_while_another_handle_waits() {
-    let (slow, hour) = (Slow::default(), Duration::from_secs(3600));
-    let network = Network::<_, 8>::new(&slow);
-    let mut one = Node::new(network.node(id(1)), id(1));
-    let mut two = Node::new(network.node(id(2)), id(2));
-    let short = async {
-        slow.received.borrow_mut().push_back(frame(0x182, &[7]));
-        two.latest_pdo_async(PDO).await
-    };
-    assert_eq!(beside(&slow, one.emergency_async(hour), short), Some(Ok(Some(frame(0x182, &[7])))));
 }
