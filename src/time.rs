@@ -127,6 +127,12 @@ impl TimeOfDay {
         Some(Self { milliseconds, days })
     }
 
+    /// Returns whether the time of day is less than 24 hours.
+    #[cfg(feature = "canopen")]
+    pub(crate) const fn is_valid(self) -> bool {
+        (self.milliseconds as u64) < DAY * 1000
+    }
+
     /// Returns the time since January 1, 1970, 00:00 UTC.
     #[must_use]
     pub fn unix_time(self) -> Duration {

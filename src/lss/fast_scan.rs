@@ -96,6 +96,13 @@ impl FastScan {
         Some(Request { number, bit, part: self.part, next }.message())
     }
 
+    /// Returns whether the current step asks if there is any slave without a node-ID. A lost answer to this step ends the
+    /// scan without a result. The caller can therefore wait longer and repeat the message.
+    #[must_use]
+    pub fn is_start(&self) -> bool {
+        self.step == Step::Start
+    }
+
     /// Processes a message. Ignores messages that don't answer a fastscan request.
     pub fn handle(&mut self, message: &Message) {
         self.is_answered |= is_identified(message);

@@ -136,6 +136,12 @@ impl Service {
         matches!(self, Self::IdentifyUnconfigured)
     }
 
+    /// Returns whether the service changes or stores the settings of the slave in Configuration.
+    #[cfg(feature = "canopen")]
+    pub(crate) const fn is_change(self) -> bool {
+        matches!(self, Self::ConfigureNodeId(_) | Self::ConfigureBitTiming { .. } | Self::Store)
+    }
+
     /// Returns the value in an answer: a number of the address, a node-ID, or 0 if the answer has no value.
     pub(super) fn value(self, answer: &Message) -> Result<u32, LssError> {
         let [_, code, specific, ..] = *answer;

@@ -29,8 +29,6 @@ pub use self::bus::CanBus;
 
 /// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
 const NMT: u32 = 0x000;
-/// Error code of an emergency message: life guard error or heartbeat error.
-const LIFE_GUARD_ERROR: u16 = 0x8130;
 /// Bits of the error register (0x1001): generic error, and communication error.
 const COMMUNICATION_ERROR: u8 = 0x11;
 /// Maximum number of sent frames that are kept. Older frames are lost, as on a real bus.
@@ -242,7 +240,7 @@ impl CanNode {
         }
         self.beat();
         if self.guard.is_expired(self.now) {
-            self.device.emit_emergency(LIFE_GUARD_ERROR, COMMUNICATION_ERROR, [0; 5]);
+            self.fail_life_guarding();
         }
         for frame in self.servers.timed_out(&self.device, self.now) {
             self.emit(frame);

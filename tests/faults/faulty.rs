@@ -19,6 +19,8 @@ pub enum Fault {
     /// The answers arrive with this delay.
     Late(Duration),
     Lost,
+    /// Only the next answer is lost.
+    LostOnce,
     Duplicated,
     /// The answers are truncated to half of their length.
     Truncated,
@@ -72,6 +74,7 @@ impl Faulty {
             Fault::Nothing => self.frames.push((soon, frame)),
             Fault::Late(delay) => self.frames.push((self.now + delay, frame)),
             Fault::Lost => {}
+            Fault::LostOnce => self.fault = Fault::Nothing,
             Fault::Duplicated => self.frames.extend([(soon, frame), (soon, frame)]),
             Fault::Truncated => {
                 let half = frame.data().len() / 2;

@@ -43,13 +43,15 @@ fn name(result: Result<NmtState, GuardError<Infallible>>) -> &'static str {
 
 #[test]
 fn late_answers_are_not_those_of_the_next_cycle() {
-    let (mut node, mut random, mut late, mut failed) = (node(), Random::new(3), 0, 0);
+    let (mut node, mut random, mut late, mut failed, mut is_late) = (node(), Random::new(3), 0, 0, false);
     let mut guarding = Guarding::new(TIMEOUT, 3);
     for _ in 0..5000 {
         let command = if random.below(2) == 0 { NmtCommand::Start } else { NmtCommand::EnterPreOperational };
         node.nmt(command).expect("a bus");
-        let is_late = random.below(20) == 0;
-        let delay = TIMEOUT + Duration::from_millis(random.below(450));
+        // After a late answer, the request is later than usual, and the next answer must arrive within one guard time.
+        is_late = random.below(20) == 0 && !is_late;
+        // The next cycle waits for a late answer for half of the guard time.
+        let delay = TIMEOUT + Duration::from_millis(random.below(240));
         node.port().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
         late += u32::from(is_late);
         failed += u32::from(guard(&mut node, &mut guarding, false).is_err());

@@ -35,6 +35,10 @@ fn master() -> LssMaster<Faulty> {
     LssMaster::new(Faulty::new(bus)).with_timeout(TIMEOUT)
 }
 
+fn id(node: u8) -> NodeId {
+    NodeId::new(node).expect("a node-ID")
+}
+
 fn set_serial(master: &mut LssMaster<Faulty>, serial: u32) {
     let node = &mut master.port().bus.nodes()[0];
     node.device().set_bytes(SERIAL, &serial.to_le_bytes()).expect("an object");
@@ -92,18 +96,62 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
                 assert_eq!(address, LssAddress { serial_number: serial, ..LssAddress::default() });
                 found += 1;
             }
-            // With late answers, the start of the scan may go unnoticed. With duplicated answers, the inquiries fail.
-            Ok(None) | Err(LssError::Inconclusive | LssError::Timeout | LssError::SeveralAnswers) => inconclusive += 1,
-            Err(other) => panic!("{other}"),
+            // With duplicated answers, the inquiries fail.
+            Err(LssError::Inconclusive | LssError::Timeout | LssError::SeveralAnswers) => inconclusive += 1,
+            other => panic!("{other:?}"),
         }
         // Wait for the answers of the scan that are still on the way.
         master.port().fault = Fault::Nothing;
         assert_eq!(master.switch_global(LssState::Waiting), Ok(()));
-        assert_eq!(master.configure_node_id(NodeId::new(5)), Err(LssError::Timeout));
+        assert_eq!(master.configure_node_id(id(5)), Err(LssError::Timeout));
         assert_eq!(master.fast_scan().map(|address| address.map(|it| it.serial_number)), Ok(Some(serial)));
     }
     println!("80 scans: {found} right, {inconclusive} inconclusive, no wrong address");
     assert!(found > 20 && inconclusive > 10, "{found} {inconclusive}");
+}
+
+/// Returns the active node-IDs after the next scan.
+fn node_ids(master: &mut LssMaster<Faulty>) -> Vec<Option<NodeId>> {
+    master.port().fault = Fault::Nothing;
+    let _ = master.fast_scan();
+    master.port().bus.nodes().iter().map(CanNode::node_id).collect()
+}
+
+#[test]
+fn a_node_id_that_was_not_confirmed_is_not_used() {
+    for fault in [Fault::Lost, Fault::Late(TIMEOUT * 2), Fault::Duplicated] {
+        for is_async in [false, true] {
+            let mut master = master();
+            master.switch_global(LssState::Configuration).expect("a bus");
+            master.port().fault = fault;
+            let result = match is_async {
+                true => now(master.configure_node_id_async(id(5))),
+                false => master.configure_node_id(id(5)),
+            };
+            assert!(matches!(result, Err(LssError::Timeout | LssError::SeveralAnswers)), "{result:?}");
+            assert_eq!(node_ids(&mut master), [None], "{fault:?}");
+        }
+    }
+}
+
+#[test]
+fn a_second_slave_that_answers_later_is_noticed() {
+    let answer = |command| CanFrame::new(0x7E4, &[command, 0, 0, 0, 0, 0, 0, 0]).expect("a frame");
+    let mut master = master();
+    master.switch_global(LssState::Configuration).expect("a bus");
+    // The same answer arrives again after 200 ms, which is longer than the window.
+    master.port().fault = Fault::Foreign(answer(0x11));
+    assert_eq!(master.configure_node_id(id(5)), Err(LssError::SeveralAnswers));
+    assert_eq!(node_ids(&mut master), [None]);
+}
+
+#[test]
+fn a_lost_or_late_answer_doesnt_end_the_search() {
+    let mut master = master();
+    master.port().fault = Fault::Late(Duration::from_millis(100));
+    assert_eq!(master.fast_scan(), Err(LssError::Inconclusive));
+    master.port().fault = Fault::LostOnce;
+    assert_eq!(master.fast_scan(), Ok(Some(LssAddress::default())));
 }
 
 /// Returns the rows for LSS in the table of faults.

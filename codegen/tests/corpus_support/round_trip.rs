@@ -29,6 +29,7 @@ pub fn content(catalog: &Catalog) -> Value {
             let is_written = |rule: &Value| matches!(rule.as_str(), Some("missing_key" | "compact_object"));
             origins.retain(|origin| !is_written(&origin[1]["rule"]));
         }
+        fields.retain(|name, value| name != "origins" || value.as_array().is_none_or(|origins| !origins.is_empty()));
     });
     value
 }

@@ -6,7 +6,7 @@ use crate::node_id::NodeId;
 use crate::pdo::can_id;
 
 /// Default COB-ID of emergency messages in object 0x1014, without the node-ID (CiA 301 7.3.5).
-const EMERGENCY: u32 = 0x080;
+pub(super) const EMERGENCY: u32 = 0x080;
 
 impl Emergency {
     /// Returns the emergency message in a frame with the default COB-ID of `node`, or `None` for other frames.

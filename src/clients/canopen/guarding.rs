@@ -24,17 +24,22 @@ pub struct Guarding {
     /// Toggle bit of the next answer, or `None` if it is unknown.
     toggle: Option<bool>,
     missed: u8,
+    /// A request was sent, and its answer has not arrived.
+    is_owed: bool,
+    has_run: bool,
+    /// Time of the last valid answer, or of the first cycle.
+    answered: Option<Duration>,
 }
 
 impl Guarding {
     /// Creates the guarding of a node. Set the objects 0x100C and 0x100D of the node to the same values, so that the node
     /// notices if the master fails.
     ///
-    /// The guard time is the time between two cycles, and the longest time of a cycle. The node is lost if it doesn't
-    /// answer in `life_time_factor` consecutive cycles. The factor 0 has the same effect as 1.
+    /// The guard time is the time between two cycles, and the longest time of a cycle. The node is lost after
+    /// `life_time_factor` consecutive cycles without a valid answer. The factor 0 has the same effect as 1.
     #[must_use]
     pub const fn new(guard_time: Duration, life_time_factor: u8) -> Self {
-        Self { guard_time, life_time_factor, toggle: None, missed: 0 }
+        Self { guard_time, life_time_factor, toggle: None, missed: 0, is_owed: false, has_run: false, answered: None }
     }
 
     /// Returns the guard time.
@@ -49,10 +54,17 @@ impl Guarding {
         self.guard_time.saturating_mul(self.life_time_factor.into())
     }
 
-    /// Returns the number of consecutive cycles in which the node did not answer.
+    /// Returns the number of consecutive cycles without a valid answer. A cycle that failed for any reason counts, and so
+    /// does an async cycle that was dropped.
     #[must_use]
     pub const fn missed(&self) -> u8 {
         self.missed
+    }
+
+    /// Starts a cycle at the time `now`. The cycle counts as missed until a valid answer arrives.
+    fn start(&mut self, now: Option<Duration>) {
+        self.missed = self.missed.saturating_add(1);
+        self.answered = self.answered.or(now);
     }
 
     /// Returns whether a byte is the expected answer, or a boot-up message.
@@ -60,27 +72,28 @@ impl Guarding {
         raw == NmtState::BootUp.raw() || self.toggle.map_or(true, |toggle| toggle == (raw & TOGGLE != 0))
     }
 
-    /// Sets the toggle bit of the next answer. After the boot-up message, it is 0.
+    /// Sets the toggle bit of the next answer: the inverse of this one, or 0 after the boot-up message.
     fn synchronize(&mut self, raw: u8) -> NmtState {
         let state = NmtState::from_raw(raw);
         self.toggle = Some(state != NmtState::BootUp && raw & TOGGLE == 0);
         state
     }
 
-    /// Processes the answer of a cycle.
-    fn accept(&mut self, raw: u8) -> NmtState {
+    /// Processes a valid answer.
+    fn accept(&mut self, state: NmtState, now: Option<Duration>) -> NmtState {
         self.missed = 0;
-        self.synchronize(raw)
+        self.answered = now.or(self.answered);
+        state
     }
 
-    /// Processes a cycle without a valid answer. If the answer was lost, the node has changed its toggle bit.
-    fn miss<E>(&mut self, has_wrong_toggle: bool) -> GuardError<E> {
-        self.missed = self.missed.saturating_add(1);
-        self.toggle = None;
-        match has_wrong_toggle {
-            _ if self.missed >= self.life_time_factor => GuardError::NodeLost,
-            true => GuardError::ToggleBit,
-            false => GuardError::NoAnswer,
+    /// Processes the error of a cycle without a valid answer. Returns `NodeLost` if the life time has passed.
+    fn fail<E>(&self, error: GuardError<E>, now: Option<Duration>) -> GuardError<E> {
+        let silence = self.answered.zip(now).map(|(answered, now)| now.saturating_sub(answered));
+        let is_over = silence.is_some_and(|silence| silence >= self.life_time());
+        if is_over || self.missed >= self.life_time_factor {
+            GuardError::NodeLost
+        } else {
+            error
         }
     }
 }
@@ -89,15 +102,17 @@ impl Guarding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum GuardError<E> {
-    /// The CAN interface returned an error.
+    /// The CAN interface returned an error. The node life time has not passed.
     Client(E),
-    /// The bus was busy, and the request was not sent.
+    /// The request was not sent, because the bus was busy, or because the CAN interface cannot send remote frames. The
+    /// node life time has not passed.
     NotSent,
     /// The node did not answer in this cycle. The node life time has not passed.
     NoAnswer,
     /// The toggle bit of the answer did not alternate. The node life time has not passed.
     ToggleBit,
-    /// The node did not answer within the node life time.
+    /// No valid answer arrived within the node life time. The last cycle failed for any reason: no answer, a wrong toggle
+    /// bit, a request that was not sent, or an error of the CAN interface.
     NodeLost,
 }
 
@@ -105,10 +120,10 @@ impl<E: fmt::Display> fmt::Display for GuardError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Client(error) => error.fmt(f),
-            Self::NotSent => f.write_str("the bus is busy, the guarding request was not sent"),
+            Self::NotSent => f.write_str("the guarding request was not sent"),
             Self::NoAnswer => f.write_str("the node did not answer the guarding request"),
             Self::ToggleBit => f.write_str("the toggle bit of the guarding answer did not alternate"),
-            Self::NodeLost => f.write_str("the node did not answer within its life time"),
+            Self::NodeLost => f.write_str("no valid answer of the node within its life time"),
         }
     }
 }
@@ -131,66 +146,108 @@ fn answer(frame: &CanFrame, node: NodeId) -> Option<u8> {
 }
 
 macro_rules! guard {
-    ($Port:ident $guard:ident $($async:ident $await:ident)?) => {
+    ($Port:ident $guard:ident $cycle:ident $settle_guarding:ident $($async:ident $await:ident)?) => {
         impl<P: $Port> Node<P> {
             /// Runs one cycle of node guarding and returns the state of the node: sends a remote frame and waits for the
-            /// answer, at most for the guard time. Call this method once in each guard time. Discards the answers that
-            /// have arrived before.
+            /// answer. Call this method once in each guard time. A cycle takes at most one guard time. Discards the
+            /// answers that have arrived before.
             ///
             /// Returns [`NmtState::BootUp`] if the node has restarted since the last cycle, or restarts during the cycle.
             ///
-            /// After a cycle without an answer, the next cycle waits for the late answer before it sends a request, for at
-            /// most the guard time. This cycle therefore takes up to twice the guard time.
+            /// After a cycle without an answer, and after an async cycle that was dropped, the next cycle waits for the
+            /// late answer before it sends a request, for at most half of the guard time. If the node needs more than one
+            /// guard time for an answer, the state can therefore be one cycle old.
+            ///
+            /// Each cycle without a valid answer counts as [missed](Guarding::missed). The node is lost if as many
+            /// consecutive cycles as the life time factor are missed, or if the node life time has passed since the last
+            /// valid answer, measured with the clock of the port.
             ///
             /// # Errors
             ///
-            /// - [`GuardError::Client`] if the interface fails, or [`GuardError::NotSent`] if the bus stays busy.
+            /// - [`GuardError::NodeLost`] if the node life time has passed without a valid answer, for any reason. The
+            ///   other errors mean that this time has not passed.
+            /// - [`GuardError::Client`] if the interface fails.
+            /// - [`GuardError::NotSent`] if the bus stays busy, or if the interface cannot send remote frames.
             /// - [`GuardError::NoAnswer`] if the node doesn't answer in this cycle.
             /// - [`GuardError::ToggleBit`] if the only answers have the toggle bit of the previous answer.
-            /// - [`GuardError::NodeLost`] if the node doesn't answer in as many cycles as the life time factor.
             pub $($async)? fn $guard(&mut self, guarding: &mut Guarding) -> Result<NmtState, GuardError<P::Error>> {
-                let (id, guard_time) = (self.id(), guarding.guard_time);
-                let is_answer = &mut |frame: &CanFrame| answer(frame, id).is_some();
-                // A late answer to the previous request must not be taken for the next one.
-                let mut is_restarted = false;
-                let mut patience = if guarding.missed > 0 { guard_time } else { Duration::ZERO };
-                for _ in 0..BACKLOG {
-                    let old = self.port().receive(patience, is_answer)$(.$await)?.map_err(GuardError::Client)?;
-                    let Some(raw) = old.and_then(|frame| answer(&frame, id)) else { break };
-                    let has_answered = guarding.toggle.is_some();
-                    is_restarted |= guarding.synchronize(raw) == NmtState::BootUp && has_answered;
-                    patience = Duration::ZERO;
+                guarding.start(self.port().now());
+                let result = self.$cycle(guarding)$(.$await)?;
+                let now = self.port().now();
+                match result {
+                    Ok(state) => Ok(guarding.accept(state, now)),
+                    Err(error) => Err(guarding.fail(error, now)),
                 }
+            }
+
+            $($async)? fn $cycle(&mut self, guarding: &mut Guarding) -> Result<NmtState, GuardError<P::Error>> {
+                let (id, guard_time, start) = (self.id(), guarding.guard_time, self.port().now());
+                // A late answer to the previous request must not be taken for the next one.
+                let late = if guarding.is_owed { guard_time / 2 } else { Duration::ZERO };
+                let is_restarted = self.$settle_guarding(guarding, late)$(.$await)?.map_err(GuardError::Client)?;
                 if is_restarted {
-                    guarding.missed = 0;
                     return Ok(NmtState::BootUp);
                 }
                 let request = CanFrame::remote(ERROR_CONTROL + u32::from(id.get()), 1).ok_or(GuardError::NotSent)?;
-                let start = self.port().now();
-                let is_sent = self.port().send(&request, guard_time)$(.$await)?.map_err(GuardError::Client)?;
+                let left = |now: Option<Duration>| match start.zip(now) {
+                    Some((start, now)) => guard_time.saturating_sub(now.saturating_sub(start)),
+                    None => guard_time.saturating_sub(late),
+                };
+                let patience = left(self.port().now());
+                guarding.is_owed = true;
+                let is_sent = self.port().send(&request, patience)$(.$await)?.map_err(GuardError::Client)?;
                 if !is_sent {
+                    guarding.is_owed = false;
                     return Err(GuardError::NotSent);
                 }
-                let (mut last, mut has_wrong_toggle) = (None, false);
+                let is_answer = &mut |frame: &CanFrame| answer(frame, id).is_some();
+                let mut has_wrong_toggle = false;
                 for _ in 0..BACKLOG {
-                    let elapsed = start.zip(self.port().now()).map(|(start, now)| now.saturating_sub(start));
-                    let left = guard_time.saturating_sub(elapsed.unwrap_or_default());
-                    let frame = self.port().receive(left, is_answer)$(.$await)?.map_err(GuardError::Client)?;
+                    let patience = left(self.port().now());
+                    let frame = self.port().receive(patience, is_answer)$(.$await)?.map_err(GuardError::Client)?;
                     let Some(raw) = frame.and_then(|frame| answer(&frame, id)) else { break };
-                    if guarding.accepts(raw) {
-                        last = Some(raw);
-                        break;
+                    let is_accepted = guarding.accepts(raw);
+                    let state = guarding.synchronize(raw);
+                    if is_accepted {
+                        guarding.is_owed = false;
+                        return Ok(state);
                     }
                     has_wrong_toggle = true;
                 }
-                match last {
-                    Some(raw) => Ok(guarding.accept(raw)),
-                    None => Err(guarding.miss(has_wrong_toggle)),
+                if has_wrong_toggle {
+                    guarding.is_owed = false;
+                    return Err(GuardError::ToggleBit);
                 }
+                Err(GuardError::NoAnswer)
+            }
+
+            /// Discards the answers that have arrived, and waits for a late one for `patience`. Returns whether the node
+            /// has restarted since the last cycle.
+            $($async)? fn $settle_guarding(&mut self, guarding: &mut Guarding, patience: Duration) -> Result<bool, P::Error> {
+                let id = self.id();
+                let is_answer = &mut |frame: &CanFrame| answer(frame, id).is_some();
+                let (mut is_restarted, has_run) = (false, guarding.has_run);
+                guarding.has_run = true;
+                let mut patience = patience;
+                for _ in 0..BACKLOG {
+                    let frame = self.port().receive(patience, is_answer)$(.$await)??;
+                    let Some(raw) = frame.and_then(|frame| answer(&frame, id)) else { break };
+                    is_restarted |= guarding.synchronize(raw) == NmtState::BootUp && has_run;
+                    guarding.is_owed = false;
+                    patience = Duration::ZERO;
+                }
+                if guarding.is_owed {
+                    // If the answer was lost, the node has changed its toggle bit. If the request was lost, it has not.
+                    guarding.toggle = None;
+                }
+                Ok(is_restarted)
             }
         }
     };
 }
 
-guard! { CanPort guard }
-guard! { AsyncCanPort guard_async async await }
+guard! { CanPort guard cycle settle_guarding }
+guard! { AsyncCanPort guard_async cycle_async settle_guarding_async async await }
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

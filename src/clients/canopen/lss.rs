@@ -1,13 +1,16 @@
 //! Master of the layer setting services (CiA 305).
 
+mod scan;
+#[cfg(all(test, feature = "std"))]
+mod tests;
+
 use core::time::Duration;
 
 use super::frame::CanFrame;
 use super::node::TIMEOUT;
 use super::port::{AsyncCanPort, CanPort, BACKLOG};
 use crate::lss::{
-    is_identified, BitRate, FastScan, IdentityPart, LssAddress, LssError, LssState, Message, Service, Transaction,
-    ANSWERS, REQUESTS,
+    BitRate, IdentityPart, LssAddress, LssError, LssState, Message, Service, Transaction, ANSWERS, REQUESTS,
 };
 use crate::node_id::NodeId;
 
@@ -37,7 +40,9 @@ const WINDOW: Duration = Duration::from_millis(20);
 /// while let Some(address) = master.fast_scan().expect("unique addresses") {
 ///     // The drive that was found is in the state Configuration.
 ///     serials.push(address.serial_number);
-///     master.configure_node_id(NodeId::new(serials.len() as u8)).expect("a free node-ID");
+///     // No other node is on this bus.
+///     let id = NodeId::new(serials.len() as u8).expect("a free node-ID");
+///     master.configure_node_id(id).expect("only this drive is in Configuration");
 ///     master.store().expect("the drive can store");
 ///     // The drive leaves Configuration and starts with its new node-ID.
 ///     master.switch_global(LssState::Waiting).expect("the bus works");
@@ -49,8 +54,17 @@ const WINDOW: Duration = Duration::from_millis(20);
 /// # Several answers
 ///
 /// A slave that is in Configuration by mistake would get the same node-ID as the intended slave. After an answer, the
-/// master therefore waits for 20 ms ([`with_window`](Self::with_window)), and returns [`LssError::SeveralAnswers`] if
-/// a second answer arrives.
+/// master therefore waits for further answers and returns [`LssError::SeveralAnswers`] if a second one arrives. It waits
+/// for 20 ms ([`with_window`](Self::with_window)), and for the whole timeout after an answer to a service that changes a
+/// slave: node-ID, bit timing and store.
+///
+/// # Node-IDs that were not confirmed
+///
+/// If [`configure_node_id`](Self::configure_node_id) fails, one or several slaves may have the node-ID as pending
+/// node-ID, and would use it as soon as they leave Configuration. The master therefore removes the pending node-ID of all
+/// slaves in Configuration, before it returns the error. If the master cannot send this request, or if the async call was
+/// dropped, the next call sends it before any other request. A slave that uses a node-ID keeps it until reset
+/// communication, and then has none until it gets another one or is switched off and on.
 ///
 /// # Late answers
 ///
@@ -61,14 +75,17 @@ pub struct LssMaster<P> {
     port: P,
     timeout: Duration,
     window: Duration,
+    pause: Duration,
     /// Command specifier of an answer that has not arrived.
     owed: Option<u8>,
+    /// Slaves in Configuration may have a pending node-ID that was not confirmed.
+    is_doubtful: bool,
 }
 
 impl<P> LssMaster<P> {
     /// Creates a master on `port`, with a timeout of 500 ms.
     pub const fn new(port: P) -> Self {
-        Self { port, timeout: TIMEOUT, window: WINDOW, owed: None }
+        Self { port, timeout: TIMEOUT, window: WINDOW, pause: Duration::ZERO, owed: None, is_doubtful: false }
     }
 
     /// Returns the master with another timeout for each answer, and for sending a frame on a busy bus.
@@ -79,9 +96,19 @@ impl<P> LssMaster<P> {
 
     /// Returns the master with another time in which further answers are an error. The same time is the duration of
     /// each of the 133 steps of a fastscan. All slaves must answer within this time. The default is 20 ms.
+    ///
+    /// Without a [clock](CanPort::now), each answer of several slaves restarts the time of a step.
     #[must_use]
     pub fn with_window(self, window: Duration) -> Self {
         Self { window, ..self }
+    }
+
+    /// Returns the master with a pause before each message. The default is no pause. Some slaves lose a message that
+    /// arrives before they have processed the previous one, for example the four messages of
+    /// [`switch_selective`](Self::switch_selective).
+    #[must_use]
+    pub fn with_pause(self, pause: Duration) -> Self {
+        Self { pause, ..self }
     }
 
     /// Returns the CAN interface.
@@ -103,12 +130,14 @@ fn answer(frame: &CanFrame) -> Option<Message> {
 macro_rules! master {
     (
         $Port:ident: $switch_global:ident $switch_selective:ident $configure_node_id:ident $configure_bit_rate:ident $configure_bit_timing:ident
-        $activate_bit_timing:ident $store:ident $inquire:ident $inquire_address:ident $inquire_node_id:ident $has_unconfigured:ident
-        $fast_scan:ident $send:ident $receive:ident $settle:ident $run:ident $step:ident $($async:ident $await:ident)?
+        $activate_bit_timing:ident $store:ident $inquire:ident $inquire_address:ident $inquire_node_id:ident
+        $send:ident $receive:ident $settle:ident $run:ident $remove_node_id:ident $request:ident
+        $withdraw:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> LssMaster<P> {
             /// Switches all slaves to a state. Slaves don't answer. A slave without a node-ID that was configured starts
-            /// with its new node-ID when it is switched to [`LssState::Waiting`].
+            /// with its new node-ID when it is switched to [`LssState::Waiting`]. Some slaves restart their communication
+            /// at this moment: they also use a configured bit rate, and some enter Operational.
             ///
             /// # Errors
             ///
@@ -117,7 +146,7 @@ macro_rules! master {
                 self.$run(Service::SwitchGlobal(state))$(.$await)?.map(|_| ())
             }
 
-            /// Switches the slave with this address to the state Configuration.
+            /// Switches the slave with this address to the state Configuration, and all other slaves to Waiting first.
             ///
             /// # Errors
             ///
@@ -125,24 +154,52 @@ macro_rules! master {
             /// - [`LssError::Timeout`] if no slave has this address.
             /// - [`LssError::SeveralAnswers`] if several slaves have this address.
             pub $($async)? fn $switch_selective(&mut self, address: LssAddress) -> Result<(), LssError<P::Error>> {
+                self.$switch_global(LssState::Waiting)$(.$await)??;
                 self.$run(Service::SwitchSelective(address))$(.$await)?.map(|_| ())
             }
 
-            /// Sets the node-ID of the slave in Configuration. `None` removes the node-ID. A slave that already uses a
-            /// node-ID uses the new one after the NMT command reset communication.
+            /// Sets the node-ID of the slave in Configuration. A slave without a node-ID uses it when it is switched to
+            /// Waiting. A slave that already uses a node-ID uses the new one after the NMT command reset communication.
+            ///
+            /// After an error other than `Refused`, the master removes the pending node-ID of all slaves in Configuration.
+            /// Don't give the same node-ID to another slave until a [`fast_scan`](Self::fast_scan) or
+            /// [`inquire_node_id`](Self::inquire_node_id) has shown that this slave doesn't use it.
             ///
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if no slave is in Configuration.
-            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration. All of them have the node-ID now.
+            /// - [`LssError::Timeout`] if no slave is in Configuration, or its answer was lost.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
             /// - [`LssError::Refused`] if the slave refuses the node-ID.
-            pub $($async)? fn $configure_node_id(&mut self, node: Option<NodeId>) -> Result<(), LssError<P::Error>> {
-                self.$run(Service::ConfigureNodeId(node))$(.$await)?.map(|_| ())
+            pub $($async)? fn $configure_node_id(&mut self, node: NodeId) -> Result<(), LssError<P::Error>> {
+                self.$settle()$(.$await)??;
+                self.is_doubtful = true;
+                let result = self.$request(Service::ConfigureNodeId(Some(node)))$(.$await)?;
+                match result {
+                    Ok(_) | Err(LssError::Refused(_)) => self.is_doubtful = false,
+                    // The caller gets the first error. If this request fails, the next service repeats it.
+                    Err(_) => {
+                        let _ = self.$withdraw()$(.$await)?;
+                    }
+                }
+                result.map(|_| ())
+            }
+
+            /// Removes the node-ID of the slave in Configuration. A slave that uses a node-ID uses it until the NMT command
+            /// reset communication.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of [`configure_node_id`](Self::configure_node_id).
+            pub $($async)? fn $remove_node_id(&mut self) -> Result<(), LssError<P::Error>> {
+                self.$run(Service::ConfigureNodeId(None))$(.$await)?.map(|_| ())
             }
 
             /// Sets the bit rate of the slave in Configuration. The bit rate changes with
-            /// [`activate_bit_timing`](Self::activate_bit_timing), or if the slave stores it and restarts.
+            /// [`activate_bit_timing`](Self::activate_bit_timing), or if the slave stores it and restarts. Some slaves also
+            /// use it as soon as they start with a new node-ID. A slave with another bit rate than the bus disturbs all
+            /// nodes. Therefore, first give all slaves their node-IDs. Then configure the bit rate of each slave, switch
+            /// all slaves to Configuration, and activate the bit timing.
             ///
             /// # Errors
             ///
@@ -181,7 +238,8 @@ macro_rules! master {
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
             /// - [`LssError::Timeout`] if no slave is in Configuration, or the slave needs longer than the timeout.
-            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration. All of them have stored their node-IDs
+            ///   and bit timings.
             /// - [`LssError::Refused`] if the slave cannot store.
             pub $($async)? fn $store(&mut self) -> Result<(), LssError<P::Error>> {
                 self.$run(Service::Store)$(.$await)?.map(|_| ())
@@ -222,65 +280,10 @@ macro_rules! master {
                 Ok(u8::try_from(node).ok().and_then(NodeId::new))
             }
 
-            /// Returns whether there are slaves in Waiting that have no node-ID. [`fast_scan`](Self::fast_scan) finds
-            /// them.
-            ///
-            /// # Errors
-            ///
-            /// Returns [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            pub $($async)? fn $has_unconfigured(&mut self) -> Result<bool, LssError<P::Error>> {
-                let result = self.$run(Service::IdentifyUnconfigured)$(.$await)?;
-                match result {
-                    Err(LssError::Timeout) => {
-                        // That no slave answers is the answer, and no late answer is expected.
-                        self.owed = None;
-                        Ok(false)
-                    }
-                    result => result.map(|_| true),
-                }
-            }
-
-            /// Finds a slave that has no node-ID, returns its address, and leaves it in the state Configuration. Returns
-            /// `None` if all slaves have a node-ID. Switches all slaves to Waiting first.
-            ///
-            /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master compares the address
-            /// with the answers to inquiries, so an answer that is lost or late doesn't lead to a wrong address. To
-            /// find all slaves, give each one a node-ID, switch it to Waiting, and repeat the scan.
-            ///
-            /// # Errors
-            ///
-            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if the slave doesn't answer the inquiries.
-            /// - [`LssError::SeveralAnswers`] if several slaves have the same address.
-            /// - [`LssError::Inconclusive`] if an answer was lost or late.
-            pub $($async)? fn $fast_scan(&mut self) -> Result<Option<LssAddress>, LssError<P::Error>> {
-                self.$switch_global(LssState::Waiting)$(.$await)??;
-                let mut scan = FastScan::new();
-                while let Some(request) = scan.next() {
-                    self.$send(request)$(.$await)??;
-                    self.$step(&mut scan)$(.$await)??;
-                }
-                let Some(address) = scan.result().map_err(LssError::of_client)? else { return Ok(None) };
-                let inquired = self.$inquire_address()$(.$await)??;
-                if inquired == address { Ok(Some(address)) } else { Err(LssError::Inconclusive) }
-            }
-
-            /// Collects the answers to a fastscan request for the duration of the window.
-            $($async)? fn $step(&mut self, scan: &mut FastScan) -> Result<(), LssError<P::Error>> {
-                let start = self.port.now();
-                let mut patience = self.window;
-                for _ in 0..BACKLOG {
-                    let answer = self.$receive(patience, &|message| is_identified(message))$(.$await)??;
-                    let Some(message) = answer else { break };
-                    scan.handle(&message);
-                    let elapsed = start.zip(self.port.now()).map(|(start, now)| now.saturating_sub(start));
-                    patience = self.window.saturating_sub(elapsed.unwrap_or_default());
-                }
-                scan.time_out();
-                Ok(())
-            }
-
             $($async)? fn $send(&mut self, message: Message) -> Result<(), LssError<P::Error>> {
+                if !self.pause.is_zero() {
+                    self.$receive(self.pause, &|_| false)$(.$await)??;
+                }
                 let is_sent = self.port.send(&CanFrame::of(REQUESTS, message), self.timeout)$(.$await)?;
                 is_sent.map_err(LssError::Client)?.then_some(()).ok_or(LssError::NotSent)
             }
@@ -296,9 +299,33 @@ macro_rules! master {
                 Ok(frame.as_ref().and_then(answer))
             }
 
-            /// Waits for the answer to an earlier request that timed out or was dropped, and discards all answers that
-            /// have arrived.
+            /// Removes the pending node-ID of all slaves in Configuration, and waits for their answers. That no slave answers
+            /// is not an error, because there may be none.
+            $($async)? fn $withdraw(&mut self) -> Result<(), LssError<P::Error>> {
+                for message in Service::ConfigureNodeId(None).messages() {
+                    self.$send(message)$(.$await)??;
+                }
+                self.is_doubtful = false;
+                self.owed = Service::ConfigureNodeId(None).answer();
+                let start = self.port.now();
+                let mut patience = self.timeout;
+                for _ in 0..BACKLOG {
+                    if self.$receive(patience, &|_| true)$(.$await)??.is_none() {
+                        break;
+                    }
+                    let elapsed = start.zip(self.port.now()).map(|(start, now)| now.saturating_sub(start));
+                    patience = self.timeout.saturating_sub(elapsed.unwrap_or_default());
+                }
+                self.owed = None;
+                Ok(())
+            }
+
+            /// Removes node-IDs that were not confirmed, waits for the answer to an earlier request that timed out or was
+            /// dropped, and discards all answers that have arrived.
             $($async)? fn $settle(&mut self) -> Result<(), LssError<P::Error>> {
+                if self.is_doubtful {
+                    self.$withdraw()$(.$await)??;
+                }
                 if let Some(owed) = self.owed {
                     self.$receive(self.timeout, &|message| message[0] == owed)$(.$await)??;
                     self.owed = None;
@@ -313,6 +340,10 @@ macro_rules! master {
 
             $($async)? fn $run(&mut self, service: Service) -> Result<u32, LssError<P::Error>> {
                 self.$settle()$(.$await)??;
+                self.$request(service)$(.$await)?
+            }
+
+            $($async)? fn $request(&mut self, service: Service) -> Result<u32, LssError<P::Error>> {
                 let mut transaction = Transaction::new(service);
                 while let Some(message) = transaction.next() {
                     self.owed = service.answer();
@@ -337,7 +368,7 @@ macro_rules! master {
                     if transaction.is_answered() {
                         self.owed = None;
                     }
-                    patience = self.window;
+                    patience = if service.is_change() { self.timeout } else { self.window };
                 }
             }
         }
@@ -346,11 +377,11 @@ macro_rules! master {
 
 master! {
     CanPort: switch_global switch_selective configure_node_id configure_bit_rate configure_bit_timing
-    activate_bit_timing store inquire inquire_address inquire_node_id has_unconfigured
-    fast_scan send receive settle run step
+    activate_bit_timing store inquire inquire_address inquire_node_id
+    send receive settle run remove_node_id request withdraw
 }
 master! {
     AsyncCanPort: switch_global_async switch_selective_async configure_node_id_async configure_bit_rate_async configure_bit_timing_async
-    activate_bit_timing_async store_async inquire_async inquire_address_async inquire_node_id_async has_unconfigured_async
-    fast_scan_async send_async receive_async settle_async run_async step_async async await
+    activate_bit_timing_async store_async inquire_async inquire_address_async inquire_node_id_async
+    send_async receive_async settle_async run_async remove_node_id_async request_async withdraw_async async await
 }

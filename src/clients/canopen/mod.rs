@@ -78,5 +78,7 @@ pub use port::{AsyncCanPort, CanPort};
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 pub use socketcan;
 
+#[cfg(all(test, feature = "std"))]
+mod slow;
 #[cfg(test)]
 mod tests;

@@ -4,15 +4,19 @@ mod handle;
 mod kept;
 #[cfg(all(test, feature = "std"))]
 mod tests;
+#[cfg(all(test, feature = "std"))]
+mod turn_tests;
 
 use core::cell::{Cell, RefCell};
 use core::fmt;
 use core::task::Waker;
 use core::time::Duration;
 
-use self::kept::Kept;
+use self::kept::{Kept, Kind, Owner};
 use super::frame::CanFrame;
 use crate::node_id::NodeId;
+use crate::pdo::{can_id, is_restricted, CobId};
+use crate::sdo::Channel;
 
 /// Maximum number of async handles that wait for the interface without polling.
 const MOST_WAKERS: usize = 16;
@@ -21,16 +25,23 @@ const MOST_WAKERS: usize = 16;
 /// [`CanPort`](super::CanPort), the handles are [`CanPort`](super::CanPort)s. With an
 /// [`AsyncCanPort`](super::AsyncCanPort), they are [`AsyncCanPort`](super::AsyncCanPort)s, for tasks on the same thread.
 ///
-/// A handle receives only the frames of its node: those with the default COB-IDs of CiA 301 7.3.5, and those with the
-/// COB-IDs that [`NetworkPort::with_cob_id`] adds. A frame that arrives while the handle of another node uses the
-/// interface is kept, if its node has a handle. Frames
-/// without a node, such as TIME, are for the handle that uses the interface. The network keeps up to `N` frames:
+/// A handle receives the frames of its node: those with the default COB-IDs of CiA 301 7.3.5 that a node sends, and those
+/// with the COB-IDs that [`NetworkPort::with_pdo`], [`NetworkPort::with_emergency`] and [`NetworkPort::with_sdo`] add. A
+/// frame that arrives while another handle uses the interface is kept, if its node has a handle. The handle
+/// [`services`](Self::services) receives LSS answers, SYNC and TIME. All other frames are for the handle that uses the
+/// interface, and are lost if it doesn't expect them. The network keeps up to `N` frames:
 ///
-/// - Of each PDO, only the newest is kept. It replaces the older one.
-/// - If there is no room, the oldest PDO is discarded. If no PDO is waiting, the oldest heartbeat is discarded, then the
-///   oldest frame of any other kind. A PDO or heartbeat never replaces a frame of another kind.
+/// - Of each PDO, only the newest is kept. Of each node, only the newest heartbeat and the newest boot-up message are kept.
+/// - If there is no room for an emergency message or a reply, the oldest PDO, heartbeat or boot-up message is discarded. If
+///   none is waiting, the oldest frame is discarded.
+/// - If there is no room for a PDO, heartbeat or boot-up message, the oldest frame of these kinds is discarded. If emergency
+///   messages and replies use more than half of the room, the oldest of them is discarded instead. Therefore, PDOs arrive
+///   even if the program never receives emergency messages.
 /// - Discarded frames are counted: [`lost`](Self::lost) counts all of them, and
 ///   [`lost_emergencies`](Self::lost_emergencies) counts the emergency messages.
+///
+/// No frame is lost if `N` is at least twice the number of PDOs, plus four for each node, and emergency messages are
+/// received as fast as they arrive.
 ///
 /// ```
 /// use lexibus::clients::canopen::{Network, Node};
@@ -59,19 +70,35 @@ pub struct Network<P, const N: usize> {
     port: Cell<Option<P>>,
     /// Latest time of the interface.
     time: Cell<Option<Duration>>,
+    /// Number of times that a handle has returned the interface.
+    turn: Cell<u32>,
     kept: RefCell<Kept<N>>,
-    /// Nodes with a handle: one bit for each node-ID.
-    nodes: Cell<u128>,
+    /// Numbers of handles of each node-ID. The first number is that of the services.
+    handles: [Cell<u16>; 128],
     wakers: RefCell<[Option<Waker>; MOST_WAKERS]>,
 }
 
-/// A handle of one node on a [`Network`]. The handle is the CAN port of a [`Node`](super::Node).
+/// A handle of one node on a [`Network`], or of its services. The handle is the CAN port of a [`Node`](super::Node) or an
+/// [`LssMaster`](super::LssMaster).
 ///
-/// While an async handle waits for a frame, the other handles get the interface after each millisecond.
+/// While an async handle waits for a frame or for a busy bus, the other handles get the interface after each millisecond.
+/// When the last handle of a node is dropped, the network discards the frames and the added COB-IDs of the node.
 #[derive(Debug)]
 pub struct NetworkPort<'n, P, const N: usize> {
     network: &'n Network<P, N>,
-    node: NodeId,
+    owner: Owner,
+}
+
+impl<P, const N: usize> Drop for NetworkPort<'_, P, N> {
+    fn drop(&mut self) {
+        let Some(count) = self.network.handles(self.owner) else { return };
+        count.set(count.get().saturating_sub(1));
+        if count.get() == 0 {
+            if let Ok(mut kept) = self.network.kept.try_borrow_mut() {
+                kept.purge(self.owner);
+            }
+        }
+    }
 }
 
 impl<P, const N: usize> fmt::Debug for Network<P, N> {
@@ -86,8 +113,9 @@ impl<P, const N: usize> Network<P, N> {
         Self {
             port: Cell::new(Some(port)),
             time: Cell::new(None),
+            turn: Cell::new(0),
             kept: RefCell::new(Kept::new()),
-            nodes: Cell::new(0),
+            handles: [const { Cell::new(0) }; 128],
             wakers: RefCell::new([const { None }; MOST_WAKERS]),
         }
     }
@@ -95,8 +123,26 @@ impl<P, const N: usize> Network<P, N> {
     /// Returns a handle of a node. From then on, the network keeps the frames of this node. All handles of a node share
     /// its frames.
     pub fn node(&self, node: NodeId) -> NetworkPort<'_, P, N> {
-        self.nodes.set(self.nodes.get() | 1 << node.get());
-        NetworkPort { network: self, node }
+        self.handle(Some(node))
+    }
+
+    /// Returns a handle for the services of the network: it receives LSS answers, SYNC and TIME. From then on, the network
+    /// keeps these frames, and the handles of nodes don't receive them. Use this handle for an
+    /// [`LssMaster`](super::LssMaster).
+    pub fn services(&self) -> NetworkPort<'_, P, N> {
+        self.handle(None)
+    }
+
+    fn handle(&self, owner: Owner) -> NetworkPort<'_, P, N> {
+        if let Some(count) = self.handles(owner) {
+            count.set(count.get().saturating_add(1));
+        }
+        NetworkPort { network: self, owner }
+    }
+
+    /// Returns the number of handles of a node.
+    fn handles(&self, owner: Owner) -> Option<&Cell<u16>> {
+        self.handles.get(usize::from(owner.map_or(0, NodeId::get)))
     }
 
     /// Returns the number of frames of nodes with a handle that were discarded because more than `N` frames were waiting.
@@ -116,28 +162,27 @@ impl<P, const N: usize> Network<P, N> {
         self.port.into_inner()
     }
 
-    /// Returns whether the frame is for `node` and `wanted` accepts it. Keeps frames of other nodes, and frames that
+    /// Returns whether the frame is for the handle and `wanted` accepts it. Keeps frames of other handles, and frames that
     /// `wanted` rejects.
-    fn dispatch(&self, node: NodeId, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
-        let owner = self.kept.try_borrow().ok().and_then(|kept| kept.node(frame));
-        let Some(owner) = owner else { return wanted(frame) };
-        if owner == node && wanted(frame) {
+    fn dispatch(&self, handle: Owner, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
+        let owner = self.kept.try_borrow().ok().and_then(|kept| kept.owner(frame));
+        let owner = owner.filter(|(owner, _)| self.handles(*owner).is_some_and(|count| count.get() > 0));
+        let Some((owner, kind)) = owner else { return wanted(frame) };
+        if owner == handle && wanted(frame) {
             return true;
         }
-        if self.nodes.get() >> owner.get() & 1 == 1 {
-            if let Ok(mut kept) = self.kept.try_borrow_mut() {
-                kept.push(owner, *frame);
-            }
-            if owner != node {
-                self.wake();
-            }
+        if let Ok(mut kept) = self.kept.try_borrow_mut() {
+            kept.push(owner, kind, *frame);
+        }
+        if owner != handle {
+            self.wake();
         }
         false
     }
 
-    /// Returns a kept frame of `node` that `wanted` accepts.
-    fn take(&self, node: NodeId, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> Option<CanFrame> {
-        self.kept.try_borrow_mut().ok()?.take(node, wanted)
+    /// Returns a kept frame of a handle that `wanted` accepts.
+    fn take(&self, handle: Owner, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> Option<CanFrame> {
+        self.kept.try_borrow_mut().ok()?.take(handle, wanted)
     }
 
     /// Wakes all handles that wait for the interface or a frame. Returns whether there are any.
@@ -160,18 +205,46 @@ impl<P, const N: usize> Network<P, N> {
 }
 
 impl<P, const N: usize> NetworkPort<'_, P, N> {
-    /// Adds a COB-ID to the frames of the node, for example that of a PDO or an SDO channel whose COB-ID is not the
-    /// default one. For a CAN-ID of 29 bits, bit 29 is set. Returns `None` if there is no room: a network has room for
-    /// `N` COB-IDs.
+    /// Adds a PDO that the node sends to the frames of the handle. This is not necessary for the PDOs whose COB-IDs are
+    /// 0x180, 0x280, 0x380 or 0x480 plus the node-ID.
+    ///
+    /// Returns `None` if `cob_id` isn't a COB-ID that a PDO may have, if it was added for another node or for other frames,
+    /// or if there is no room: a network has room for `N` COB-IDs. Also returns `None` for the handle of the services.
     #[must_use]
-    pub fn with_cob_id(self, id: u32) -> Option<Self> {
-        let has_room = self.network.kept.try_borrow_mut().is_ok_and(|mut kept| kept.add(id, self.node));
-        has_room.then_some(self)
+    pub fn with_pdo(self, cob_id: CobId) -> Option<Self> {
+        let id = can_id(cob_id.resolve(self.owner?)).filter(|id| !is_restricted(*id))?;
+        self.with(id, Kind::ProcessData)
     }
 
-    /// Returns the node-ID.
+    /// Adds the COB-ID of the emergency messages of the node (object 0x1014; bit 29 for CAN-IDs of 29 bits, bits 30 and 31
+    /// are ignored). This is not necessary for the default COB-ID. Use
+    /// [`Node::with_emergency_id`](super::Node::with_emergency_id) with the same COB-ID.
+    ///
+    /// Returns `None` for the same reasons as [`with_pdo`](Self::with_pdo).
     #[must_use]
-    pub const fn id(&self) -> NodeId {
-        self.node
+    pub fn with_emergency(self, cob_id: u32) -> Option<Self> {
+        let id = can_id(cob_id)?;
+        self.with(id, Kind::Emergency)
+    }
+
+    /// Adds the replies of another SDO channel than the default one. Use
+    /// [`Node::with_channel`](super::Node::with_channel) with the same channel.
+    ///
+    /// Returns `None` for the same reasons as [`with_pdo`](Self::with_pdo).
+    #[must_use]
+    pub fn with_sdo(self, channel: Channel) -> Option<Self> {
+        self.with(channel.reply(), Kind::Reply)
+    }
+
+    fn with(self, id: u32, kind: Kind) -> Option<Self> {
+        let (network, owner) = (self.network, self.owner);
+        let is_added = owner.is_some() && network.kept.try_borrow_mut().is_ok_and(|mut kept| kept.add(id, owner, kind));
+        is_added.then_some(self)
+    }
+
+    /// Returns the node-ID, or `None` for the handle of the services.
+    #[must_use]
+    pub const fn id(&self) -> Option<NodeId> {
+        self.owner
     }
 }

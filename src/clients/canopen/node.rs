@@ -2,6 +2,7 @@
 
 use core::time::Duration;
 
+use super::emergency::EMERGENCY;
 use super::frame::CanFrame;
 use super::nmt::{self, NmtCommand, NmtState};
 use super::port::{AsyncCanPort, CanPort, MOST_WAITING};
@@ -49,6 +50,7 @@ pub struct Node<P> {
     port: P,
     id: NodeId,
     channel: Channel,
+    emergency_id: u32,
     timeout: Duration,
     block_threshold: usize,
     pub(super) is_block_refused: bool,
@@ -62,6 +64,7 @@ impl<P> Node<P> {
             port,
             id,
             channel: Channel::of_node(id),
+            emergency_id: EMERGENCY + id.get() as u32,
             timeout: TIMEOUT,
             block_threshold: BLOCK_THRESHOLD,
             is_block_refused: false,
@@ -79,6 +82,13 @@ impl<P> Node<P> {
     #[must_use]
     pub fn with_channel(self, channel: Channel) -> Self {
         Self { channel, ..self }
+    }
+
+    /// Returns the client with another COB-ID of the emergency messages (object 0x1014; bit 29 for CAN-IDs of 29 bits, bits
+    /// 30 and 31 are ignored). The default is 0x80 plus the node-ID.
+    #[must_use]
+    pub fn with_emergency_id(self, cob_id: u32) -> Self {
+        Self { emergency_id: cob_id, ..self }
     }
 
     /// Returns the client with another minimum length of block transfers, in bytes. `usize::MAX` disables block
@@ -172,11 +182,22 @@ macro_rules! methods {
             /// Sends an NMT command to the node (CiA 301 7.2.8.3.1). Nodes don't reply; the heartbeat shows the new
             /// state.
             ///
+            /// Before a command that restarts the node, this method discards the heartbeats and boot-up messages of the
+            /// node that have already arrived. The next boot-up message therefore shows that the node has restarted.
+            ///
             /// # Errors
             ///
             /// Returns the errors of [`send`](Self::send).
             pub $($async)? fn $nmt(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
-                let frame = command.frame(Some(self.id));
+                let id = self.id;
+                let is_restart = matches!(command, NmtCommand::ResetNode | NmtCommand::ResetCommunication);
+                for _ in 0..if is_restart { MOST_WAITING } else { 0 } {
+                    let old = self.port.receive(Duration::ZERO, &mut |frame| state_of(frame, id).is_some())$(.$await)?;
+                    if old.map_err(Error::Client)?.is_none() {
+                        break;
+                    }
+                }
+                let frame = command.frame(Some(id));
                 self.$send(&frame)$(.$await)?
             }
 
@@ -184,20 +205,38 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Returns the errors of [`send`](Self::send).
+            /// Returns the errors of [`send`](Self::send), or [`Error::OutOfRange`] if the time of day isn't less than
+            /// 24 hours.
             pub $($async)? fn $send_time(&mut self, time: TimeOfDay) -> Result<(), Error<P::Error>> {
+                if !time.is_valid() {
+                    return Err(Error::OutOfRange(OutOfRange));
+                }
                 self.$send(&time.frame())$(.$await)?
             }
 
-            /// Waits for the next TIME message of the network with the default COB-ID 0x100, and returns its time.
-            /// Returns `None` if no message arrives within `patience`.
+            /// Returns the newest TIME message of the network with the default COB-ID 0x100: its time, and the
+            /// [time](CanFrame::time) at which the message was taken from the interface. Waits for `patience` if no message
+            /// has arrived since the last call. Returns `None` if no message arrives.
+            ///
+            /// An interface that keeps frames can return an old message. Use the second time to get its age. On a
+            /// [`Network`](super::Network), call this method on the handle of the
+            /// [services](super::Network::services).
             ///
             /// # Errors
             ///
             /// Returns [`Error::Client`] if the interface fails.
-            pub $($async)? fn $time(&mut self, patience: Duration) -> Result<Option<TimeOfDay>, Error<P::Error>> {
-                let frame = self.port.receive(patience, &mut |frame| TimeOfDay::of(frame).is_some())$(.$await)?;
-                Ok(frame.map_err(Error::Client)?.as_ref().and_then(TimeOfDay::of))
+            pub $($async)? fn $time(
+                &mut self,
+                patience: Duration,
+            ) -> Result<Option<(TimeOfDay, Option<Duration>)>, Error<P::Error>> {
+                let (mut newest, mut patience) = (None, patience);
+                for _ in 0..MOST_WAITING {
+                    let frame = self.port.receive(patience, &mut |frame| TimeOfDay::of(frame).is_some())$(.$await)?;
+                    let Some(frame) = frame.map_err(Error::Client)? else { break };
+                    newest = TimeOfDay::of(&frame).map(|time| (time, frame.time()));
+                    patience = Duration::ZERO;
+                }
+                Ok(newest)
             }
 
             /// Sends SYNC. The nodes of the network send and apply their synchronous PDOs when they receive SYNC.
@@ -222,26 +261,37 @@ macro_rules! methods {
                 self.$send(&frame)$(.$await)?
             }
 
-            /// Waits for the node's next heartbeat and returns the state in it. Returns `None` if no heartbeat arrives
-            /// within `patience`.
+            /// Returns the newest state that the node has reported since the last call. Waits for `patience` if no heartbeat
+            /// has arrived. Returns `None` if no heartbeat arrives.
             ///
-            /// A [`Buffered`](super::Buffered) interface returns its oldest heartbeat. Call
-            /// [`clear`](super::Buffered::clear) first to ignore old heartbeats.
+            /// Discards older heartbeats, including those in the receive queue of the interface. A boot-up message is never
+            /// discarded: if the node has restarted since the last call, this method returns [`NmtState::BootUp`], and the
+            /// next call returns the state after the restart.
             ///
             /// # Errors
             ///
             /// Returns [`Error::Client`] if the interface fails.
             pub $($async)? fn $heartbeat(&mut self, patience: Duration) -> Result<Option<NmtState>, Error<P::Error>> {
-                let id = self.id;
-                let frame = self.port.receive(patience, &mut |frame| state_of(frame, id).is_some())$(.$await)?;
-                Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
+                let (id, mut newest, mut patience) = (self.id, None, patience);
+                for _ in 0..MOST_WAITING {
+                    let frame = self.port.receive(patience, &mut |frame| state_of(frame, id).is_some())$(.$await)?;
+                    let Some(frame) = frame.map_err(Error::Client)? else { break };
+                    newest = state_of(&frame, id);
+                    if newest == Some(NmtState::BootUp) {
+                        break;
+                    }
+                    patience = Duration::ZERO;
+                }
+                Ok(newest)
             }
 
             /// Waits for a heartbeat that reports this state. Pass [`NmtState::BootUp`] to wait for the boot-up
             /// message, which a node sends after its start.
             ///
-            /// This method also accepts heartbeats that a [`Buffered`](super::Buffered) interface has stored. Call
-            /// [`clear`](super::Buffered::clear) first to ignore stored heartbeats.
+            /// This method also accepts heartbeats that a [`Buffered`](super::Buffered) interface or a
+            /// [`Network`](super::Network) has stored. To ignore them, call [`Buffered::clear`](super::Buffered::clear) or
+            /// [`NetworkPort::clear`](super::NetworkPort::clear) first. [`nmt`](Self::nmt) does so for the heartbeats of the
+            /// node before a restart.
             ///
             /// # Errors
             ///
@@ -254,15 +304,16 @@ macro_rules! methods {
             }
 
             /// Waits for the node's next emergency message and returns it. Returns `None` if no message arrives within
-            /// `patience`. A [`Buffered`](super::Buffered) interface returns its oldest message.
+            /// `patience`. A [`Buffered`](super::Buffered) interface returns its oldest message. For a node with another
+            /// COB-ID than the default one, use [`with_emergency_id`](Self::with_emergency_id).
             ///
             /// # Errors
             ///
             /// Returns [`Error::Client`] if the interface fails.
             pub $($async)? fn $emergency(&mut self, patience: Duration) -> Result<Option<Emergency>, Error<P::Error>> {
-                let id = self.id;
-                let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some())$(.$await)?;
-                Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
+                let id = self.emergency_id;
+                let frame = self.port.receive(patience, &mut |frame| Emergency::of_id(frame, id).is_some())$(.$await)?;
+                Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of_id(&frame, id)))
             }
 
             /// Sends a PDO to the node. `data` is the output of a generated struct's `pack`, and `cob_id` is the

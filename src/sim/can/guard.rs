@@ -2,9 +2,12 @@
 
 use core::time::Duration;
 
-use super::CanNode;
+use super::{CanNode, COMMUNICATION_ERROR};
 use crate::clients::canopen::{CanFrame, NmtState};
 use crate::time::TimeOfDay;
+
+/// Error code of an emergency message: life guard error or heartbeat error.
+const LIFE_GUARD_ERROR: u16 = 0x8130;
 
 /// Toggle bit and life time of a node that is guarded.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +49,20 @@ impl CanNode {
             let number = |index| self.device.slots.number(index, 0).unwrap_or(0);
             let raw = self.guard.answer(self.state, Duration::from_millis(number(0x100C) * number(0x100D)), self.now);
             CanFrame::new(id, &[raw]).into_iter().for_each(|frame| self.emit(frame));
+        }
+    }
+
+    /// Reports that the node life time has passed, and changes the NMT state as object 0x1029 declares (CiA 301 7.5.2.32).
+    pub(super) fn fail_life_guarding(&mut self) {
+        let register = self.device.slots.number(0x1001, 0).unwrap_or(0) as u8 | COMMUNICATION_ERROR;
+        self.device.emit_emergency(LIFE_GUARD_ERROR, register, [0; 5]);
+        if self.state != NmtState::Stopped {
+            self.tell();
+        }
+        match self.device.slots.number(0x1029, 1).unwrap_or(0) {
+            0 if self.state == NmtState::Operational => self.enter(NmtState::PreOperational),
+            2 => self.enter(NmtState::Stopped),
+            _ => {}
         }
     }
 

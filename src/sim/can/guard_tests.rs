@@ -4,10 +4,13 @@ use super::tests::{frames, node, send, set, NODE};
 use super::*;
 use crate::bus::Object;
 use crate::client::Client;
+use crate::clients::canopen::NmtCommand;
 use crate::clients::canopen::{CanFrame, Channel, GuardError, Guarding, Node};
 use crate::emergency::Emergency;
+use crate::error::Error;
 use crate::now::now;
 use crate::pdo::CobId;
+use crate::value_error::OutOfRange;
 
 const GUARD_TIME: Duration = Duration::from_millis(100);
 
@@ -49,9 +52,13 @@ fn life_guarding() {
         assert_eq!(client.guard(&mut guarding), Ok(NmtState::PreOperational));
         assert_eq!(client.emergency(Duration::from_millis(290)), Ok(None));
     }
-    let error = Emergency { code: 0x8130, register: 0x11, vendor: [0; 5] };
+    client.nmt(NmtCommand::Start).unwrap();
+    set(client.port(), 0x1001, 0, &[0x20]);
+    let error = Emergency { code: 0x8130, register: 0x31, vendor: [0; 5] };
     assert_eq!(client.emergency(GUARD_TIME), Ok(Some(error)));
     assert_eq!(client.emergency(Duration::from_secs(9)), Ok(None));
+    // Without object 0x1029, the node leaves Operational.
+    assert_eq!(client.port().state(), NmtState::PreOperational);
 }
 
 #[test]
@@ -66,8 +73,12 @@ fn time() {
     now(client.send_time_async(TimeOfDay::new(8, 9))).unwrap();
     assert_eq!(client.port().time_of_day(), Some(time));
     assert_eq!(client.time(Duration::ZERO), Ok(None));
-    client.port().outgoing.extend([CanFrame::new(0x100, &[1, 0, 0, 0, 2]).unwrap(), time.frame()]);
-    assert_eq!(client.time(Duration::ZERO), Ok(Some(time)));
+    let older = TimeOfDay::new(6, 9).frame();
+    client.port().outgoing.extend([CanFrame::new(0x100, &[1, 0, 0, 0, 2]).unwrap(), older, time.frame()]);
+    let now = client.port().now();
+    assert_eq!(client.time(Duration::ZERO), Ok(Some((time, Some(now)))));
+    assert_eq!(client.send_time(TimeOfDay::new(86_400_000, 9)), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(client.send_time(TimeOfDay::new(1 << 28, 9)), Err(Error::OutOfRange(OutOfRange)));
 }
 
 #[test]
@@ -91,6 +102,9 @@ fn identifiers_of_29_bits() {
     client.port().device().emit_emergency(0x2310, 1, [0; 5]);
     let emergency = client.port().next_frame().unwrap();
     assert_eq!(Emergency::of_id(&emergency, 0x3234_5678).map(|it| it.code), Some(0x2310));
+    client = client.with_emergency_id(0x3234_5678);
+    client.port().device().emit_emergency(0x2311, 1, [0; 5]);
+    assert_eq!(client.emergency(Duration::ZERO).map(|it| it.map(|it| it.code)), Ok(Some(0x2311)));
     // The same CAN-IDs with 11 bits are different frames, and so are remote frames.
     let node = client.port();
     send(node, 0x205, &[7, 7]);

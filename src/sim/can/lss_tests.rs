@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::bus::Object;
+use crate::clients::canopen::NmtCommand;
 use crate::clients::canopen::{CanPort, LssMaster};
 use crate::lss::{IdentityPart, LssAddress, LssError, LssState, Refusal};
 use crate::now::now;
@@ -36,8 +37,8 @@ fn device(serial: u32) -> Device {
     device
 }
 
-fn node_id(id: u8) -> Option<NodeId> {
-    NodeId::new(id)
+fn node_id(id: u8) -> NodeId {
+    NodeId::new(id).expect("a node-ID")
 }
 
 /// Creates a bus with nodes that have these serial numbers and no node-ID, and a node that has node-ID 9.
@@ -46,7 +47,7 @@ fn bus(serials: &[u32]) -> CanBus {
     for serial in serials {
         bus.add(CanNode::without_node_id(device(*serial)));
     }
-    bus.add(CanNode::new(device(1000).with_node_id(node_id(9).unwrap())));
+    bus.add(CanNode::new(device(1000).with_node_id(node_id(9))));
     bus
 }
 
@@ -92,8 +93,8 @@ fn async_scan() {
     assert_eq!(now(master.configure_node_id_async(node_id(3))), Ok(()));
     assert_eq!(now(master.switch_global_async(LssState::Waiting)), Ok(()));
     assert_eq!(now(master.fast_scan_async()), Ok(None));
-    // 133 steps, five answers whose window has to pass, and one step of the second scan.
-    assert_eq!(CanPort::now(master.port()).unwrap() - start, Duration::from_millis(2 * (133 + 5 + 1)));
+    // 133 steps, four answers whose window has to pass, one answer and two unanswered steps whose timeout has to pass.
+    assert_eq!(CanPort::now(master.port()).unwrap() - start, Duration::from_millis(2 * (133 + 4) + 3 * 500));
 }
 
 #[test]
@@ -102,16 +103,16 @@ fn a_configured_node_gets_a_new_node_id() {
     boot_ups(master.port());
     assert_eq!(master.switch_selective(address(1001)), Err(LssError::Timeout));
     assert_eq!(master.switch_selective(address(1000)), Ok(()));
-    assert_eq!(master.inquire_node_id(), Ok(node_id(9)));
+    assert_eq!(master.inquire_node_id(), Ok(Some(node_id(9))));
     assert_eq!(master.inquire(IdentityPart::SerialNumber), Ok(1000));
     assert_eq!(master.configure_node_id(node_id(10)), Ok(()));
     assert_eq!(master.configure_bit_timing(0, 5), Err(LssError::Refused(Refusal::NOT_SUPPORTED)));
     assert_eq!(master.switch_global(LssState::Waiting), Ok(()));
     assert_eq!(boot_ups(master.port()), []);
-    CanPort::send(master.port(), &NmtCommand::ResetCommunication.frame(node_id(9)), Duration::ZERO).unwrap();
+    CanPort::send(master.port(), &NmtCommand::ResetCommunication.frame(Some(node_id(9))), Duration::ZERO).unwrap();
     assert_eq!(boot_ups(master.port()), [0x70A]);
     // The node-ID was not stored.
-    CanPort::send(master.port(), &NmtCommand::ResetNode.frame(node_id(10)), Duration::ZERO).unwrap();
+    CanPort::send(master.port(), &NmtCommand::ResetNode.frame(Some(node_id(10))), Duration::ZERO).unwrap();
     assert_eq!(boot_ups(master.port()), [0x709]);
 }
 
@@ -141,4 +142,17 @@ fn several_nodes_in_configuration() {
     assert_eq!(master.switch_global(LssState::Configuration), Ok(()));
     assert_eq!(master.configure_node_id(node_id(5)), Err(LssError::SeveralAnswers));
     assert_eq!(master.inquire_address(), Err(LssError::SeveralAnswers));
+    // None of them uses the node-ID after a retry.
+    assert_eq!(master.fast_scan(), Err(LssError::SeveralAnswers));
+    let nodes = master.port().nodes();
+    assert_eq!(nodes.iter().map(CanNode::node_id).collect::<Vec<_>>(), [None, None, Some(node_id(9))]);
+}
+
+#[test]
+fn a_selected_node_is_the_only_one_in_configuration() {
+    let mut master = LssMaster::new(bus(&[7])).with_pause(Duration::from_millis(5));
+    assert_eq!(master.switch_global(LssState::Configuration), Ok(()));
+    assert_eq!(master.switch_selective(address(1000)), Ok(()));
+    assert_eq!(master.configure_node_id(node_id(10)), Ok(()));
+    assert_eq!(master.remove_node_id(), Ok(()));
 }

@@ -47,7 +47,7 @@ impl CanNode {
         self.settle();
     }
 
-    fn enter(&mut self, state: NmtState) {
+    pub(super) fn enter(&mut self, state: NmtState) {
         if self.state != state {
             self.pdos = Pdos::default();
         }

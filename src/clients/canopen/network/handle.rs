@@ -5,10 +5,10 @@ use core::task::Poll;
 use core::time::Duration;
 
 use super::super::frame::CanFrame;
-use super::super::port::{AsyncCanPort, CanPort};
+use super::super::port::{AsyncCanPort, CanPort, MOST_WAITING};
 use super::{Network, NetworkPort};
 
-/// Longest time for which an async handle waits for a frame before the other handles get the interface.
+/// Longest time for which an async handle uses the interface before the other handles get the interface.
 const SLICE: Duration = Duration::from_millis(1);
 
 /// The interface while a handle uses it. It returns to the network even if the future that uses it is dropped.
@@ -21,6 +21,7 @@ impl<P, const N: usize> Drop for Used<'_, P, N> {
     fn drop(&mut self) {
         if let Some(port) = self.port.take() {
             self.network.port.set(Some(port));
+            self.network.turn.set(self.network.turn.get().wrapping_add(1));
             self.network.wake();
         }
     }
@@ -30,6 +31,7 @@ impl<P, const N: usize> Used<'_, P, N> {
     /// Returns the interface to the network. Returns whether other handles wait for it.
     fn release(mut self) -> bool {
         self.network.port.set(self.port.take());
+        self.network.turn.set(self.network.turn.get().wrapping_add(1));
         self.network.wake()
     }
 }
@@ -101,12 +103,12 @@ impl<P: CanPort, const N: usize> CanPort for NetworkPort<'_, P, N> {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, P::Error> {
-        let (network, node) = (self.network, self.node);
-        if let Some(frame) = network.take(node, wanted) {
+        let (network, owner) = (self.network, self.owner);
+        if let Some(frame) = network.take(owner, wanted) {
             return Ok(Some(frame));
         }
         match self.using(P::now).as_mut().and_then(|used| used.port.as_mut()) {
-            Some(port) => port.receive(patience, &mut |frame| network.dispatch(node, frame, wanted)),
+            Some(port) => port.receive(patience, &mut |frame| network.dispatch(owner, frame, wanted)),
             None => Ok(None),
         }
     }
@@ -116,21 +118,34 @@ impl<P: CanPort, const N: usize> CanPort for NetworkPort<'_, P, N> {
     }
 }
 
+/// Without patience, a handle waits until the handle that uses the interface returns it, at most 1 ms. Therefore, don't keep
+/// a future of another handle that is no longer polled; drop it.
+///
 /// While another handle uses the interface, [`now`](AsyncCanPort::now) returns the time at which it took the interface.
 impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
     type Error = P::Error;
 
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
-        let start = AsyncCanPort::now(self);
+        let (start, mut waited, turn) = (AsyncCanPort::now(self), Duration::ZERO, self.network.turn.get());
         loop {
-            let waited = elapsed(start, AsyncCanPort::now(self), Duration::ZERO);
-            if let Some(port) = self.using(P::now).as_mut().and_then(|used| used.port.as_mut()) {
-                return port.send(frame, patience.saturating_sub(waited)).await;
+            let left = patience.saturating_sub(elapsed(start, AsyncCanPort::now(self), waited));
+            let mut used = self.using(P::now);
+            let Some(port) = used.as_mut().and_then(|used| used.port.as_mut()) else {
+                if left.is_zero() && self.network.turn.get() != turn {
+                    return Ok(false);
+                }
+                self.pause().await;
+                continue;
+            };
+            let slice = left.min(SLICE);
+            let is_sent = port.send(frame, slice).await?;
+            if is_sent || left <= slice {
+                return Ok(is_sent);
             }
-            if waited > patience {
-                return Ok(false);
+            waited += slice;
+            if used.is_some_and(Used::release) {
+                self.give_way().await;
             }
-            self.pause().await;
         }
     }
 
@@ -139,25 +154,24 @@ impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, P::Error> {
-        let (network, node) = (self.network, self.node);
-        let (start, mut waited) = (AsyncCanPort::now(self), Duration::ZERO);
+        let (network, owner) = (self.network, self.owner);
+        let (start, mut waited, turn) = (AsyncCanPort::now(self), Duration::ZERO, self.network.turn.get());
         loop {
-            if let Some(frame) = network.take(node, wanted) {
+            if let Some(frame) = network.take(owner, wanted) {
                 return Ok(Some(frame));
             }
             let left = patience.saturating_sub(elapsed(start, AsyncCanPort::now(self), waited));
-            let is_shared = network.nodes.get().count_ones() > 1;
-            let slice = if is_shared { left.min(SLICE) } else { left };
+            let slice = left.min(SLICE);
             let mut used = self.using(P::now);
             let Some(port) = used.as_mut().and_then(|used| used.port.as_mut()) else {
-                // The handle that uses the interface keeps the frames of this one.
-                if left.is_zero() {
+                // The handle that uses the interface keeps the frames of this one. The interface may have more frames.
+                if left.is_zero() && self.network.turn.get() != turn {
                     return Ok(None);
                 }
                 self.pause().await;
                 continue;
             };
-            let frame = port.receive(slice, &mut |frame| network.dispatch(node, frame, wanted)).await?;
+            let frame = port.receive(slice, &mut |frame| network.dispatch(owner, frame, wanted)).await?;
             if frame.is_some() || left <= slice {
                 return Ok(frame);
             }
@@ -172,3 +186,28 @@ impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
         self.time(P::now)
     }
 }
+
+macro_rules! clear {
+    ($Port:ident $clear:ident $($async:ident $await:ident)?) => {
+        impl<P: $Port, const N: usize> NetworkPort<'_, P, N> {
+            /// Discards all frames of the node that have already arrived: those that the network has kept and those in the
+            /// receive queue of the interface. All frames that are received afterwards arrived after this call. Frames of
+            /// other handles are kept.
+            ///
+            /// # Errors
+            ///
+            /// Returns the errors of the interface.
+            pub $($async)? fn $clear(&mut self) -> Result<(), P::Error> {
+                for _ in 0..MOST_WAITING {
+                    if $Port::receive(self, Duration::ZERO, &mut |_| true)$(.$await)??.is_none() {
+                        break;
+                    }
+                }
+                Ok(())
+            }
+        }
+    };
+}
+
+clear! { CanPort clear }
+clear! { AsyncCanPort clear_async async await }

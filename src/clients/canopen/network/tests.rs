@@ -2,14 +2,13 @@
 
 use core::pin::pin;
 use core::task::Context;
-use std::sync::Arc;
-use std::task::Wake;
 use std::vec::Vec;
 
 use super::*;
 use crate::bus::Object;
 use crate::client::{AsyncClient, Client};
-use crate::clients::canopen::{AsyncCanPort, CanPort, NmtState, Node};
+use crate::clients::canopen::slow::silent;
+use crate::clients::canopen::{AsyncCanPort, CanPort, NmtCommand, NmtState, Node};
 use crate::data_type::DataType;
 use crate::emergency::Emergency;
 use crate::error::Error;
@@ -19,7 +18,7 @@ use crate::sim::{CanBus, CanNode, Device};
 use crate::table::{AccessRights, Bound, Entry, RawInitial};
 
 const TEXT: Object = Object::new(0x2000, 0);
-const PDO: CobId = CobId::from_node(0x180);
+pub(super) const PDO: CobId = CobId::from_node(0x180);
 
 const fn entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
     Entry {
@@ -36,7 +35,7 @@ const fn entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
     }
 }
 
-fn id(node: u8) -> NodeId {
+pub(super) fn id(node: u8) -> NodeId {
     NodeId::new(node).expect("a node-ID")
 }
 
@@ -101,9 +100,11 @@ fn lost_emergencies_are_counted() {
     let network = busy::<2>();
     let [mut one, mut two] = [1, 2].map(|node| Node::new(network.node(id(node)), id(node)));
     assert_eq!(one.heartbeat(Duration::ZERO), Ok(Some(NmtState::Operational)));
-    assert_eq!(network.lost_emergencies(), 2);
+    assert_eq!(network.lost_emergencies(), 3);
     let codes: Vec<_> = core::iter::from_fn(|| two.emergency(Duration::ZERO).unwrap()).map(|it| it.code).collect();
-    assert_eq!(codes, [0x100A, 0x100F]);
+    assert_eq!(codes, [0x100F]);
+    // PDOs have half of the room.
+    assert!(two.latest_pdo(PDO).unwrap().is_some());
 }
 
 #[test]
@@ -119,15 +120,6 @@ fn two_nodes_side_by_side() {
     }
     // The boot-up message of node 2 arrived during the transfers of node 1.
     assert_eq!(two.wait_for(NmtState::BootUp, Duration::ZERO), Ok(()));
-}
-
-/// Returns a waker without effect.
-fn silent() -> Waker {
-    struct Silent;
-    impl Wake for Silent {
-        fn wake(self: Arc<Self>) {}
-    }
-    Arc::new(Silent).into()
 }
 
 /// Polls several futures in turn until all have ended.
@@ -210,5 +202,117 @@ fn a_dropped_future_returns_the_interface() {
         let mut context = Context::from_waker(&waker);
         assert!(core::future::Future::poll(future.as_mut(), &mut context).is_pending());
     }
+    drop(port);
     assert!(network.into_inner().is_some());
+}
+
+/// An interface that has received these frames.
+fn script(frames: impl IntoIterator<Item = CanFrame>) -> Script {
+    Script(frames.into_iter().collect())
+}
+
+pub(super) fn frame(id: u32, data: &[u8]) -> CanFrame {
+    CanFrame::new(id, data).expect("a frame")
+}
+
+#[test]
+fn frames_that_nobody_receives_leave_room_for_pdos() {
+    let mut frames = Vec::new();
+    for byte in 0..20 {
+        frames.extend([0x701, 0x702].map(|id| frame(id, &[5])));
+        frames.extend([0x601, 0x602, 0x202].map(|id| frame(id, &[0; 8])));
+        frames.extend(CanFrame::remote(0x182, 2));
+        frames.extend([1, 2].map(|node| Emergency { code: 0x1000, register: 1, vendor: [0; 5] }.frame(id(node))));
+        frames.extend([0x181, 0x182].map(|id| frame(id, &[byte])));
+    }
+    let network = Network::<_, 8>::new(script(frames));
+    let [mut one, mut two] = [1, 2].map(|node| Node::new(network.node(id(node)), id(node)));
+    let newest = |pdo: Result<Option<CanFrame>, _>| pdo.map(|pdo| pdo.map(|pdo| pdo.data()[0]));
+    assert_eq!((newest(one.latest_pdo(PDO)), newest(two.latest_pdo(PDO))), (Ok(Some(19)), Ok(Some(19))));
+}
+
+#[test]
+fn a_dead_node_is_operational_only_once() {
+    let beats = (0..20).map(|_| frame(0x701, &[5]));
+    let network = Network::<_, 8>::new(script(beats));
+    let [mut one, mut two] = [1, 2].map(|node| Node::new(network.node(id(node)), id(node)));
+    assert_eq!(two.heartbeat(Duration::ZERO), Ok(None));
+    let states = [(); 2].map(|()| one.heartbeat(Duration::ZERO).unwrap());
+    assert_eq!(states, [Some(NmtState::Operational), None]);
+    // Without a network, too. A restart is not missed.
+    let beats = [5, 5, 0, 0x7F, 5].map(|state| frame(0x701, &[state]));
+    let mut alone = Node::new(script(beats), id(1));
+    let states = [(); 3].map(|()| alone.heartbeat(Duration::ZERO).unwrap());
+    assert_eq!(states, [Some(NmtState::BootUp), Some(NmtState::Operational), None]);
+}
+
+#[test]
+fn an_old_boot_up_message_doesnt_confirm_a_restart() {
+    let network = Network::<_, 8>::new(script([frame(0x701, &[0]), frame(0x181, &[7]), frame(0x701, &[0])]));
+    let [mut one, mut two] = [1, 2].map(|node| Node::new(network.node(id(node)), id(node)));
+    assert_eq!(two.latest_pdo(PDO), Ok(None));
+    one.nmt(NmtCommand::ResetNode).unwrap();
+    assert_eq!(one.wait_for(NmtState::BootUp, Duration::ZERO), Err(Error::Timeout));
+    assert!(one.latest_pdo(PDO).unwrap().is_some());
+    let mut alone = Node::new(script([frame(0x701, &[0])]), id(1));
+    alone.nmt(NmtCommand::ResetCommunication).unwrap();
+    assert_eq!(alone.wait_for(NmtState::BootUp, Duration::ZERO), Err(Error::Timeout));
+}
+
+#[test]
+fn a_handle_discards_only_its_own_frames() {
+    let network = Network::<_, 8>::new(script([0x181, 0x182, 0x281, 0x282].map(|id| frame(id, &[1]))));
+    let [mut one, mut two] = [1, 2].map(|node| Node::new(network.node(id(node)), id(node)));
+    assert!(one.latest_pdo(CobId::from_node(0x280)).unwrap().is_some());
+    one.port().clear().unwrap();
+    assert_eq!(one.latest_pdo(PDO), Ok(None));
+    assert!(two.latest_pdo(PDO).unwrap().is_some());
+    assert!(two.latest_pdo(CobId::from_node(0x280)).unwrap().is_some());
+}
+
+#[test]
+fn added_cob_ids() {
+    const WIDE: u32 = CanFrame::EXTENDED | 0x185;
+    let emergency = |code| Emergency { code, register: 1, vendor: [0; 5] }.to_bytes();
+    let mut frames: Vec<_> = (0..20).map(|byte| frame(WIDE, &[byte])).collect();
+    frames.extend([1, 2].map(|code| frame(0x190, &emergency(code))));
+    frames.push(frame(0x1C5, &[3]));
+    let network = Network::<_, 8>::new(script(frames));
+    let port = network.node(id(1)).with_pdo(CobId::fixed(WIDE)).and_then(|port| port.with_emergency(0x190));
+    let mut one = Node::new(port.expect("room"), id(1)).with_emergency_id(0x190);
+    let mut two = Node::new(network.node(id(2)), id(2));
+    assert_eq!(two.heartbeat(Duration::ZERO), Ok(None));
+    assert_eq!(one.latest_pdo(CobId::fixed(WIDE)).unwrap().map(|pdo| pdo.data()[0]), Some(19));
+    let codes: Vec<_> = core::iter::from_fn(|| one.emergency(Duration::ZERO).unwrap()).map(|it| it.code).collect();
+    assert_eq!((codes, network.lost()), (std::vec![1, 2], 0));
+    // A COB-ID belongs to one node, until the last handle of the node is dropped.
+    assert!(network.node(id(2)).with_pdo(CobId::fixed(WIDE)).is_none());
+    assert!(network.node(id(2)).with_pdo(CobId::fixed(0x701)).is_none());
+    assert!(network.services().with_emergency(0x191).is_none());
+    drop(one);
+    assert!(network.node(id(2)).with_pdo(CobId::fixed(WIDE)).is_some());
+}
+
+#[test]
+fn frames_of_nodes_without_a_handle() {
+    let network = Network::<_, 8>::new(script([frame(0x1C5, &[3]), frame(0x181, &[4])]));
+    // This COB-ID is a default one of node 69, which doesn't exist.
+    let mut two = Node::new(network.node(id(2)), id(2));
+    let one = network.node(id(1));
+    assert!(two.latest_pdo(CobId::fixed(0x1C5)).unwrap().is_some());
+    assert_eq!(two.latest_pdo(PDO), Ok(None));
+    drop(one);
+    // The frames of a handle that was dropped are discarded.
+    assert_eq!(Node::new(network.node(id(1)), id(1)).latest_pdo(PDO), Ok(None));
+}
+
+#[test]
+fn lss_answers_are_kept_for_the_services() {
+    let answer = frame(0x7E4, &[0x11, 0, 0, 0, 0, 0, 0, 0]);
+    let network = Network::<_, 8>::new(script([answer, frame(0x100, &[1, 0, 0, 0, 2, 0]), answer]));
+    let (mut services, mut one) = (network.services(), Node::new(network.node(id(1)), id(1)));
+    assert_eq!((one.heartbeat(Duration::ZERO), one.time(Duration::ZERO)), (Ok(None), Ok(None)));
+    let mut answers = || services.receive(Duration::ZERO, &mut |frame| frame.id() == 0x7E4).unwrap();
+    assert_eq!([answers(), answers(), answers()], [Some(answer), Some(answer), None]);
+    assert!(Node::new(services, id(1)).time(Duration::ZERO).unwrap().is_some());
 }

@@ -1,0 +1,100 @@
+//! Search for slaves that have no node-ID.
+
+use super::super::port::{AsyncCanPort, CanPort, BACKLOG};
+use super::LssMaster;
+use crate::lss::{is_identified, FastScan, LssAddress, LssError, LssState, Service};
+
+macro_rules! scan {
+    (
+        $Port:ident: $has_unconfigured:ident $fast_scan:ident $step:ident $await_start:ident
+        $switch_global:ident $inquire_address:ident $send:ident $receive:ident $run:ident $($async:ident $await:ident)?
+    ) => {
+        impl<P: $Port> LssMaster<P> {
+            /// Returns whether there are slaves in Waiting that have no node-ID. [`fast_scan`](Self::fast_scan) finds
+            /// them.
+            ///
+            /// # Errors
+            ///
+            /// Returns [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            pub $($async)? fn $has_unconfigured(&mut self) -> Result<bool, LssError<P::Error>> {
+                let result = self.$run(Service::IdentifyUnconfigured)$(.$await)?;
+                match result {
+                    Err(LssError::Timeout) => {
+                        // That no slave answers is the answer, and no late answer is expected.
+                        self.owed = None;
+                        Ok(false)
+                    }
+                    result => result.map(|_| true),
+                }
+            }
+
+            /// Finds a slave that has no node-ID, returns its address, and leaves it in the state Configuration. Returns
+            /// `None` if all slaves have a node-ID: none has answered two requests within the timeout. Switches all slaves to
+            /// Waiting first.
+            ///
+            /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master compares the address
+            /// with the answers to inquiries, so an answer that is lost or late doesn't lead to a wrong address. To
+            /// find all slaves, give each one a node-ID, switch it to Waiting, and repeat the scan.
+            ///
+            /// # Errors
+            ///
+            /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
+            /// - [`LssError::Timeout`] if the slave doesn't answer the inquiries.
+            /// - [`LssError::SeveralAnswers`] if several slaves have the same address.
+            /// - [`LssError::Inconclusive`] if an answer was lost, or later than the window. If this error persists, use a
+            ///   longer [window](Self::with_window).
+            pub $($async)? fn $fast_scan(&mut self) -> Result<Option<LssAddress>, LssError<P::Error>> {
+                self.$switch_global(LssState::Waiting)$(.$await)??;
+                let mut scan = FastScan::new();
+                while let Some(request) = scan.next() {
+                    self.$send(request)$(.$await)??;
+                    let is_answered = self.$step(&mut scan)$(.$await)??;
+                    if scan.is_start() && !is_answered {
+                        // Only slaves that don't answer at all have a node-ID: an answer may be late, or lost once.
+                        self.$await_start()$(.$await)??;
+                        self.$send(request)$(.$await)??;
+                        if !self.$step(&mut scan)$(.$await)?? {
+                            self.$await_start()$(.$await)??;
+                        }
+                    }
+                    scan.time_out();
+                }
+                let Some(address) = scan.result().map_err(LssError::of_client)? else { return Ok(None) };
+                let inquired = self.$inquire_address()$(.$await)??;
+                if inquired == address { Ok(Some(address)) } else { Err(LssError::Inconclusive) }
+            }
+
+            /// Collects the answers to a fastscan request for the duration of the window. Returns whether there are any.
+            $($async)? fn $step(&mut self, scan: &mut FastScan) -> Result<bool, LssError<P::Error>> {
+                let start = self.port.now();
+                let mut patience = self.window;
+                let mut is_answered = false;
+                for _ in 0..BACKLOG {
+                    let answer = self.$receive(patience, &|message| is_identified(message))$(.$await)??;
+                    let Some(message) = answer else { break };
+                    is_answered = true;
+                    scan.handle(&message);
+                    let elapsed = start.zip(self.port.now()).map(|(start, now)| now.saturating_sub(start));
+                    patience = self.window.saturating_sub(elapsed.unwrap_or_default());
+                }
+                Ok(is_answered)
+            }
+
+            /// Waits for an answer to the start of a scan that is later than the window, for the rest of the timeout.
+            $($async)? fn $await_start(&mut self) -> Result<(), LssError<P::Error>> {
+                let rest = self.timeout.saturating_sub(self.window);
+                let late = self.$receive(rest, &|message| is_identified(message))$(.$await)??;
+                late.map_or(Ok(()), |_| Err(LssError::Inconclusive))
+            }
+        }
+    };
+}
+
+scan! {
+    CanPort: has_unconfigured fast_scan step await_start
+    switch_global inquire_address send receive run
+}
+scan! {
+    AsyncCanPort: has_unconfigured_async fast_scan_async step_async await_start_async
+    switch_global_async inquire_address_async send_async receive_async run_async async await
+}
