@@ -3,7 +3,7 @@
 use core::error;
 use core::fmt;
 
-/// Reason why a device refused an SDO transfer (CiA 301 7.2.4.3.17). Any code is allowed; [`text`](Self::text)
+/// Abort code of an SDO transfer: the reason why client or server aborted it (CiA 301 7.2.4.3.17). Any code is allowed; [`text`](Self::text)
 /// describes the codes of the standard.
 ///
 /// ```

@@ -54,7 +54,7 @@ impl SdoWrite {
         Self::new(index, sub_index, value, 8)
     }
 
-    /// Creates a write of a value of any type and length, encoded as on the device. The least significant byte of a
+    /// Creates a write of an already encoded value of any type and length. The least significant byte of a
     /// number comes first.
     #[must_use]
     pub const fn new_bytes(index: u16, sub_index: u8, value: &'static [u8]) -> Self {

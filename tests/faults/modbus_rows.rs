@@ -80,7 +80,7 @@ fn twice(is_rtu: bool, world: &Shared, fault: Fault, kind: Kind) -> Twice {
     })
 }
 
-/// A blocking link in simulated time, and a function that returns this time.
+/// Returns a blocking link that runs in simulated time, and a function that returns this time.
 fn blocking(is_rtu: bool, world: &Shared) -> (BlockingLink<tokio::io::DuplexStream>, impl Fn() -> Instant) {
     let mut handle = None;
     let link = BlockingLink::open(async {

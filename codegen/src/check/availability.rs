@@ -47,7 +47,7 @@ fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut
     for text in [&availability.since, &availability.until].into_iter().flatten() {
         if version(text).is_none() {
             let message =
-                format!("{what} has the firmware version `{}`, which does not have the form `6.15`", brief(text));
+                format!("{what} names the firmware version `{}`, which does not have the form `6.15`", brief(text));
             let found = codes::VERSION_FORM.at(span, message).label("not compared with other versions");
             diagnostics.push(found.help(match corrected(text) {
                 Some(version) => format!("write `{version}`"),

@@ -217,16 +217,16 @@ impl Mapping<'_, '_> {
         }
         let Some(item) = device.entry(0x1004, 0) else { return };
         let Some(value) = item.initial().and_then(Value::as_int) else { return };
-        let counted = match self.direction {
-            Direction::Receive => value >> 16 & 0xFFFF,
-            Direction::Transmit => value & 0xFFFF,
+        let (counted, noun) = match self.direction {
+            Direction::Receive => (value >> 16 & 0xFFFF, "RPDO"),
+            Direction::Transmit => (value & 0xFFFF, "TPDO"),
         };
         if counted != i128::from(announced) {
             let span = item.at.configured.or(item.at.default).or(item.origin.span);
             self.report(
                 &codes::PDO_COUNT_1004,
                 span,
-                format!("0x1004 declares {}, but {key} is {announced}", count_of(counted, "PDO")),
+                format!("0x1004 declares {}, but {key} is {announced}", count_of(counted, noun)),
             );
         }
     }

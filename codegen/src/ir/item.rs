@@ -53,7 +53,7 @@ pub struct Item {
     pub shared_by_axes: bool,
     /// ObjFlags of CiA 306: bit 0 = refuse write on download, bit 1 = refuse read on scan. Other bits are stored unchanged.
     pub flags: u32,
-    /// Description of the item from the source.
+    /// Description of the item, as in the description file.
     pub documentation: Option<Box<Documentation>>,
     /// Ambiguities in the source about the item, with the assumptions made.
     pub doubts: Doubts,

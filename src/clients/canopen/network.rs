@@ -40,7 +40,7 @@ const MOST_WAKERS: usize = 16;
 /// - Discarded frames are counted: [`lost`](Self::lost) counts all of them, and
 ///   [`lost_emergencies`](Self::lost_emergencies) counts the emergency messages.
 ///
-/// No frame is lost if `N` is at least twice the number of PDOs, plus four for each node, and emergency messages are
+/// The network discards no frame for lack of room if `N` is at least twice the number of PDOs, plus four for each node, and emergency messages are
 /// received as fast as they arrive.
 ///
 /// ```

@@ -43,8 +43,8 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
     exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
 }
 
-/// Removes differences that the notes count: units without a number, and the numbers that make names of types and
-/// sub-items unique. Returns how many units and names were changed.
+/// Removes differences that the notes count: units for which ESI has no code, and numeric suffixes that make the names
+/// of types and sub-items unique. Returns how many units and names were changed.
 fn take_noted(before: &mut Value, after: &mut Value) -> (usize, usize) {
     let add = |sum: (usize, usize), more: (usize, usize)| (sum.0 + more.0, sum.1 + more.1);
     match (before, after) {

@@ -71,7 +71,10 @@ impl Request {
             problems.push(format!("starts at the address 0x{:04X}, which no row has", self.start));
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
-            problems.push(format!("covers {}, but no item ends in the last register", count_of(quantity, "register")));
+            problems.push(format!(
+                "covers {}, but no item ends at the end of the last one",
+                count_of(quantity, "register")
+            ));
         }
         if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
         {

@@ -121,7 +121,7 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     )
 }
 
-/// Returns the mapping of a PDO. If the PDO has a struct, refers to the mapping constant of the struct.
+/// Returns the mapping of a PDO. The returned code refers to the mapping constant of the PDO's struct if the PDO has a struct.
 fn mapping(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
     match models.of(pdo) {
         Some(model) => Doc::from(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
