@@ -1315,22 +1315,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CommunicationState> for u8 {
+    impl core::convert::From<CommunicationState> for u8 {
         fn from(value: CommunicationState) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for CommunicationState {
+    impl core::convert::From<u8> for CommunicationState {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CommunicationState {
+    impl core::cmp::PartialEq for CommunicationState {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CommunicationState {}
+    impl core::cmp::Eq for CommunicationState {}
     impl core::hash::Hash for CommunicationState {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1413,22 +1413,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AlStatusCode> for u16 {
+    impl core::convert::From<AlStatusCode> for u16 {
         fn from(value: AlStatusCode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for AlStatusCode {
+    impl core::convert::From<u16> for AlStatusCode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for AlStatusCode {
+    impl core::cmp::PartialEq for AlStatusCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AlStatusCode {}
+    impl core::cmp::Eq for AlStatusCode {}
     impl core::hash::Hash for AlStatusCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1492,17 +1492,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ControlWordTarget> for u8 {
+    impl core::convert::From<ControlWordTarget> for u8 {
         fn from(value: ControlWordTarget) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ControlWordTarget {
+    impl core::cmp::PartialEq for ControlWordTarget {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ControlWordTarget {}
+    impl core::cmp::Eq for ControlWordTarget {}
     impl core::hash::Hash for ControlWordTarget {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1602,22 +1602,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModesOfOperation> for i8 {
+    impl core::convert::From<ModesOfOperation> for i8 {
         fn from(value: ModesOfOperation) -> Self {
             value.raw()
         }
     }
-    impl From<i8> for ModesOfOperation {
+    impl core::convert::From<i8> for ModesOfOperation {
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModesOfOperation {
+    impl core::cmp::PartialEq for ModesOfOperation {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModesOfOperation {}
+    impl core::cmp::Eq for ModesOfOperation {}
     impl core::hash::Hash for ModesOfOperation {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1703,22 +1703,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LatchControlRead> for u8 {
+    impl core::convert::From<LatchControlRead> for u8 {
         fn from(value: LatchControlRead) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for LatchControlRead {
+    impl core::convert::From<u8> for LatchControlRead {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for LatchControlRead {
+    impl core::cmp::PartialEq for LatchControlRead {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LatchControlRead {}
+    impl core::cmp::Eq for LatchControlRead {}
     impl core::hash::Hash for LatchControlRead {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1802,22 +1802,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LatchStatusAcquired> for u8 {
+    impl core::convert::From<LatchStatusAcquired> for u8 {
         fn from(value: LatchStatusAcquired) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for LatchStatusAcquired {
+    impl core::convert::From<u8> for LatchStatusAcquired {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for LatchStatusAcquired {
+    impl core::cmp::PartialEq for LatchStatusAcquired {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LatchStatusAcquired {}
+    impl core::cmp::Eq for LatchStatusAcquired {}
     impl core::hash::Hash for LatchStatusAcquired {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1886,22 +1886,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<Synchronization> for u8 {
+    impl core::convert::From<Synchronization> for u8 {
         fn from(value: Synchronization) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for Synchronization {
+    impl core::convert::From<u8> for Synchronization {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for Synchronization {
+    impl core::cmp::PartialEq for Synchronization {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for Synchronization {}
+    impl core::cmp::Eq for Synchronization {}
     impl core::hash::Hash for Synchronization {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1968,22 +1968,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SynchronizationSupervision> for u8 {
+    impl core::convert::From<SynchronizationSupervision> for u8 {
         fn from(value: SynchronizationSupervision) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for SynchronizationSupervision {
+    impl core::convert::From<u8> for SynchronizationSupervision {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SynchronizationSupervision {
+    impl core::cmp::PartialEq for SynchronizationSupervision {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SynchronizationSupervision {}
+    impl core::cmp::Eq for SynchronizationSupervision {}
     impl core::hash::Hash for SynchronizationSupervision {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -2055,22 +2055,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<MailboxTypeProtocol> for u8 {
+    impl core::convert::From<MailboxTypeProtocol> for u8 {
         fn from(value: MailboxTypeProtocol) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for MailboxTypeProtocol {
+    impl core::convert::From<u8> for MailboxTypeProtocol {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for MailboxTypeProtocol {
+    impl core::cmp::PartialEq for MailboxTypeProtocol {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for MailboxTypeProtocol {}
+    impl core::cmp::Eq for MailboxTypeProtocol {}
     impl core::hash::Hash for MailboxTypeProtocol {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -2182,22 +2182,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CoeService> for u8 {
+    impl core::convert::From<CoeService> for u8 {
         fn from(value: CoeService) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for CoeService {
+    impl core::convert::From<u8> for CoeService {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CoeService {
+    impl core::cmp::PartialEq for CoeService {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CoeService {}
+    impl core::cmp::Eq for CoeService {}
     impl core::hash::Hash for CoeService {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -2293,22 +2293,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SdoCommand> for u8 {
+    impl core::convert::From<SdoCommand> for u8 {
         fn from(value: SdoCommand) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for SdoCommand {
+    impl core::convert::From<u8> for SdoCommand {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SdoCommand {
+    impl core::cmp::PartialEq for SdoCommand {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SdoCommand {}
+    impl core::cmp::Eq for SdoCommand {}
     impl core::hash::Hash for SdoCommand {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -2407,22 +2407,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SdoResult> for u8 {
+    impl core::convert::From<SdoResult> for u8 {
         fn from(value: SdoResult) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for SdoResult {
+    impl core::convert::From<u8> for SdoResult {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SdoResult {
+    impl core::cmp::PartialEq for SdoResult {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SdoResult {}
+    impl core::cmp::Eq for SdoResult {}
     impl core::hash::Hash for SdoResult {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4626,7 +4626,7 @@ pub mod codes {
     /// | 0x0000 | [`NoError`](Self::NoError) |
     /// | 0x0011 | [`InvalidRequestedStateChange`](Self::InvalidRequestedStateChange) |
     /// | 0x0017 | [`InvalidSyncManagerConfiguration`](Self::InvalidSyncManagerConfiguration) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum AlStatus {
         /// 0x0000: no error. Manual: 4\.3.3 Codice dello stato AL (indirizzo 0x0134:0x0135): Nessun errore.
         NoError,
@@ -4657,6 +4657,17 @@ pub mod codes {
                 Self::InvalidSyncManagerConfiguration => 0x17,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for AlStatus {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for AlStatus {}
+    impl core::hash::Hash for AlStatus {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
     /// operating\_modes.
@@ -4700,7 +4711,7 @@ pub mod codes {
     /// | 3 | [`ProfileVelocity`](Self::ProfileVelocity) | The drive follows cyclic velocity set-points from the master. |
     /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) | The drive follows cyclic position set-points from the master. |
     /// | 6 | [`Homing`](Self::Homing) | The drive performs its internal homing. |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum OperatingModes {
         /// 3: profile velocity. The drive follows cyclic velocity set-points from the master. Manual: 4\.8 Modalità di funzionamento supportate: Velocità del profilo.
         ProfileVelocity,
@@ -4733,6 +4744,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for OperatingModes {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for OperatingModes {}
+    impl core::hash::Hash for OperatingModes {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// faults.
     ///
     /// Faults of the drive. The manual names only one.
@@ -4754,7 +4776,7 @@ pub mod codes {
     /// | Code | Name | Meaning |
     /// |---|---|---|
     /// | F125 | [`SynchronizationLost`](Self::SynchronizationLost) | F125: the drive missed more than three CANopen SYNC messages or more than seven EtherCAT frames … |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Faults {
         /// F125: synchronization lost. F125: the drive missed more than three CANopen SYNC messages or more than seven EtherCAT frames while the drive was enabled and FBUS.PARAM04 was 1. Manual: 4\.14 Parametri del bus di campo: Sincronizzazione persa.
         SynchronizationLost,
@@ -4777,6 +4799,17 @@ pub mod codes {
                 Self::SynchronizationLost => 0x7D,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for Faults {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Faults {}
+    impl core::hash::Hash for Faults {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
 }

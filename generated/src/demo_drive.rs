@@ -547,22 +547,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModesOfOperation> for i8 {
+    impl core::convert::From<ModesOfOperation> for i8 {
         fn from(value: ModesOfOperation) -> Self {
             value.raw()
         }
     }
-    impl From<i8> for ModesOfOperation {
+    impl core::convert::From<i8> for ModesOfOperation {
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModesOfOperation {
+    impl core::cmp::PartialEq for ModesOfOperation {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModesOfOperation {}
+    impl core::cmp::Eq for ModesOfOperation {}
     impl core::hash::Hash for ModesOfOperation {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -666,22 +666,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<StoreParameters> for u32 {
+    impl core::convert::From<StoreParameters> for u32 {
         fn from(value: StoreParameters) -> Self {
             value.raw()
         }
     }
-    impl From<u32> for StoreParameters {
+    impl core::convert::From<u32> for StoreParameters {
         fn from(raw: u32) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for StoreParameters {
+    impl core::cmp::PartialEq for StoreParameters {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for StoreParameters {}
+    impl core::cmp::Eq for StoreParameters {}
     impl core::hash::Hash for StoreParameters {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -762,22 +762,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ReceiveType> for u8 {
+    impl core::convert::From<ReceiveType> for u8 {
         fn from(value: ReceiveType) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for ReceiveType {
+    impl core::convert::From<u8> for ReceiveType {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ReceiveType {
+    impl core::cmp::PartialEq for ReceiveType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ReceiveType {}
+    impl core::cmp::Eq for ReceiveType {}
     impl core::hash::Hash for ReceiveType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -873,22 +873,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TransmitType> for u8 {
+    impl core::convert::From<TransmitType> for u8 {
         fn from(value: TransmitType) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for TransmitType {
+    impl core::convert::From<u8> for TransmitType {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for TransmitType {
+    impl core::cmp::PartialEq for TransmitType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TransmitType {}
+    impl core::cmp::Eq for TransmitType {}
     impl core::hash::Hash for TransmitType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -2842,7 +2842,7 @@ pub mod codes {
     /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
     /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
     /// | 0xF004 | [`Control`](Self::Control) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
         ContinuousOverCurrent,
@@ -2995,6 +2995,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for DriveErrors {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for DriveErrors {}
+    impl core::hash::Hash for DriveErrors {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// emergency.
     ///
     /// Definition from CiA 301, 7.2.7.1.
@@ -3106,7 +3117,7 @@ pub mod codes {
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
     /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Emergency {
         /// 0x0000: no error. No error is present, or an error was reset.
         NoError,
@@ -3265,6 +3276,17 @@ pub mod codes {
                 Self::DeviceSpecific(code) => code,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for Emergency {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Emergency {}
+    impl core::hash::Hash for Emergency {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
 }

@@ -4035,22 +4035,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<Mode> for i8 {
+    impl core::convert::From<Mode> for i8 {
         fn from(value: Mode) -> Self {
             value.raw()
         }
     }
-    impl From<i8> for Mode {
+    impl core::convert::From<i8> for Mode {
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for Mode {
+    impl core::cmp::PartialEq for Mode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for Mode {}
+    impl core::cmp::Eq for Mode {}
     impl core::hash::Hash for Mode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4134,22 +4134,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HomingMethod> for u8 {
+    impl core::convert::From<HomingMethod> for u8 {
         fn from(value: HomingMethod) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for HomingMethod {
+    impl core::convert::From<u8> for HomingMethod {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for HomingMethod {
+    impl core::cmp::PartialEq for HomingMethod {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HomingMethod {}
+    impl core::cmp::Eq for HomingMethod {}
     impl core::hash::Hash for HomingMethod {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4225,22 +4225,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<MotionProfile> for i16 {
+    impl core::convert::From<MotionProfile> for i16 {
         fn from(value: MotionProfile) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for MotionProfile {
+    impl core::convert::From<i16> for MotionProfile {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for MotionProfile {
+    impl core::cmp::PartialEq for MotionProfile {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for MotionProfile {}
+    impl core::cmp::Eq for MotionProfile {}
     impl core::hash::Hash for MotionProfile {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4312,22 +4312,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<Exceptions> for u16 {
+    impl core::convert::From<Exceptions> for u16 {
         fn from(value: Exceptions) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for Exceptions {
+    impl core::convert::From<u16> for Exceptions {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for Exceptions {
+    impl core::cmp::PartialEq for Exceptions {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for Exceptions {}
+    impl core::cmp::Eq for Exceptions {}
     impl core::hash::Hash for Exceptions {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4435,22 +4435,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<MiniInputs> for u16 {
+    impl core::convert::From<MiniInputs> for u16 {
         fn from(value: MiniInputs) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for MiniInputs {
+    impl core::convert::From<u16> for MiniInputs {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for MiniInputs {
+    impl core::cmp::PartialEq for MiniInputs {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for MiniInputs {}
+    impl core::cmp::Eq for MiniInputs {}
     impl core::hash::Hash for MiniInputs {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4543,22 +4543,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<Network> for u16 {
+    impl core::convert::From<Network> for u16 {
         fn from(value: Network) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for Network {
+    impl core::convert::From<u16> for Network {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for Network {
+    impl core::cmp::PartialEq for Network {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for Network {}
+    impl core::cmp::Eq for Network {}
     impl core::hash::Hash for Network {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4670,22 +4670,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<BitRate> for u16 {
+    impl core::convert::From<BitRate> for u16 {
         fn from(value: BitRate) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for BitRate {
+    impl core::convert::From<u16> for BitRate {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for BitRate {
+    impl core::cmp::PartialEq for BitRate {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for BitRate {}
+    impl core::cmp::Eq for BitRate {}
     impl core::hash::Hash for BitRate {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4774,22 +4774,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TransmissionType> for u8 {
+    impl core::convert::From<TransmissionType> for u8 {
         fn from(value: TransmissionType) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for TransmissionType {
+    impl core::convert::From<u8> for TransmissionType {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for TransmissionType {
+    impl core::cmp::PartialEq for TransmissionType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TransmissionType {}
+    impl core::cmp::Eq for TransmissionType {}
     impl core::hash::Hash for TransmissionType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4868,17 +4868,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<StatuswordHoming> for u8 {
+    impl core::convert::From<StatuswordHoming> for u8 {
         fn from(value: StatuswordHoming) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for StatuswordHoming {
+    impl core::cmp::PartialEq for StatuswordHoming {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for StatuswordHoming {}
+    impl core::cmp::Eq for StatuswordHoming {}
     impl core::hash::Hash for StatuswordHoming {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -4972,22 +4972,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<StoreParameters> for u32 {
+    impl core::convert::From<StoreParameters> for u32 {
         fn from(value: StoreParameters) -> Self {
             value.raw()
         }
     }
-    impl From<u32> for StoreParameters {
+    impl core::convert::From<u32> for StoreParameters {
         fn from(raw: u32) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for StoreParameters {
+    impl core::cmp::PartialEq for StoreParameters {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for StoreParameters {}
+    impl core::cmp::Eq for StoreParameters {}
     impl core::hash::Hash for StoreParameters {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7825,7 +7825,7 @@ pub mod codes {
     /// | 24 | [`AbsoluteEncoderCommunication`](Self::AbsoluteEncoderCommunication) | Communication between the drive and the absolute encoder failed. |
     /// | 25 | [`AxisMovedAtPowerOn`](Self::AxisMovedAtPowerOn) | The absolute encoder detected a motion at power-on. |
     /// | 26 | [`ConfigurationNotAllowed`](Self::ConfigurationNotAllowed) | The selected mode is not compatible with an external encoder. |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum GeneralAlarms {
         /// 1: IGBT module. Over-current, over-temperature or short circuit in the power stage. Manual: Codici di Allarme: Allarme modulo IGBT.
         IgbtModule,
@@ -7920,6 +7920,17 @@ pub mod codes {
                 Self::ConfigurationNotAllowed => 0x1A,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for GeneralAlarms {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for GeneralAlarms {}
+    impl core::hash::Hash for GeneralAlarms {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
     /// ethercat\_alarms.
@@ -8163,7 +8174,7 @@ pub mod codes {
     /// | 33 | [`PdoMappingFailed`](Self::PdoMappingFailed) |  |
     /// | 34 | [`SynchronizationTimedOut`](Self::SynchronizationTimedOut) |  |
     /// | 35 | [`EepromOfEtherCatAtStart`](Self::EepromOfEtherCatAtStart) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum EthercatAlarms {
         /// 1: IGBT. Manual: Codici allarmi specifici: Problema IGBT.
         Igbt,
@@ -8296,6 +8307,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for EthercatAlarms {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for EthercatAlarms {}
+    impl core::hash::Hash for EthercatAlarms {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// profinet\_alarms.
     ///
     /// Alarms on PROFINET. The column "resettable" shows whether an alarm can be reset.
@@ -8353,7 +8375,7 @@ pub mod codes {
     /// | 32 | [`InitializationOfTheInterfacePhase2`](Self::InitializationOfTheInterfacePhase2) | initialization of the interface, phase 2. |
     /// | 33 | [`FieldbusNotStartedProperly`](Self::FieldbusNotStartedProperly) |  |
     /// | 34 | [`SynchronizationTimedOut`](Self::SynchronizationTimedOut) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ProfinetAlarms {
         /// 30: internal communication timed out. Manual: Codici allarmi specifici: Timeout comunicazione interna al Drive.
         InternalCommunicationTimedOut,
@@ -8392,6 +8414,17 @@ pub mod codes {
                 Self::SynchronizationTimedOut => 0x22,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for ProfinetAlarms {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for ProfinetAlarms {}
+    impl core::hash::Hash for ProfinetAlarms {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
     /// emergency.
@@ -8433,7 +8466,7 @@ pub mod codes {
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |
     /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Emergency {
         /// 0x0000 to 0x00FF: error reset or no error. Manual: Emergency Message.
         ErrorResetOrNoError(u16),
@@ -8502,6 +8535,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for Emergency {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Emergency {}
+    impl core::hash::Hash for Emergency {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// sdo\_abort.
     ///
     /// Main SDO abort codes, according to the manual.
@@ -8539,7 +8583,7 @@ pub mod codes {
     /// | 0x06070010 to 0x0607001F | [`DataTypeDoesNotMatch`](Self::DataTypeDoesNotMatch) |
     /// | 0x06090011 | [`SubIndexDoesNotExist`](Self::SubIndexDoesNotExist) |
     /// | 0x08000000 | [`GeneralError`](Self::GeneralError) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SdoAbort {
         /// 0x05030000: toggle bit not alternated. Manual: Device Configuration via SDOs.
         ToggleBitNotAlternated,
@@ -8593,6 +8637,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for SdoAbort {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for SdoAbort {}
+    impl core::hash::Hash for SdoAbort {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// nmt\_state.
     ///
     /// NMT state of a node in guarding and heartbeat messages. In guarding messages, bit 7 toggles in each message, unless a heartbeat is active.
@@ -8616,7 +8671,7 @@ pub mod codes {
     /// | 0x04 | [`Stopped`](Self::Stopped) |
     /// | 0x05 | [`Operational`](Self::Operational) |
     /// | 0x7F | [`PreOperational`](Self::PreOperational) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum NmtState {
         /// 0x00: boot-up. Manual: Node Monitoring via Node-Guarding or.
         BootUp,
@@ -8653,6 +8708,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for NmtState {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for NmtState {}
+    impl core::hash::Hash for NmtState {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// modbus\_exceptions.
     ///
     /// Modbus exceptions. The drive sends only exception 02, and sets bit 7 of the function code in the reply. The drive does not answer requests with other errors.
@@ -8672,7 +8738,7 @@ pub mod codes {
     /// | Code | Name |
     /// |---|---|
     /// | 0x02 | [`IllegalDataAddress`](Self::IllegalDataAddress) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum ModbusExceptions {
         /// 0x02: illegal data address. Manual: Eccezioni.
         IllegalDataAddress,
@@ -8695,6 +8761,17 @@ pub mod codes {
                 Self::IllegalDataAddress => 2,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for ModbusExceptions {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for ModbusExceptions {}
+    impl core::hash::Hash for ModbusExceptions {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
     /// mini\_inputs.
@@ -8796,7 +8873,7 @@ pub mod codes {
     /// | 4 | [`StartAndNegativeLimit`](Self::StartAndNegativeLimit) |  |
     /// | 5 | [`StartAndPositiveLimit`](Self::StartAndPositiveLimit) |  |
     /// | 6 | [`StartAndHome`](Self::StartAndHome) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum MiniInputs {
         /// 0: limits and home. Manual: digital\_inputs su MiniECO standard o miniECO PLUS.
         LimitsAndHome,
@@ -8843,6 +8920,17 @@ pub mod codes {
                 Self::StartAndHome => 6,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for MiniInputs {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for MiniInputs {}
+    impl core::hash::Hash for MiniInputs {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
     /// cn2\_pins.
@@ -8996,7 +9084,7 @@ pub mod codes {
     /// | 14 | [`Pin14`](Self::Pin14) |  |
     /// | 15 | [`Pin15`](Self::Pin15) | The start of positioning sets the output to low. The output becomes high when the distance to the … |
     /// | 16 | [`Pin16`](Self::Pin16) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Cn2Pins {
         /// 1: pin 1. A rising edge of the input starts positioning. In electronic gearing, a high level couples the axis to its master if the control word also commands it. Manual: Morsettiera CN2 ECO2/ECO4.
         Pin1,
@@ -9079,6 +9167,17 @@ pub mod codes {
                 Self::Pin16 => 0x10,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for Cn2Pins {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Cn2Pins {}
+    impl core::hash::Hash for Cn2Pins {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
 }

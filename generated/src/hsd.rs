@@ -8669,22 +8669,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HomingType> for u16 {
+    impl core::convert::From<HomingType> for u16 {
         fn from(value: HomingType) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for HomingType {
+    impl core::convert::From<u16> for HomingType {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for HomingType {
+    impl core::cmp::PartialEq for HomingType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HomingType {}
+    impl core::cmp::Eq for HomingType {}
     impl core::hash::Hash for HomingType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8789,22 +8789,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HomingState> for u16 {
+    impl core::convert::From<HomingState> for u16 {
         fn from(value: HomingState) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for HomingState {
+    impl core::convert::From<u16> for HomingState {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for HomingState {
+    impl core::cmp::PartialEq for HomingState {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HomingState {}
+    impl core::cmp::Eq for HomingState {}
     impl core::hash::Hash for HomingState {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8910,22 +8910,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<MotorType> for u16 {
+    impl core::convert::From<MotorType> for u16 {
         fn from(value: MotorType) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for MotorType {
+    impl core::convert::From<u16> for MotorType {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for MotorType {
+    impl core::cmp::PartialEq for MotorType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for MotorType {}
+    impl core::cmp::Eq for MotorType {}
     impl core::hash::Hash for MotorType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9083,22 +9083,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<State> for u16 {
+    impl core::convert::From<State> for u16 {
         fn from(value: State) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for State {
+    impl core::convert::From<u16> for State {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for State {
+    impl core::cmp::PartialEq for State {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for State {}
+    impl core::cmp::Eq for State {}
     impl core::hash::Hash for State {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10139,7 +10139,7 @@ pub mod codes {
     /// | 0x0014 | [`OverPower`](Self::OverPower) | The supply voltage exceeded 38 V. |
     /// | 0x0020 | [`ProcessorOverload`](Self::ProcessorOverload) | Internal software error of the drive. |
     /// | 0x0021 | [`WrongInterrupt`](Self::WrongInterrupt) | Internal software error of the drive. |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Alarm {
         /// 0x0000: no alarm. The motor works normally. Manual: D.1 Messaggi di ALLARME: NOALARM.
         NoAlarm,
@@ -10250,6 +10250,17 @@ pub mod codes {
                 Self::WrongInterrupt => 0x21,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for Alarm {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Alarm {}
+    impl core::hash::Hash for Alarm {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
     /// warning.
@@ -10387,7 +10398,7 @@ pub mod codes {
     /// | 0x4009 | [`NegativeLimitCam`](Self::NegativeLimitCam) | The motor has reached the negative limit switch. |
     /// | 0x400A | [`PositiveLimitCam`](Self::PositiveLimitCam) | The motor has reached the positive limit switch. |
     /// | 0x400B | [`MotionTooLong`](Self::MotionTooLong) | Positioning over more than 67108863 counts was commanded. |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Warning {
         /// 0x4000: not homed. Positioning was commanded, but the axis is not homed. Manual: D.2 Messaggi di WARNING: ALNOAZZ.
         NotHomed,
@@ -10454,6 +10465,17 @@ pub mod codes {
                 Self::MotionTooLong => 0x400B,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for Warning {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Warning {}
+    impl core::hash::Hash for Warning {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
 }

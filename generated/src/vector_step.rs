@@ -7512,22 +7512,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DeviceTypeDriveType> for u8 {
+    impl core::convert::From<DeviceTypeDriveType> for u8 {
         fn from(value: DeviceTypeDriveType) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for DeviceTypeDriveType {
+    impl core::convert::From<u8> for DeviceTypeDriveType {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for DeviceTypeDriveType {
+    impl core::cmp::PartialEq for DeviceTypeDriveType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DeviceTypeDriveType {}
+    impl core::cmp::Eq for DeviceTypeDriveType {}
     impl core::hash::Hash for DeviceTypeDriveType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7589,17 +7589,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CobIdSyncSyncProduction> for u8 {
+    impl core::convert::From<CobIdSyncSyncProduction> for u8 {
         fn from(value: CobIdSyncSyncProduction) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CobIdSyncSyncProduction {
+    impl core::cmp::PartialEq for CobIdSyncSyncProduction {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CobIdSyncSyncProduction {}
+    impl core::cmp::Eq for CobIdSyncSyncProduction {}
     impl core::hash::Hash for CobIdSyncSyncProduction {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7662,17 +7662,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CobIdSyncFrameFormat> for u8 {
+    impl core::convert::From<CobIdSyncFrameFormat> for u8 {
         fn from(value: CobIdSyncFrameFormat) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CobIdSyncFrameFormat {
+    impl core::cmp::PartialEq for CobIdSyncFrameFormat {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CobIdSyncFrameFormat {}
+    impl core::cmp::Eq for CobIdSyncFrameFormat {}
     impl core::hash::Hash for CobIdSyncFrameFormat {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7735,17 +7735,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CobIdEmergencyFrameFormat> for u8 {
+    impl core::convert::From<CobIdEmergencyFrameFormat> for u8 {
         fn from(value: CobIdEmergencyFrameFormat) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CobIdEmergencyFrameFormat {
+    impl core::cmp::PartialEq for CobIdEmergencyFrameFormat {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CobIdEmergencyFrameFormat {}
+    impl core::cmp::Eq for CobIdEmergencyFrameFormat {}
     impl core::hash::Hash for CobIdEmergencyFrameFormat {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7808,17 +7808,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CobIdPdoValidity> for u8 {
+    impl core::convert::From<CobIdPdoValidity> for u8 {
         fn from(value: CobIdPdoValidity) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CobIdPdoValidity {
+    impl core::cmp::PartialEq for CobIdPdoValidity {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CobIdPdoValidity {}
+    impl core::cmp::Eq for CobIdPdoValidity {}
     impl core::hash::Hash for CobIdPdoValidity {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7881,17 +7881,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CobIdPdoRemoteRequest> for u8 {
+    impl core::convert::From<CobIdPdoRemoteRequest> for u8 {
         fn from(value: CobIdPdoRemoteRequest) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CobIdPdoRemoteRequest {
+    impl core::cmp::PartialEq for CobIdPdoRemoteRequest {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CobIdPdoRemoteRequest {}
+    impl core::cmp::Eq for CobIdPdoRemoteRequest {}
     impl core::hash::Hash for CobIdPdoRemoteRequest {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -7954,17 +7954,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CobIdPdoFrameFormat> for u8 {
+    impl core::convert::From<CobIdPdoFrameFormat> for u8 {
         fn from(value: CobIdPdoFrameFormat) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CobIdPdoFrameFormat {
+    impl core::cmp::PartialEq for CobIdPdoFrameFormat {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CobIdPdoFrameFormat {}
+    impl core::cmp::Eq for CobIdPdoFrameFormat {}
     impl core::hash::Hash for CobIdPdoFrameFormat {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8058,22 +8058,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TransmissionType> for u8 {
+    impl core::convert::From<TransmissionType> for u8 {
         fn from(value: TransmissionType) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for TransmissionType {
+    impl core::convert::From<u8> for TransmissionType {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for TransmissionType {
+    impl core::cmp::PartialEq for TransmissionType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TransmissionType {}
+    impl core::cmp::Eq for TransmissionType {}
     impl core::hash::Hash for TransmissionType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8139,17 +8139,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ControlwordJog> for u8 {
+    impl core::convert::From<ControlwordJog> for u8 {
         fn from(value: ControlwordJog) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ControlwordJog {
+    impl core::cmp::PartialEq for ControlwordJog {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ControlwordJog {}
+    impl core::cmp::Eq for ControlwordJog {}
     impl core::hash::Hash for ControlwordJog {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8212,17 +8212,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ControlwordJogDirection> for u8 {
+    impl core::convert::From<ControlwordJogDirection> for u8 {
         fn from(value: ControlwordJogDirection) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ControlwordJogDirection {
+    impl core::cmp::PartialEq for ControlwordJogDirection {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ControlwordJogDirection {}
+    impl core::cmp::Eq for ControlwordJogDirection {}
     impl core::hash::Hash for ControlwordJogDirection {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8285,17 +8285,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ControlwordTarget> for u8 {
+    impl core::convert::From<ControlwordTarget> for u8 {
         fn from(value: ControlwordTarget) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ControlwordTarget {
+    impl core::cmp::PartialEq for ControlwordTarget {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ControlwordTarget {}
+    impl core::cmp::Eq for ControlwordTarget {}
     impl core::hash::Hash for ControlwordTarget {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8358,17 +8358,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ControlwordJogVelocityUpdate> for u8 {
+    impl core::convert::From<ControlwordJogVelocityUpdate> for u8 {
         fn from(value: ControlwordJogVelocityUpdate) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ControlwordJogVelocityUpdate {
+    impl core::cmp::PartialEq for ControlwordJogVelocityUpdate {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ControlwordJogVelocityUpdate {}
+    impl core::cmp::Eq for ControlwordJogVelocityUpdate {}
     impl core::hash::Hash for ControlwordJogVelocityUpdate {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8486,22 +8486,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<QuickStopOptionCode> for i16 {
+    impl core::convert::From<QuickStopOptionCode> for i16 {
         fn from(value: QuickStopOptionCode) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for QuickStopOptionCode {
+    impl core::convert::From<i16> for QuickStopOptionCode {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for QuickStopOptionCode {
+    impl core::cmp::PartialEq for QuickStopOptionCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for QuickStopOptionCode {}
+    impl core::cmp::Eq for QuickStopOptionCode {}
     impl core::hash::Hash for QuickStopOptionCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8581,22 +8581,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ShutdownOptionCode> for i16 {
+    impl core::convert::From<ShutdownOptionCode> for i16 {
         fn from(value: ShutdownOptionCode) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for ShutdownOptionCode {
+    impl core::convert::From<i16> for ShutdownOptionCode {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ShutdownOptionCode {
+    impl core::cmp::PartialEq for ShutdownOptionCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ShutdownOptionCode {}
+    impl core::cmp::Eq for ShutdownOptionCode {}
     impl core::hash::Hash for ShutdownOptionCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8669,22 +8669,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DisableOperationOptionCode> for i16 {
+    impl core::convert::From<DisableOperationOptionCode> for i16 {
         fn from(value: DisableOperationOptionCode) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for DisableOperationOptionCode {
+    impl core::convert::From<i16> for DisableOperationOptionCode {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for DisableOperationOptionCode {
+    impl core::cmp::PartialEq for DisableOperationOptionCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DisableOperationOptionCode {}
+    impl core::cmp::Eq for DisableOperationOptionCode {}
     impl core::hash::Hash for DisableOperationOptionCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8766,22 +8766,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<StopOptionCode> for i16 {
+    impl core::convert::From<StopOptionCode> for i16 {
         fn from(value: StopOptionCode) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for StopOptionCode {
+    impl core::convert::From<i16> for StopOptionCode {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for StopOptionCode {
+    impl core::cmp::PartialEq for StopOptionCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for StopOptionCode {}
+    impl core::cmp::Eq for StopOptionCode {}
     impl core::hash::Hash for StopOptionCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8864,22 +8864,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<FaultReactionOptionCode> for i16 {
+    impl core::convert::From<FaultReactionOptionCode> for i16 {
         fn from(value: FaultReactionOptionCode) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for FaultReactionOptionCode {
+    impl core::convert::From<i16> for FaultReactionOptionCode {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for FaultReactionOptionCode {
+    impl core::cmp::PartialEq for FaultReactionOptionCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for FaultReactionOptionCode {}
+    impl core::cmp::Eq for FaultReactionOptionCode {}
     impl core::hash::Hash for FaultReactionOptionCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -8991,22 +8991,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModesOfOperation> for i8 {
+    impl core::convert::From<ModesOfOperation> for i8 {
         fn from(value: ModesOfOperation) -> Self {
             value.raw()
         }
     }
-    impl From<i8> for ModesOfOperation {
+    impl core::convert::From<i8> for ModesOfOperation {
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModesOfOperation {
+    impl core::cmp::PartialEq for ModesOfOperation {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModesOfOperation {}
+    impl core::cmp::Eq for ModesOfOperation {}
     impl core::hash::Hash for ModesOfOperation {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9161,22 +9161,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<MotionProfileType> for i16 {
+    impl core::convert::From<MotionProfileType> for i16 {
         fn from(value: MotionProfileType) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for MotionProfileType {
+    impl core::convert::From<i16> for MotionProfileType {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for MotionProfileType {
+    impl core::cmp::PartialEq for MotionProfileType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for MotionProfileType {}
+    impl core::cmp::Eq for MotionProfileType {}
     impl core::hash::Hash for MotionProfileType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9362,22 +9362,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HomingMethod> for i8 {
+    impl core::convert::From<HomingMethod> for i8 {
         fn from(value: HomingMethod) -> Self {
             value.raw()
         }
     }
-    impl From<i8> for HomingMethod {
+    impl core::convert::From<i8> for HomingMethod {
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for HomingMethod {
+    impl core::cmp::PartialEq for HomingMethod {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HomingMethod {}
+    impl core::cmp::Eq for HomingMethod {}
     impl core::hash::Hash for HomingMethod {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9463,17 +9463,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe1Enable> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe1Enable> for u8 {
         fn from(value: TouchProbeFunctionProbe1Enable) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe1Enable {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe1Enable {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe1Enable {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe1Enable {}
     impl core::hash::Hash for TouchProbeFunctionProbe1Enable {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9536,17 +9536,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe1Continuous> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe1Continuous> for u8 {
         fn from(value: TouchProbeFunctionProbe1Continuous) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe1Continuous {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe1Continuous {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe1Continuous {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe1Continuous {}
     impl core::hash::Hash for TouchProbeFunctionProbe1Continuous {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9624,17 +9624,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe1Trigger> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe1Trigger> for u8 {
         fn from(value: TouchProbeFunctionProbe1Trigger) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe1Trigger {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe1Trigger {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe1Trigger {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe1Trigger {}
     impl core::hash::Hash for TouchProbeFunctionProbe1Trigger {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9699,17 +9699,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe1PositiveEdge> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe1PositiveEdge> for u8 {
         fn from(value: TouchProbeFunctionProbe1PositiveEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe1PositiveEdge {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe1PositiveEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe1PositiveEdge {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe1PositiveEdge {}
     impl core::hash::Hash for TouchProbeFunctionProbe1PositiveEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9772,17 +9772,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe1NegativeEdge> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe1NegativeEdge> for u8 {
         fn from(value: TouchProbeFunctionProbe1NegativeEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe1NegativeEdge {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe1NegativeEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe1NegativeEdge {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe1NegativeEdge {}
     impl core::hash::Hash for TouchProbeFunctionProbe1NegativeEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9860,17 +9860,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe1Position> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe1Position> for u8 {
         fn from(value: TouchProbeFunctionProbe1Position) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe1Position {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe1Position {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe1Position {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe1Position {}
     impl core::hash::Hash for TouchProbeFunctionProbe1Position {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -9935,17 +9935,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe2Enable> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe2Enable> for u8 {
         fn from(value: TouchProbeFunctionProbe2Enable) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe2Enable {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe2Enable {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe2Enable {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe2Enable {}
     impl core::hash::Hash for TouchProbeFunctionProbe2Enable {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10008,17 +10008,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe2Continuous> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe2Continuous> for u8 {
         fn from(value: TouchProbeFunctionProbe2Continuous) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe2Continuous {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe2Continuous {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe2Continuous {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe2Continuous {}
     impl core::hash::Hash for TouchProbeFunctionProbe2Continuous {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10096,17 +10096,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe2Trigger> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe2Trigger> for u8 {
         fn from(value: TouchProbeFunctionProbe2Trigger) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe2Trigger {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe2Trigger {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe2Trigger {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe2Trigger {}
     impl core::hash::Hash for TouchProbeFunctionProbe2Trigger {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10171,17 +10171,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe2PositiveEdge> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe2PositiveEdge> for u8 {
         fn from(value: TouchProbeFunctionProbe2PositiveEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe2PositiveEdge {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe2PositiveEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe2PositiveEdge {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe2PositiveEdge {}
     impl core::hash::Hash for TouchProbeFunctionProbe2PositiveEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10244,17 +10244,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe2NegativeEdge> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe2NegativeEdge> for u8 {
         fn from(value: TouchProbeFunctionProbe2NegativeEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe2NegativeEdge {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe2NegativeEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe2NegativeEdge {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe2NegativeEdge {}
     impl core::hash::Hash for TouchProbeFunctionProbe2NegativeEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10332,17 +10332,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeFunctionProbe2Position> for u8 {
+    impl core::convert::From<TouchProbeFunctionProbe2Position> for u8 {
         fn from(value: TouchProbeFunctionProbe2Position) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeFunctionProbe2Position {
+    impl core::cmp::PartialEq for TouchProbeFunctionProbe2Position {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeFunctionProbe2Position {}
+    impl core::cmp::Eq for TouchProbeFunctionProbe2Position {}
     impl core::hash::Hash for TouchProbeFunctionProbe2Position {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10407,17 +10407,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusProbe1Enabled> for u8 {
+    impl core::convert::From<TouchProbeStatusProbe1Enabled> for u8 {
         fn from(value: TouchProbeStatusProbe1Enabled) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusProbe1Enabled {
+    impl core::cmp::PartialEq for TouchProbeStatusProbe1Enabled {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusProbe1Enabled {}
+    impl core::cmp::Eq for TouchProbeStatusProbe1Enabled {}
     impl core::hash::Hash for TouchProbeStatusProbe1Enabled {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10480,17 +10480,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusProbe1PositiveEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusProbe1PositiveEdgeStored> for u8 {
         fn from(value: TouchProbeStatusProbe1PositiveEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusProbe1PositiveEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusProbe1PositiveEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusProbe1PositiveEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusProbe1PositiveEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusProbe1PositiveEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10553,17 +10553,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusProbe1NegativeEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusProbe1NegativeEdgeStored> for u8 {
         fn from(value: TouchProbeStatusProbe1NegativeEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusProbe1NegativeEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusProbe1NegativeEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusProbe1NegativeEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusProbe1NegativeEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusProbe1NegativeEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10626,17 +10626,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusProbe2Enabled> for u8 {
+    impl core::convert::From<TouchProbeStatusProbe2Enabled> for u8 {
         fn from(value: TouchProbeStatusProbe2Enabled) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusProbe2Enabled {
+    impl core::cmp::PartialEq for TouchProbeStatusProbe2Enabled {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusProbe2Enabled {}
+    impl core::cmp::Eq for TouchProbeStatusProbe2Enabled {}
     impl core::hash::Hash for TouchProbeStatusProbe2Enabled {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10699,17 +10699,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusProbe2PositiveEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusProbe2PositiveEdgeStored> for u8 {
         fn from(value: TouchProbeStatusProbe2PositiveEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusProbe2PositiveEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusProbe2PositiveEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusProbe2PositiveEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusProbe2PositiveEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusProbe2PositiveEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10772,17 +10772,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusProbe2NegativeEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusProbe2NegativeEdgeStored> for u8 {
         fn from(value: TouchProbeStatusProbe2NegativeEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusProbe2NegativeEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusProbe2NegativeEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusProbe2NegativeEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusProbe2NegativeEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusProbe2NegativeEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10852,22 +10852,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<InterpolationSubmode> for i16 {
+    impl core::convert::From<InterpolationSubmode> for i16 {
         fn from(value: InterpolationSubmode) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for InterpolationSubmode {
+    impl core::convert::From<i16> for InterpolationSubmode {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for InterpolationSubmode {
+    impl core::cmp::PartialEq for InterpolationSubmode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for InterpolationSubmode {}
+    impl core::cmp::Eq for InterpolationSubmode {}
     impl core::hash::Hash for InterpolationSubmode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -10938,22 +10938,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<BufferClear> for u8 {
+    impl core::convert::From<BufferClear> for u8 {
         fn from(value: BufferClear) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for BufferClear {
+    impl core::convert::From<u8> for BufferClear {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for BufferClear {
+    impl core::cmp::PartialEq for BufferClear {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for BufferClear {}
+    impl core::cmp::Eq for BufferClear {}
     impl core::hash::Hash for BufferClear {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11087,22 +11087,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<MotorType> for u16 {
+    impl core::convert::From<MotorType> for u16 {
         fn from(value: MotorType) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for MotorType {
+    impl core::convert::From<u16> for MotorType {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for MotorType {
+    impl core::cmp::PartialEq for MotorType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for MotorType {}
+    impl core::cmp::Eq for MotorType {}
     impl core::hash::Hash for MotorType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11175,17 +11175,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<StatusMotorCurrent> for u8 {
+    impl core::convert::From<StatusMotorCurrent> for u8 {
         fn from(value: StatusMotorCurrent) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for StatusMotorCurrent {
+    impl core::cmp::PartialEq for StatusMotorCurrent {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for StatusMotorCurrent {}
+    impl core::cmp::Eq for StatusMotorCurrent {}
     impl core::hash::Hash for StatusMotorCurrent {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11248,17 +11248,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsActualPositionAfterHoming> for u8 {
+    impl core::convert::From<ModeFlagsActualPositionAfterHoming> for u8 {
         fn from(value: ModeFlagsActualPositionAfterHoming) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsActualPositionAfterHoming {
+    impl core::cmp::PartialEq for ModeFlagsActualPositionAfterHoming {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsActualPositionAfterHoming {}
+    impl core::cmp::Eq for ModeFlagsActualPositionAfterHoming {}
     impl core::hash::Hash for ModeFlagsActualPositionAfterHoming {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11321,17 +11321,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsMotorEncoderAfterHoming> for u8 {
+    impl core::convert::From<ModeFlagsMotorEncoderAfterHoming> for u8 {
         fn from(value: ModeFlagsMotorEncoderAfterHoming) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsMotorEncoderAfterHoming {
+    impl core::cmp::PartialEq for ModeFlagsMotorEncoderAfterHoming {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsMotorEncoderAfterHoming {}
+    impl core::cmp::Eq for ModeFlagsMotorEncoderAfterHoming {}
     impl core::hash::Hash for ModeFlagsMotorEncoderAfterHoming {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11394,17 +11394,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsExternalEncoderAfterHoming> for u8 {
+    impl core::convert::From<ModeFlagsExternalEncoderAfterHoming> for u8 {
         fn from(value: ModeFlagsExternalEncoderAfterHoming) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsExternalEncoderAfterHoming {
+    impl core::cmp::PartialEq for ModeFlagsExternalEncoderAfterHoming {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsExternalEncoderAfterHoming {}
+    impl core::cmp::Eq for ModeFlagsExternalEncoderAfterHoming {}
     impl core::hash::Hash for ModeFlagsExternalEncoderAfterHoming {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11467,17 +11467,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsActualPositionAfterHomeOffset> for u8 {
+    impl core::convert::From<ModeFlagsActualPositionAfterHomeOffset> for u8 {
         fn from(value: ModeFlagsActualPositionAfterHomeOffset) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsActualPositionAfterHomeOffset {
+    impl core::cmp::PartialEq for ModeFlagsActualPositionAfterHomeOffset {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsActualPositionAfterHomeOffset {}
+    impl core::cmp::Eq for ModeFlagsActualPositionAfterHomeOffset {}
     impl core::hash::Hash for ModeFlagsActualPositionAfterHomeOffset {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11540,17 +11540,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsMotorEncoderAfterHomeOffset> for u8 {
+    impl core::convert::From<ModeFlagsMotorEncoderAfterHomeOffset> for u8 {
         fn from(value: ModeFlagsMotorEncoderAfterHomeOffset) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsMotorEncoderAfterHomeOffset {
+    impl core::cmp::PartialEq for ModeFlagsMotorEncoderAfterHomeOffset {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsMotorEncoderAfterHomeOffset {}
+    impl core::cmp::Eq for ModeFlagsMotorEncoderAfterHomeOffset {}
     impl core::hash::Hash for ModeFlagsMotorEncoderAfterHomeOffset {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11613,17 +11613,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsExternalEncoderAfterHomeOffset> for u8 {
+    impl core::convert::From<ModeFlagsExternalEncoderAfterHomeOffset> for u8 {
         fn from(value: ModeFlagsExternalEncoderAfterHomeOffset) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsExternalEncoderAfterHomeOffset {
+    impl core::cmp::PartialEq for ModeFlagsExternalEncoderAfterHomeOffset {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsExternalEncoderAfterHomeOffset {}
+    impl core::cmp::Eq for ModeFlagsExternalEncoderAfterHomeOffset {}
     impl core::hash::Hash for ModeFlagsExternalEncoderAfterHomeOffset {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11686,17 +11686,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModeFlagsUsbPortParameters> for u8 {
+    impl core::convert::From<ModeFlagsUsbPortParameters> for u8 {
         fn from(value: ModeFlagsUsbPortParameters) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ModeFlagsUsbPortParameters {
+    impl core::cmp::PartialEq for ModeFlagsUsbPortParameters {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModeFlagsUsbPortParameters {}
+    impl core::cmp::Eq for ModeFlagsUsbPortParameters {}
     impl core::hash::Hash for ModeFlagsUsbPortParameters {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11759,17 +11759,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HardwareConfigMotorEncoderKind> for u8 {
+    impl core::convert::From<HardwareConfigMotorEncoderKind> for u8 {
         fn from(value: HardwareConfigMotorEncoderKind) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for HardwareConfigMotorEncoderKind {
+    impl core::cmp::PartialEq for HardwareConfigMotorEncoderKind {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HardwareConfigMotorEncoderKind {}
+    impl core::cmp::Eq for HardwareConfigMotorEncoderKind {}
     impl core::hash::Hash for HardwareConfigMotorEncoderKind {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11832,17 +11832,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HardwareConfigSsiEncoderComplement> for u8 {
+    impl core::convert::From<HardwareConfigSsiEncoderComplement> for u8 {
         fn from(value: HardwareConfigSsiEncoderComplement) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for HardwareConfigSsiEncoderComplement {
+    impl core::cmp::PartialEq for HardwareConfigSsiEncoderComplement {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HardwareConfigSsiEncoderComplement {}
+    impl core::cmp::Eq for HardwareConfigSsiEncoderComplement {}
     impl core::hash::Hash for HardwareConfigSsiEncoderComplement {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11905,17 +11905,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HardwareConfigSsiEncoderCode> for u8 {
+    impl core::convert::From<HardwareConfigSsiEncoderCode> for u8 {
         fn from(value: HardwareConfigSsiEncoderCode) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for HardwareConfigSsiEncoderCode {
+    impl core::cmp::PartialEq for HardwareConfigSsiEncoderCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HardwareConfigSsiEncoderCode {}
+    impl core::cmp::Eq for HardwareConfigSsiEncoderCode {}
     impl core::hash::Hash for HardwareConfigSsiEncoderCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -11987,22 +11987,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HardwareConfigSsiEncoderAlignment> for u8 {
+    impl core::convert::From<HardwareConfigSsiEncoderAlignment> for u8 {
         fn from(value: HardwareConfigSsiEncoderAlignment) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for HardwareConfigSsiEncoderAlignment {
+    impl core::convert::From<u8> for HardwareConfigSsiEncoderAlignment {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for HardwareConfigSsiEncoderAlignment {
+    impl core::cmp::PartialEq for HardwareConfigSsiEncoderAlignment {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HardwareConfigSsiEncoderAlignment {}
+    impl core::cmp::Eq for HardwareConfigSsiEncoderAlignment {}
     impl core::hash::Hash for HardwareConfigSsiEncoderAlignment {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12066,17 +12066,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HardwareConfigPwmRange> for u8 {
+    impl core::convert::From<HardwareConfigPwmRange> for u8 {
         fn from(value: HardwareConfigPwmRange) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for HardwareConfigPwmRange {
+    impl core::cmp::PartialEq for HardwareConfigPwmRange {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HardwareConfigPwmRange {}
+    impl core::cmp::Eq for HardwareConfigPwmRange {}
     impl core::hash::Hash for HardwareConfigPwmRange {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12145,22 +12145,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<RampProfile> for u16 {
+    impl core::convert::From<RampProfile> for u16 {
         fn from(value: RampProfile) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for RampProfile {
+    impl core::convert::From<u16> for RampProfile {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for RampProfile {
+    impl core::cmp::PartialEq for RampProfile {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for RampProfile {}
+    impl core::cmp::Eq for RampProfile {}
     impl core::hash::Hash for RampProfile {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12234,22 +12234,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SpeedDivisor> for u16 {
+    impl core::convert::From<SpeedDivisor> for u16 {
         fn from(value: SpeedDivisor) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for SpeedDivisor {
+    impl core::convert::From<u16> for SpeedDivisor {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SpeedDivisor {
+    impl core::cmp::PartialEq for SpeedDivisor {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SpeedDivisor {}
+    impl core::cmp::Eq for SpeedDivisor {}
     impl core::hash::Hash for SpeedDivisor {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12320,22 +12320,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchInput> for u16 {
+    impl core::convert::From<LimitSwitchInput> for u16 {
         fn from(value: LimitSwitchInput) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for LimitSwitchInput {
+    impl core::convert::From<u16> for LimitSwitchInput {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for LimitSwitchInput {
+    impl core::cmp::PartialEq for LimitSwitchInput {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchInput {}
+    impl core::cmp::Eq for LimitSwitchInput {}
     impl core::hash::Hash for LimitSwitchInput {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12509,22 +12509,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<HomingMethodI16> for i16 {
+    impl core::convert::From<HomingMethodI16> for i16 {
         fn from(value: HomingMethodI16) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for HomingMethodI16 {
+    impl core::convert::From<i16> for HomingMethodI16 {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for HomingMethodI16 {
+    impl core::cmp::PartialEq for HomingMethodI16 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for HomingMethodI16 {}
+    impl core::cmp::Eq for HomingMethodI16 {}
     impl core::hash::Hash for HomingMethodI16 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12610,17 +12610,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<BestopSetupCondition> for u8 {
+    impl core::convert::From<BestopSetupCondition> for u8 {
         fn from(value: BestopSetupCondition) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for BestopSetupCondition {
+    impl core::cmp::PartialEq for BestopSetupCondition {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for BestopSetupCondition {}
+    impl core::cmp::Eq for BestopSetupCondition {}
     impl core::hash::Hash for BestopSetupCondition {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12683,17 +12683,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<BestopSetupType> for u8 {
+    impl core::convert::From<BestopSetupType> for u8 {
         fn from(value: BestopSetupType) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for BestopSetupType {
+    impl core::cmp::PartialEq for BestopSetupType {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for BestopSetupType {}
+    impl core::cmp::Eq for BestopSetupType {}
     impl core::hash::Hash for BestopSetupType {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12756,17 +12756,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<EstopSetupDestination> for u8 {
+    impl core::convert::From<EstopSetupDestination> for u8 {
         fn from(value: EstopSetupDestination) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for EstopSetupDestination {
+    impl core::cmp::PartialEq for EstopSetupDestination {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for EstopSetupDestination {}
+    impl core::cmp::Eq for EstopSetupDestination {}
     impl core::hash::Hash for EstopSetupDestination {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12844,17 +12844,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<EstopSetupSource> for u8 {
+    impl core::convert::From<EstopSetupSource> for u8 {
         fn from(value: EstopSetupSource) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for EstopSetupSource {
+    impl core::cmp::PartialEq for EstopSetupSource {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for EstopSetupSource {}
+    impl core::cmp::Eq for EstopSetupSource {}
     impl core::hash::Hash for EstopSetupSource {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -12950,22 +12950,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<EstopSetupCondition> for u8 {
+    impl core::convert::From<EstopSetupCondition> for u8 {
         fn from(value: EstopSetupCondition) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for EstopSetupCondition {
+    impl core::convert::From<u8> for EstopSetupCondition {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for EstopSetupCondition {
+    impl core::cmp::PartialEq for EstopSetupCondition {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for EstopSetupCondition {}
+    impl core::cmp::Eq for EstopSetupCondition {}
     impl core::hash::Hash for EstopSetupCondition {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13071,22 +13071,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AlarmReaction> for i16 {
+    impl core::convert::From<AlarmReaction> for i16 {
         fn from(value: AlarmReaction) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for AlarmReaction {
+    impl core::convert::From<i16> for AlarmReaction {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for AlarmReaction {
+    impl core::cmp::PartialEq for AlarmReaction {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AlarmReaction {}
+    impl core::cmp::Eq for AlarmReaction {}
     impl core::hash::Hash for AlarmReaction {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13160,17 +13160,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityForwardLimitSwitch> for u8 {
+    impl core::convert::From<LimitSwitchPolarityForwardLimitSwitch> for u8 {
         fn from(value: LimitSwitchPolarityForwardLimitSwitch) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityForwardLimitSwitch {
+    impl core::cmp::PartialEq for LimitSwitchPolarityForwardLimitSwitch {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityForwardLimitSwitch {}
+    impl core::cmp::Eq for LimitSwitchPolarityForwardLimitSwitch {}
     impl core::hash::Hash for LimitSwitchPolarityForwardLimitSwitch {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13233,17 +13233,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityBackwardLimitSwitch> for u8 {
+    impl core::convert::From<LimitSwitchPolarityBackwardLimitSwitch> for u8 {
         fn from(value: LimitSwitchPolarityBackwardLimitSwitch) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityBackwardLimitSwitch {
+    impl core::cmp::PartialEq for LimitSwitchPolarityBackwardLimitSwitch {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityBackwardLimitSwitch {}
+    impl core::cmp::Eq for LimitSwitchPolarityBackwardLimitSwitch {}
     impl core::hash::Hash for LimitSwitchPolarityBackwardLimitSwitch {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13306,17 +13306,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityMotorEncoderIndex> for u8 {
+    impl core::convert::From<LimitSwitchPolarityMotorEncoderIndex> for u8 {
         fn from(value: LimitSwitchPolarityMotorEncoderIndex) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityMotorEncoderIndex {
+    impl core::cmp::PartialEq for LimitSwitchPolarityMotorEncoderIndex {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityMotorEncoderIndex {}
+    impl core::cmp::Eq for LimitSwitchPolarityMotorEncoderIndex {}
     impl core::hash::Hash for LimitSwitchPolarityMotorEncoderIndex {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13379,17 +13379,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityMotorEncoderChannelA> for u8 {
+    impl core::convert::From<LimitSwitchPolarityMotorEncoderChannelA> for u8 {
         fn from(value: LimitSwitchPolarityMotorEncoderChannelA) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityMotorEncoderChannelA {
+    impl core::cmp::PartialEq for LimitSwitchPolarityMotorEncoderChannelA {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityMotorEncoderChannelA {}
+    impl core::cmp::Eq for LimitSwitchPolarityMotorEncoderChannelA {}
     impl core::hash::Hash for LimitSwitchPolarityMotorEncoderChannelA {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13452,17 +13452,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityMotorEncoderChannelB> for u8 {
+    impl core::convert::From<LimitSwitchPolarityMotorEncoderChannelB> for u8 {
         fn from(value: LimitSwitchPolarityMotorEncoderChannelB) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityMotorEncoderChannelB {
+    impl core::cmp::PartialEq for LimitSwitchPolarityMotorEncoderChannelB {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityMotorEncoderChannelB {}
+    impl core::cmp::Eq for LimitSwitchPolarityMotorEncoderChannelB {}
     impl core::hash::Hash for LimitSwitchPolarityMotorEncoderChannelB {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13525,17 +13525,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityExternalEncoderIndex> for u8 {
+    impl core::convert::From<LimitSwitchPolarityExternalEncoderIndex> for u8 {
         fn from(value: LimitSwitchPolarityExternalEncoderIndex) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityExternalEncoderIndex {
+    impl core::cmp::PartialEq for LimitSwitchPolarityExternalEncoderIndex {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityExternalEncoderIndex {}
+    impl core::cmp::Eq for LimitSwitchPolarityExternalEncoderIndex {}
     impl core::hash::Hash for LimitSwitchPolarityExternalEncoderIndex {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13598,17 +13598,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityExternalEncoderChannelA> for u8 {
+    impl core::convert::From<LimitSwitchPolarityExternalEncoderChannelA> for u8 {
         fn from(value: LimitSwitchPolarityExternalEncoderChannelA) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityExternalEncoderChannelA {
+    impl core::cmp::PartialEq for LimitSwitchPolarityExternalEncoderChannelA {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityExternalEncoderChannelA {}
+    impl core::cmp::Eq for LimitSwitchPolarityExternalEncoderChannelA {}
     impl core::hash::Hash for LimitSwitchPolarityExternalEncoderChannelA {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13671,17 +13671,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<LimitSwitchPolarityExternalEncoderChannelB> for u8 {
+    impl core::convert::From<LimitSwitchPolarityExternalEncoderChannelB> for u8 {
         fn from(value: LimitSwitchPolarityExternalEncoderChannelB) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for LimitSwitchPolarityExternalEncoderChannelB {
+    impl core::cmp::PartialEq for LimitSwitchPolarityExternalEncoderChannelB {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for LimitSwitchPolarityExternalEncoderChannelB {}
+    impl core::cmp::Eq for LimitSwitchPolarityExternalEncoderChannelB {}
     impl core::hash::Hash for LimitSwitchPolarityExternalEncoderChannelB {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13744,17 +13744,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput0> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput0> for u8 {
         fn from(value: DigitalInputPolarityInput0) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput0 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput0 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput0 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput0 {}
     impl core::hash::Hash for DigitalInputPolarityInput0 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13817,17 +13817,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput1> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput1> for u8 {
         fn from(value: DigitalInputPolarityInput1) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput1 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput1 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput1 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput1 {}
     impl core::hash::Hash for DigitalInputPolarityInput1 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13890,17 +13890,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput2> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput2> for u8 {
         fn from(value: DigitalInputPolarityInput2) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput2 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput2 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput2 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput2 {}
     impl core::hash::Hash for DigitalInputPolarityInput2 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -13963,17 +13963,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput3> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput3> for u8 {
         fn from(value: DigitalInputPolarityInput3) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput3 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput3 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput3 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput3 {}
     impl core::hash::Hash for DigitalInputPolarityInput3 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14036,17 +14036,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput4> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput4> for u8 {
         fn from(value: DigitalInputPolarityInput4) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput4 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput4 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput4 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput4 {}
     impl core::hash::Hash for DigitalInputPolarityInput4 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14109,17 +14109,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput5> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput5> for u8 {
         fn from(value: DigitalInputPolarityInput5) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput5 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput5 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput5 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput5 {}
     impl core::hash::Hash for DigitalInputPolarityInput5 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14182,17 +14182,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput6> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput6> for u8 {
         fn from(value: DigitalInputPolarityInput6) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput6 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput6 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput6 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput6 {}
     impl core::hash::Hash for DigitalInputPolarityInput6 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14255,17 +14255,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput7> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput7> for u8 {
         fn from(value: DigitalInputPolarityInput7) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput7 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput7 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput7 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput7 {}
     impl core::hash::Hash for DigitalInputPolarityInput7 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14328,17 +14328,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput8> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput8> for u8 {
         fn from(value: DigitalInputPolarityInput8) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput8 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput8 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput8 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput8 {}
     impl core::hash::Hash for DigitalInputPolarityInput8 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14401,17 +14401,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput9> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput9> for u8 {
         fn from(value: DigitalInputPolarityInput9) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput9 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput9 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput9 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput9 {}
     impl core::hash::Hash for DigitalInputPolarityInput9 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14474,17 +14474,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput10> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput10> for u8 {
         fn from(value: DigitalInputPolarityInput10) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput10 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput10 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput10 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput10 {}
     impl core::hash::Hash for DigitalInputPolarityInput10 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14547,17 +14547,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput11> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput11> for u8 {
         fn from(value: DigitalInputPolarityInput11) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput11 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput11 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput11 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput11 {}
     impl core::hash::Hash for DigitalInputPolarityInput11 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14620,17 +14620,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput12> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput12> for u8 {
         fn from(value: DigitalInputPolarityInput12) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput12 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput12 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput12 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput12 {}
     impl core::hash::Hash for DigitalInputPolarityInput12 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14693,17 +14693,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput13> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput13> for u8 {
         fn from(value: DigitalInputPolarityInput13) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput13 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput13 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput13 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput13 {}
     impl core::hash::Hash for DigitalInputPolarityInput13 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14766,17 +14766,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput14> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput14> for u8 {
         fn from(value: DigitalInputPolarityInput14) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput14 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput14 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput14 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput14 {}
     impl core::hash::Hash for DigitalInputPolarityInput14 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14839,17 +14839,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputPolarityInput15> for u8 {
+    impl core::convert::From<DigitalInputPolarityInput15> for u8 {
         fn from(value: DigitalInputPolarityInput15) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalInputPolarityInput15 {
+    impl core::cmp::PartialEq for DigitalInputPolarityInput15 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputPolarityInput15 {}
+    impl core::cmp::Eq for DigitalInputPolarityInput15 {}
     impl core::hash::Hash for DigitalInputPolarityInput15 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14912,17 +14912,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput0> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput0> for u8 {
         fn from(value: DigitalOutputPolarityOutput0) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput0 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput0 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput0 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput0 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput0 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -14985,17 +14985,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput1> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput1> for u8 {
         fn from(value: DigitalOutputPolarityOutput1) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput1 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput1 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput1 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput1 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput1 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15058,17 +15058,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput2> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput2> for u8 {
         fn from(value: DigitalOutputPolarityOutput2) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput2 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput2 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput2 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput2 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput2 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15131,17 +15131,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput3> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput3> for u8 {
         fn from(value: DigitalOutputPolarityOutput3) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput3 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput3 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput3 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput3 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput3 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15204,17 +15204,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput4> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput4> for u8 {
         fn from(value: DigitalOutputPolarityOutput4) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput4 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput4 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput4 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput4 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput4 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15277,17 +15277,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput5> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput5> for u8 {
         fn from(value: DigitalOutputPolarityOutput5) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput5 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput5 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput5 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput5 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput5 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15350,17 +15350,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput6> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput6> for u8 {
         fn from(value: DigitalOutputPolarityOutput6) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput6 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput6 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput6 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput6 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput6 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15423,17 +15423,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputPolarityOutput7> for u8 {
+    impl core::convert::From<DigitalOutputPolarityOutput7> for u8 {
         fn from(value: DigitalOutputPolarityOutput7) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputPolarityOutput7 {
+    impl core::cmp::PartialEq for DigitalOutputPolarityOutput7 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputPolarityOutput7 {}
+    impl core::cmp::Eq for DigitalOutputPolarityOutput7 {}
     impl core::hash::Hash for DigitalOutputPolarityOutput7 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15589,22 +15589,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<OutputFunction> for u16 {
+    impl core::convert::From<OutputFunction> for u16 {
         fn from(value: OutputFunction) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for OutputFunction {
+    impl core::convert::From<u16> for OutputFunction {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for OutputFunction {
+    impl core::cmp::PartialEq for OutputFunction {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for OutputFunction {}
+    impl core::cmp::Eq for OutputFunction {}
     impl core::hash::Hash for OutputFunction {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15821,22 +15821,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<InputFunction> for u16 {
+    impl core::convert::From<InputFunction> for u16 {
         fn from(value: InputFunction) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for InputFunction {
+    impl core::convert::From<u16> for InputFunction {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for InputFunction {
+    impl core::cmp::PartialEq for InputFunction {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for InputFunction {}
+    impl core::cmp::Eq for InputFunction {}
     impl core::hash::Hash for InputFunction {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -15926,22 +15926,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalInputLevel> for u16 {
+    impl core::convert::From<DigitalInputLevel> for u16 {
         fn from(value: DigitalInputLevel) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for DigitalInputLevel {
+    impl core::convert::From<u16> for DigitalInputLevel {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for DigitalInputLevel {
+    impl core::cmp::PartialEq for DigitalInputLevel {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalInputLevel {}
+    impl core::cmp::Eq for DigitalInputLevel {}
     impl core::hash::Hash for DigitalInputLevel {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16004,17 +16004,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput0> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput0> for u8 {
         fn from(value: DigitalOutputEnableOutput0) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput0 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput0 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput0 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput0 {}
     impl core::hash::Hash for DigitalOutputEnableOutput0 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16077,17 +16077,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput1> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput1> for u8 {
         fn from(value: DigitalOutputEnableOutput1) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput1 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput1 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput1 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput1 {}
     impl core::hash::Hash for DigitalOutputEnableOutput1 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16150,17 +16150,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput2> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput2> for u8 {
         fn from(value: DigitalOutputEnableOutput2) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput2 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput2 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput2 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput2 {}
     impl core::hash::Hash for DigitalOutputEnableOutput2 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16223,17 +16223,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput3> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput3> for u8 {
         fn from(value: DigitalOutputEnableOutput3) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput3 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput3 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput3 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput3 {}
     impl core::hash::Hash for DigitalOutputEnableOutput3 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16296,17 +16296,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput4> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput4> for u8 {
         fn from(value: DigitalOutputEnableOutput4) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput4 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput4 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput4 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput4 {}
     impl core::hash::Hash for DigitalOutputEnableOutput4 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16369,17 +16369,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput5> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput5> for u8 {
         fn from(value: DigitalOutputEnableOutput5) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput5 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput5 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput5 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput5 {}
     impl core::hash::Hash for DigitalOutputEnableOutput5 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16442,17 +16442,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput6> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput6> for u8 {
         fn from(value: DigitalOutputEnableOutput6) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput6 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput6 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput6 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput6 {}
     impl core::hash::Hash for DigitalOutputEnableOutput6 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16515,17 +16515,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput7> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput7> for u8 {
         fn from(value: DigitalOutputEnableOutput7) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput7 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput7 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput7 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput7 {}
     impl core::hash::Hash for DigitalOutputEnableOutput7 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16588,17 +16588,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DigitalOutputEnableOutput8> for u8 {
+    impl core::convert::From<DigitalOutputEnableOutput8> for u8 {
         fn from(value: DigitalOutputEnableOutput8) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DigitalOutputEnableOutput8 {
+    impl core::cmp::PartialEq for DigitalOutputEnableOutput8 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DigitalOutputEnableOutput8 {}
+    impl core::cmp::Eq for DigitalOutputEnableOutput8 {}
     impl core::hash::Hash for DigitalOutputEnableOutput8 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16682,22 +16682,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<FeedbackEncoder> for u16 {
+    impl core::convert::From<FeedbackEncoder> for u16 {
         fn from(value: FeedbackEncoder) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for FeedbackEncoder {
+    impl core::convert::From<u16> for FeedbackEncoder {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for FeedbackEncoder {
+    impl core::cmp::PartialEq for FeedbackEncoder {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for FeedbackEncoder {}
+    impl core::cmp::Eq for FeedbackEncoder {}
     impl core::hash::Hash for FeedbackEncoder {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16789,22 +16789,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<EncoderModel> for u16 {
+    impl core::convert::From<EncoderModel> for u16 {
         fn from(value: EncoderModel) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for EncoderModel {
+    impl core::convert::From<u16> for EncoderModel {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for EncoderModel {
+    impl core::cmp::PartialEq for EncoderModel {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for EncoderModel {}
+    impl core::cmp::Eq for EncoderModel {}
     impl core::hash::Hash for EncoderModel {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16891,22 +16891,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<EncoderMode> for u16 {
+    impl core::convert::From<EncoderMode> for u16 {
         fn from(value: EncoderMode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for EncoderMode {
+    impl core::convert::From<u16> for EncoderMode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for EncoderMode {
+    impl core::cmp::PartialEq for EncoderMode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for EncoderMode {}
+    impl core::cmp::Eq for EncoderMode {}
     impl core::hash::Hash for EncoderMode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -16971,17 +16971,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AbsoluteEncoderModeComplement> for u8 {
+    impl core::convert::From<AbsoluteEncoderModeComplement> for u8 {
         fn from(value: AbsoluteEncoderModeComplement) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for AbsoluteEncoderModeComplement {
+    impl core::cmp::PartialEq for AbsoluteEncoderModeComplement {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AbsoluteEncoderModeComplement {}
+    impl core::cmp::Eq for AbsoluteEncoderModeComplement {}
     impl core::hash::Hash for AbsoluteEncoderModeComplement {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17044,17 +17044,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AbsoluteEncoderModeCode> for u8 {
+    impl core::convert::From<AbsoluteEncoderModeCode> for u8 {
         fn from(value: AbsoluteEncoderModeCode) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for AbsoluteEncoderModeCode {
+    impl core::cmp::PartialEq for AbsoluteEncoderModeCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AbsoluteEncoderModeCode {}
+    impl core::cmp::Eq for AbsoluteEncoderModeCode {}
     impl core::hash::Hash for AbsoluteEncoderModeCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17127,17 +17127,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AbsoluteEncoderModeAlignment> for u8 {
+    impl core::convert::From<AbsoluteEncoderModeAlignment> for u8 {
         fn from(value: AbsoluteEncoderModeAlignment) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for AbsoluteEncoderModeAlignment {
+    impl core::cmp::PartialEq for AbsoluteEncoderModeAlignment {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AbsoluteEncoderModeAlignment {}
+    impl core::cmp::Eq for AbsoluteEncoderModeAlignment {}
     impl core::hash::Hash for AbsoluteEncoderModeAlignment {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17229,22 +17229,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AbsoluteEncoderModel> for u16 {
+    impl core::convert::From<AbsoluteEncoderModel> for u16 {
         fn from(value: AbsoluteEncoderModel) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for AbsoluteEncoderModel {
+    impl core::convert::From<u16> for AbsoluteEncoderModel {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for AbsoluteEncoderModel {
+    impl core::cmp::PartialEq for AbsoluteEncoderModel {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AbsoluteEncoderModel {}
+    impl core::cmp::Eq for AbsoluteEncoderModel {}
     impl core::hash::Hash for AbsoluteEncoderModel {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17545,22 +17545,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<EepromCommand> for u16 {
+    impl core::convert::From<EepromCommand> for u16 {
         fn from(value: EepromCommand) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for EepromCommand {
+    impl core::convert::From<u16> for EepromCommand {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for EepromCommand {
+    impl core::cmp::PartialEq for EepromCommand {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for EepromCommand {}
+    impl core::cmp::Eq for EepromCommand {}
     impl core::hash::Hash for EepromCommand {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17663,17 +17663,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<VariableCommandAction> for u8 {
+    impl core::convert::From<VariableCommandAction> for u8 {
         fn from(value: VariableCommandAction) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for VariableCommandAction {
+    impl core::cmp::PartialEq for VariableCommandAction {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for VariableCommandAction {}
+    impl core::cmp::Eq for VariableCommandAction {}
     impl core::hash::Hash for VariableCommandAction {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17751,22 +17751,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<StartMode> for u16 {
+    impl core::convert::From<StartMode> for u16 {
         fn from(value: StartMode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for StartMode {
+    impl core::convert::From<u16> for StartMode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for StartMode {
+    impl core::cmp::PartialEq for StartMode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for StartMode {}
+    impl core::cmp::Eq for StartMode {}
     impl core::hash::Hash for StartMode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -17923,22 +17923,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<Configuration> for u16 {
+    impl core::convert::From<Configuration> for u16 {
         fn from(value: Configuration) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for Configuration {
+    impl core::convert::From<u16> for Configuration {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for Configuration {
+    impl core::cmp::PartialEq for Configuration {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for Configuration {}
+    impl core::cmp::Eq for Configuration {}
     impl core::hash::Hash for Configuration {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -18036,22 +18036,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ControlState> for u16 {
+    impl core::convert::From<ControlState> for u16 {
         fn from(value: ControlState) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ControlState {
+    impl core::convert::From<u16> for ControlState {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ControlState {
+    impl core::cmp::PartialEq for ControlState {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ControlState {}
+    impl core::cmp::Eq for ControlState {}
     impl core::hash::Hash for ControlState {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -18143,22 +18143,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CurrentLevelState> for u16 {
+    impl core::convert::From<CurrentLevelState> for u16 {
         fn from(value: CurrentLevelState) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for CurrentLevelState {
+    impl core::convert::From<u16> for CurrentLevelState {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CurrentLevelState {
+    impl core::cmp::PartialEq for CurrentLevelState {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CurrentLevelState {}
+    impl core::cmp::Eq for CurrentLevelState {}
     impl core::hash::Hash for CurrentLevelState {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -18245,22 +18245,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CurrentLevel> for u16 {
+    impl core::convert::From<CurrentLevel> for u16 {
         fn from(value: CurrentLevel) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for CurrentLevel {
+    impl core::convert::From<u16> for CurrentLevel {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CurrentLevel {
+    impl core::cmp::PartialEq for CurrentLevel {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CurrentLevel {}
+    impl core::cmp::Eq for CurrentLevel {}
     impl core::hash::Hash for CurrentLevel {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -18331,22 +18331,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<AccelerationForward> for u16 {
+    impl core::convert::From<AccelerationForward> for u16 {
         fn from(value: AccelerationForward) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for AccelerationForward {
+    impl core::convert::From<u16> for AccelerationForward {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for AccelerationForward {
+    impl core::cmp::PartialEq for AccelerationForward {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for AccelerationForward {}
+    impl core::cmp::Eq for AccelerationForward {}
     impl core::hash::Hash for AccelerationForward {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -18415,22 +18415,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<PwmAlignment> for u16 {
+    impl core::convert::From<PwmAlignment> for u16 {
         fn from(value: PwmAlignment) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for PwmAlignment {
+    impl core::convert::From<u16> for PwmAlignment {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for PwmAlignment {
+    impl core::cmp::PartialEq for PwmAlignment {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for PwmAlignment {}
+    impl core::cmp::Eq for PwmAlignment {}
     impl core::hash::Hash for PwmAlignment {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19122,22 +19122,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModelCode> for u16 {
+    impl core::convert::From<ModelCode> for u16 {
         fn from(value: ModelCode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ModelCode {
+    impl core::convert::From<u16> for ModelCode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModelCode {
+    impl core::cmp::PartialEq for ModelCode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModelCode {}
+    impl core::cmp::Eq for ModelCode {}
     impl core::hash::Hash for ModelCode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19329,22 +19329,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModelDefinitionVoltage> for u8 {
+    impl core::convert::From<ModelDefinitionVoltage> for u8 {
         fn from(value: ModelDefinitionVoltage) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for ModelDefinitionVoltage {
+    impl core::convert::From<u8> for ModelDefinitionVoltage {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModelDefinitionVoltage {
+    impl core::cmp::PartialEq for ModelDefinitionVoltage {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModelDefinitionVoltage {}
+    impl core::cmp::Eq for ModelDefinitionVoltage {}
     impl core::hash::Hash for ModelDefinitionVoltage {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19416,22 +19416,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModelDefinitionApplication> for u8 {
+    impl core::convert::From<ModelDefinitionApplication> for u8 {
         fn from(value: ModelDefinitionApplication) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for ModelDefinitionApplication {
+    impl core::convert::From<u8> for ModelDefinitionApplication {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModelDefinitionApplication {
+    impl core::cmp::PartialEq for ModelDefinitionApplication {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModelDefinitionApplication {}
+    impl core::cmp::Eq for ModelDefinitionApplication {}
     impl core::hash::Hash for ModelDefinitionApplication {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19509,22 +19509,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModelDefinitionPlatform> for u8 {
+    impl core::convert::From<ModelDefinitionPlatform> for u8 {
         fn from(value: ModelDefinitionPlatform) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for ModelDefinitionPlatform {
+    impl core::convert::From<u8> for ModelDefinitionPlatform {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModelDefinitionPlatform {
+    impl core::cmp::PartialEq for ModelDefinitionPlatform {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModelDefinitionPlatform {}
+    impl core::cmp::Eq for ModelDefinitionPlatform {}
     impl core::hash::Hash for ModelDefinitionPlatform {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19603,22 +19603,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModelDefinitionCommunicationChip> for u8 {
+    impl core::convert::From<ModelDefinitionCommunicationChip> for u8 {
         fn from(value: ModelDefinitionCommunicationChip) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for ModelDefinitionCommunicationChip {
+    impl core::convert::From<u8> for ModelDefinitionCommunicationChip {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModelDefinitionCommunicationChip {
+    impl core::cmp::PartialEq for ModelDefinitionCommunicationChip {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModelDefinitionCommunicationChip {}
+    impl core::cmp::Eq for ModelDefinitionCommunicationChip {}
     impl core::hash::Hash for ModelDefinitionCommunicationChip {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19750,22 +19750,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<FieldbusKind> for u16 {
+    impl core::convert::From<FieldbusKind> for u16 {
         fn from(value: FieldbusKind) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for FieldbusKind {
+    impl core::convert::From<u16> for FieldbusKind {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for FieldbusKind {
+    impl core::cmp::PartialEq for FieldbusKind {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for FieldbusKind {}
+    impl core::cmp::Eq for FieldbusKind {}
     impl core::hash::Hash for FieldbusKind {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19876,17 +19876,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<DriveOptionsAbsoluteEncoder> for u8 {
+    impl core::convert::From<DriveOptionsAbsoluteEncoder> for u8 {
         fn from(value: DriveOptionsAbsoluteEncoder) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for DriveOptionsAbsoluteEncoder {
+    impl core::cmp::PartialEq for DriveOptionsAbsoluteEncoder {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for DriveOptionsAbsoluteEncoder {}
+    impl core::cmp::Eq for DriveOptionsAbsoluteEncoder {}
     impl core::hash::Hash for DriveOptionsAbsoluteEncoder {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -19956,22 +19956,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<RegisterMap> for u16 {
+    impl core::convert::From<RegisterMap> for u16 {
         fn from(value: RegisterMap) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for RegisterMap {
+    impl core::convert::From<u16> for RegisterMap {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for RegisterMap {
+    impl core::cmp::PartialEq for RegisterMap {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for RegisterMap {}
+    impl core::cmp::Eq for RegisterMap {}
     impl core::hash::Hash for RegisterMap {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20062,22 +20062,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProfibusState> for u16 {
+    impl core::convert::From<ProfibusState> for u16 {
         fn from(value: ProfibusState) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProfibusState {
+    impl core::convert::From<u16> for ProfibusState {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProfibusState {
+    impl core::cmp::PartialEq for ProfibusState {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProfibusState {}
+    impl core::cmp::Eq for ProfibusState {}
     impl core::hash::Hash for ProfibusState {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20212,22 +20212,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProfibusBitRate> for u16 {
+    impl core::convert::From<ProfibusBitRate> for u16 {
         fn from(value: ProfibusBitRate) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProfibusBitRate {
+    impl core::convert::From<u16> for ProfibusBitRate {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProfibusBitRate {
+    impl core::cmp::PartialEq for ProfibusBitRate {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProfibusBitRate {}
+    impl core::cmp::Eq for ProfibusBitRate {}
     impl core::hash::Hash for ProfibusBitRate {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20345,22 +20345,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CanBaudRate> for u16 {
+    impl core::convert::From<CanBaudRate> for u16 {
         fn from(value: CanBaudRate) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for CanBaudRate {
+    impl core::convert::From<u16> for CanBaudRate {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CanBaudRate {
+    impl core::cmp::PartialEq for CanBaudRate {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CanBaudRate {}
+    impl core::cmp::Eq for CanBaudRate {}
     impl core::hash::Hash for CanBaudRate {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20435,22 +20435,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CanObjectCommand> for u16 {
+    impl core::convert::From<CanObjectCommand> for u16 {
         fn from(value: CanObjectCommand) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for CanObjectCommand {
+    impl core::convert::From<u16> for CanObjectCommand {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CanObjectCommand {
+    impl core::cmp::PartialEq for CanObjectCommand {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CanObjectCommand {}
+    impl core::cmp::Eq for CanObjectCommand {}
     impl core::hash::Hash for CanObjectCommand {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20544,22 +20544,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CanopenStatusRedLed> for u8 {
+    impl core::convert::From<CanopenStatusRedLed> for u8 {
         fn from(value: CanopenStatusRedLed) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for CanopenStatusRedLed {
+    impl core::convert::From<u8> for CanopenStatusRedLed {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CanopenStatusRedLed {
+    impl core::cmp::PartialEq for CanopenStatusRedLed {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CanopenStatusRedLed {}
+    impl core::cmp::Eq for CanopenStatusRedLed {}
     impl core::hash::Hash for CanopenStatusRedLed {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20639,22 +20639,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CanopenStatusGreenLed> for u8 {
+    impl core::convert::From<CanopenStatusGreenLed> for u8 {
         fn from(value: CanopenStatusGreenLed) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for CanopenStatusGreenLed {
+    impl core::convert::From<u8> for CanopenStatusGreenLed {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CanopenStatusGreenLed {
+    impl core::cmp::PartialEq for CanopenStatusGreenLed {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CanopenStatusGreenLed {}
+    impl core::cmp::Eq for CanopenStatusGreenLed {}
     impl core::hash::Hash for CanopenStatusGreenLed {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20763,22 +20763,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SerialBaudRate> for u16 {
+    impl core::convert::From<SerialBaudRate> for u16 {
         fn from(value: SerialBaudRate) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for SerialBaudRate {
+    impl core::convert::From<u16> for SerialBaudRate {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SerialBaudRate {
+    impl core::cmp::PartialEq for SerialBaudRate {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SerialBaudRate {}
+    impl core::cmp::Eq for SerialBaudRate {}
     impl core::hash::Hash for SerialBaudRate {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20880,22 +20880,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SerialFormat> for u16 {
+    impl core::convert::From<SerialFormat> for u16 {
         fn from(value: SerialFormat) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for SerialFormat {
+    impl core::convert::From<u16> for SerialFormat {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SerialFormat {
+    impl core::cmp::PartialEq for SerialFormat {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SerialFormat {}
+    impl core::cmp::Eq for SerialFormat {}
     impl core::hash::Hash for SerialFormat {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -20968,22 +20968,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<WordOrder> for u16 {
+    impl core::convert::From<WordOrder> for u16 {
         fn from(value: WordOrder) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for WordOrder {
+    impl core::convert::From<u16> for WordOrder {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for WordOrder {
+    impl core::cmp::PartialEq for WordOrder {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for WordOrder {}
+    impl core::cmp::Eq for WordOrder {}
     impl core::hash::Hash for WordOrder {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21094,22 +21094,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModesOfOperationI16> for i16 {
+    impl core::convert::From<ModesOfOperationI16> for i16 {
         fn from(value: ModesOfOperationI16) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for ModesOfOperationI16 {
+    impl core::convert::From<i16> for ModesOfOperationI16 {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModesOfOperationI16 {
+    impl core::cmp::PartialEq for ModesOfOperationI16 {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModesOfOperationI16 {}
+    impl core::cmp::Eq for ModesOfOperationI16 {}
     impl core::hash::Hash for ModesOfOperationI16 {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21183,22 +21183,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<SocketProtocol> for u16 {
+    impl core::convert::From<SocketProtocol> for u16 {
         fn from(value: SocketProtocol) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for SocketProtocol {
+    impl core::convert::From<u16> for SocketProtocol {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for SocketProtocol {
+    impl core::cmp::PartialEq for SocketProtocol {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for SocketProtocol {}
+    impl core::cmp::Eq for SocketProtocol {}
     impl core::hash::Hash for SocketProtocol {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21261,17 +21261,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe1Enable> for u8 {
+    impl core::convert::From<TouchProbeControlProbe1Enable> for u8 {
         fn from(value: TouchProbeControlProbe1Enable) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe1Enable {
+    impl core::cmp::PartialEq for TouchProbeControlProbe1Enable {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe1Enable {}
+    impl core::cmp::Eq for TouchProbeControlProbe1Enable {}
     impl core::hash::Hash for TouchProbeControlProbe1Enable {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21334,17 +21334,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe1Continuous> for u8 {
+    impl core::convert::From<TouchProbeControlProbe1Continuous> for u8 {
         fn from(value: TouchProbeControlProbe1Continuous) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe1Continuous {
+    impl core::cmp::PartialEq for TouchProbeControlProbe1Continuous {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe1Continuous {}
+    impl core::cmp::Eq for TouchProbeControlProbe1Continuous {}
     impl core::hash::Hash for TouchProbeControlProbe1Continuous {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21422,17 +21422,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe1Trigger> for u8 {
+    impl core::convert::From<TouchProbeControlProbe1Trigger> for u8 {
         fn from(value: TouchProbeControlProbe1Trigger) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe1Trigger {
+    impl core::cmp::PartialEq for TouchProbeControlProbe1Trigger {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe1Trigger {}
+    impl core::cmp::Eq for TouchProbeControlProbe1Trigger {}
     impl core::hash::Hash for TouchProbeControlProbe1Trigger {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21497,17 +21497,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe1PositiveEdge> for u8 {
+    impl core::convert::From<TouchProbeControlProbe1PositiveEdge> for u8 {
         fn from(value: TouchProbeControlProbe1PositiveEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe1PositiveEdge {
+    impl core::cmp::PartialEq for TouchProbeControlProbe1PositiveEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe1PositiveEdge {}
+    impl core::cmp::Eq for TouchProbeControlProbe1PositiveEdge {}
     impl core::hash::Hash for TouchProbeControlProbe1PositiveEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21570,17 +21570,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe1NegativeEdge> for u8 {
+    impl core::convert::From<TouchProbeControlProbe1NegativeEdge> for u8 {
         fn from(value: TouchProbeControlProbe1NegativeEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe1NegativeEdge {
+    impl core::cmp::PartialEq for TouchProbeControlProbe1NegativeEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe1NegativeEdge {}
+    impl core::cmp::Eq for TouchProbeControlProbe1NegativeEdge {}
     impl core::hash::Hash for TouchProbeControlProbe1NegativeEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21658,17 +21658,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe1Position> for u8 {
+    impl core::convert::From<TouchProbeControlProbe1Position> for u8 {
         fn from(value: TouchProbeControlProbe1Position) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe1Position {
+    impl core::cmp::PartialEq for TouchProbeControlProbe1Position {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe1Position {}
+    impl core::cmp::Eq for TouchProbeControlProbe1Position {}
     impl core::hash::Hash for TouchProbeControlProbe1Position {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21733,17 +21733,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe2Enable> for u8 {
+    impl core::convert::From<TouchProbeControlProbe2Enable> for u8 {
         fn from(value: TouchProbeControlProbe2Enable) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe2Enable {
+    impl core::cmp::PartialEq for TouchProbeControlProbe2Enable {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe2Enable {}
+    impl core::cmp::Eq for TouchProbeControlProbe2Enable {}
     impl core::hash::Hash for TouchProbeControlProbe2Enable {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21806,17 +21806,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe2Continuous> for u8 {
+    impl core::convert::From<TouchProbeControlProbe2Continuous> for u8 {
         fn from(value: TouchProbeControlProbe2Continuous) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe2Continuous {
+    impl core::cmp::PartialEq for TouchProbeControlProbe2Continuous {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe2Continuous {}
+    impl core::cmp::Eq for TouchProbeControlProbe2Continuous {}
     impl core::hash::Hash for TouchProbeControlProbe2Continuous {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21894,17 +21894,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe2Trigger> for u8 {
+    impl core::convert::From<TouchProbeControlProbe2Trigger> for u8 {
         fn from(value: TouchProbeControlProbe2Trigger) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe2Trigger {
+    impl core::cmp::PartialEq for TouchProbeControlProbe2Trigger {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe2Trigger {}
+    impl core::cmp::Eq for TouchProbeControlProbe2Trigger {}
     impl core::hash::Hash for TouchProbeControlProbe2Trigger {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -21969,17 +21969,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe2PositiveEdge> for u8 {
+    impl core::convert::From<TouchProbeControlProbe2PositiveEdge> for u8 {
         fn from(value: TouchProbeControlProbe2PositiveEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe2PositiveEdge {
+    impl core::cmp::PartialEq for TouchProbeControlProbe2PositiveEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe2PositiveEdge {}
+    impl core::cmp::Eq for TouchProbeControlProbe2PositiveEdge {}
     impl core::hash::Hash for TouchProbeControlProbe2PositiveEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22042,17 +22042,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe2NegativeEdge> for u8 {
+    impl core::convert::From<TouchProbeControlProbe2NegativeEdge> for u8 {
         fn from(value: TouchProbeControlProbe2NegativeEdge) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe2NegativeEdge {
+    impl core::cmp::PartialEq for TouchProbeControlProbe2NegativeEdge {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe2NegativeEdge {}
+    impl core::cmp::Eq for TouchProbeControlProbe2NegativeEdge {}
     impl core::hash::Hash for TouchProbeControlProbe2NegativeEdge {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22130,17 +22130,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeControlProbe2Position> for u8 {
+    impl core::convert::From<TouchProbeControlProbe2Position> for u8 {
         fn from(value: TouchProbeControlProbe2Position) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeControlProbe2Position {
+    impl core::cmp::PartialEq for TouchProbeControlProbe2Position {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeControlProbe2Position {}
+    impl core::cmp::Eq for TouchProbeControlProbe2Position {}
     impl core::hash::Hash for TouchProbeControlProbe2Position {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22205,17 +22205,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusBeforeV6Probe1Enabled> for u8 {
+    impl core::convert::From<TouchProbeStatusBeforeV6Probe1Enabled> for u8 {
         fn from(value: TouchProbeStatusBeforeV6Probe1Enabled) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusBeforeV6Probe1Enabled {
+    impl core::cmp::PartialEq for TouchProbeStatusBeforeV6Probe1Enabled {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusBeforeV6Probe1Enabled {}
+    impl core::cmp::Eq for TouchProbeStatusBeforeV6Probe1Enabled {}
     impl core::hash::Hash for TouchProbeStatusBeforeV6Probe1Enabled {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22278,17 +22278,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusBeforeV6Probe1ValueStored> for u8 {
+    impl core::convert::From<TouchProbeStatusBeforeV6Probe1ValueStored> for u8 {
         fn from(value: TouchProbeStatusBeforeV6Probe1ValueStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusBeforeV6Probe1ValueStored {
+    impl core::cmp::PartialEq for TouchProbeStatusBeforeV6Probe1ValueStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusBeforeV6Probe1ValueStored {}
+    impl core::cmp::Eq for TouchProbeStatusBeforeV6Probe1ValueStored {}
     impl core::hash::Hash for TouchProbeStatusBeforeV6Probe1ValueStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22351,17 +22351,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusBeforeV6Probe2Enabled> for u8 {
+    impl core::convert::From<TouchProbeStatusBeforeV6Probe2Enabled> for u8 {
         fn from(value: TouchProbeStatusBeforeV6Probe2Enabled) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusBeforeV6Probe2Enabled {
+    impl core::cmp::PartialEq for TouchProbeStatusBeforeV6Probe2Enabled {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusBeforeV6Probe2Enabled {}
+    impl core::cmp::Eq for TouchProbeStatusBeforeV6Probe2Enabled {}
     impl core::hash::Hash for TouchProbeStatusBeforeV6Probe2Enabled {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22424,17 +22424,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusBeforeV6Probe2ValueStored> for u8 {
+    impl core::convert::From<TouchProbeStatusBeforeV6Probe2ValueStored> for u8 {
         fn from(value: TouchProbeStatusBeforeV6Probe2ValueStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusBeforeV6Probe2ValueStored {
+    impl core::cmp::PartialEq for TouchProbeStatusBeforeV6Probe2ValueStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusBeforeV6Probe2ValueStored {}
+    impl core::cmp::Eq for TouchProbeStatusBeforeV6Probe2ValueStored {}
     impl core::hash::Hash for TouchProbeStatusBeforeV6Probe2ValueStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22658,22 +22658,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeInput> for i16 {
+    impl core::convert::From<TouchProbeInput> for i16 {
         fn from(value: TouchProbeInput) -> Self {
             value.raw()
         }
     }
-    impl From<i16> for TouchProbeInput {
+    impl core::convert::From<i16> for TouchProbeInput {
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for TouchProbeInput {
+    impl core::cmp::PartialEq for TouchProbeInput {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeInput {}
+    impl core::cmp::Eq for TouchProbeInput {}
     impl core::hash::Hash for TouchProbeInput {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22761,17 +22761,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusV6Probe1Enabled> for u8 {
+    impl core::convert::From<TouchProbeStatusV6Probe1Enabled> for u8 {
         fn from(value: TouchProbeStatusV6Probe1Enabled) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusV6Probe1Enabled {
+    impl core::cmp::PartialEq for TouchProbeStatusV6Probe1Enabled {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusV6Probe1Enabled {}
+    impl core::cmp::Eq for TouchProbeStatusV6Probe1Enabled {}
     impl core::hash::Hash for TouchProbeStatusV6Probe1Enabled {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22834,17 +22834,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusV6Probe1PositiveEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusV6Probe1PositiveEdgeStored> for u8 {
         fn from(value: TouchProbeStatusV6Probe1PositiveEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusV6Probe1PositiveEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusV6Probe1PositiveEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusV6Probe1PositiveEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusV6Probe1PositiveEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusV6Probe1PositiveEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22907,17 +22907,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusV6Probe1NegativeEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusV6Probe1NegativeEdgeStored> for u8 {
         fn from(value: TouchProbeStatusV6Probe1NegativeEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusV6Probe1NegativeEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusV6Probe1NegativeEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusV6Probe1NegativeEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusV6Probe1NegativeEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusV6Probe1NegativeEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -22980,17 +22980,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusV6Probe2Enabled> for u8 {
+    impl core::convert::From<TouchProbeStatusV6Probe2Enabled> for u8 {
         fn from(value: TouchProbeStatusV6Probe2Enabled) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusV6Probe2Enabled {
+    impl core::cmp::PartialEq for TouchProbeStatusV6Probe2Enabled {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusV6Probe2Enabled {}
+    impl core::cmp::Eq for TouchProbeStatusV6Probe2Enabled {}
     impl core::hash::Hash for TouchProbeStatusV6Probe2Enabled {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23053,17 +23053,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusV6Probe2PositiveEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusV6Probe2PositiveEdgeStored> for u8 {
         fn from(value: TouchProbeStatusV6Probe2PositiveEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusV6Probe2PositiveEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusV6Probe2PositiveEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusV6Probe2PositiveEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusV6Probe2PositiveEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusV6Probe2PositiveEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23126,17 +23126,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeStatusV6Probe2NegativeEdgeStored> for u8 {
+    impl core::convert::From<TouchProbeStatusV6Probe2NegativeEdgeStored> for u8 {
         fn from(value: TouchProbeStatusV6Probe2NegativeEdgeStored) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for TouchProbeStatusV6Probe2NegativeEdgeStored {
+    impl core::cmp::PartialEq for TouchProbeStatusV6Probe2NegativeEdgeStored {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeStatusV6Probe2NegativeEdgeStored {}
+    impl core::cmp::Eq for TouchProbeStatusV6Probe2NegativeEdgeStored {}
     impl core::hash::Hash for TouchProbeStatusV6Probe2NegativeEdgeStored {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23226,22 +23226,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<TouchProbeSource> for u16 {
+    impl core::convert::From<TouchProbeSource> for u16 {
         fn from(value: TouchProbeSource) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for TouchProbeSource {
+    impl core::convert::From<u16> for TouchProbeSource {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for TouchProbeSource {
+    impl core::cmp::PartialEq for TouchProbeSource {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for TouchProbeSource {}
+    impl core::cmp::Eq for TouchProbeSource {}
     impl core::hash::Hash for TouchProbeSource {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23307,17 +23307,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CamStartStopControlRun> for u8 {
+    impl core::convert::From<CamStartStopControlRun> for u8 {
         fn from(value: CamStartStopControlRun) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for CamStartStopControlRun {
+    impl core::cmp::PartialEq for CamStartStopControlRun {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CamStartStopControlRun {}
+    impl core::cmp::Eq for CamStartStopControlRun {}
     impl core::hash::Hash for CamStartStopControlRun {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23386,22 +23386,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CamMode> for u16 {
+    impl core::convert::From<CamMode> for u16 {
         fn from(value: CamMode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for CamMode {
+    impl core::convert::From<u16> for CamMode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CamMode {
+    impl core::cmp::PartialEq for CamMode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CamMode {}
+    impl core::cmp::Eq for CamMode {}
     impl core::hash::Hash for CamMode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23485,22 +23485,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<CamFeedback> for u16 {
+    impl core::convert::From<CamFeedback> for u16 {
         fn from(value: CamFeedback) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for CamFeedback {
+    impl core::convert::From<u16> for CamFeedback {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for CamFeedback {
+    impl core::cmp::PartialEq for CamFeedback {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for CamFeedback {}
+    impl core::cmp::Eq for CamFeedback {}
     impl core::hash::Hash for CamFeedback {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23565,17 +23565,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<UserPidControlRun> for u8 {
+    impl core::convert::From<UserPidControlRun> for u8 {
         fn from(value: UserPidControlRun) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for UserPidControlRun {
+    impl core::cmp::PartialEq for UserPidControlRun {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for UserPidControlRun {}
+    impl core::cmp::Eq for UserPidControlRun {}
     impl core::hash::Hash for UserPidControlRun {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23671,22 +23671,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<GeneratorTarget> for u16 {
+    impl core::convert::From<GeneratorTarget> for u16 {
         fn from(value: GeneratorTarget) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for GeneratorTarget {
+    impl core::convert::From<u16> for GeneratorTarget {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for GeneratorTarget {
+    impl core::cmp::PartialEq for GeneratorTarget {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for GeneratorTarget {}
+    impl core::cmp::Eq for GeneratorTarget {}
     impl core::hash::Hash for GeneratorTarget {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23759,22 +23759,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<GeneratorCommand> for u16 {
+    impl core::convert::From<GeneratorCommand> for u16 {
         fn from(value: GeneratorCommand) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for GeneratorCommand {
+    impl core::convert::From<u16> for GeneratorCommand {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for GeneratorCommand {
+    impl core::cmp::PartialEq for GeneratorCommand {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for GeneratorCommand {}
+    impl core::cmp::Eq for GeneratorCommand {}
     impl core::hash::Hash for GeneratorCommand {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23858,22 +23858,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<GeneratorMode> for u16 {
+    impl core::convert::From<GeneratorMode> for u16 {
         fn from(value: GeneratorMode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for GeneratorMode {
+    impl core::convert::From<u16> for GeneratorMode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for GeneratorMode {
+    impl core::cmp::PartialEq for GeneratorMode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for GeneratorMode {}
+    impl core::cmp::Eq for GeneratorMode {}
     impl core::hash::Hash for GeneratorMode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -23938,17 +23938,17 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProgramStatusValid> for u8 {
+    impl core::convert::From<ProgramStatusValid> for u8 {
         fn from(value: ProgramStatusValid) -> Self {
             value.raw()
         }
     }
-    impl PartialEq for ProgramStatusValid {
+    impl core::cmp::PartialEq for ProgramStatusValid {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProgramStatusValid {}
+    impl core::cmp::Eq for ProgramStatusValid {}
     impl core::hash::Hash for ProgramStatusValid {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -24022,22 +24022,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProgramRunMode> for u16 {
+    impl core::convert::From<ProgramRunMode> for u16 {
         fn from(value: ProgramRunMode) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProgramRunMode {
+    impl core::convert::From<u16> for ProgramRunMode {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProgramRunMode {
+    impl core::cmp::PartialEq for ProgramRunMode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProgramRunMode {}
+    impl core::cmp::Eq for ProgramRunMode {}
     impl core::hash::Hash for ProgramRunMode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -24176,22 +24176,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProgramStopEvent> for u16 {
+    impl core::convert::From<ProgramStopEvent> for u16 {
         fn from(value: ProgramStopEvent) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProgramStopEvent {
+    impl core::convert::From<u16> for ProgramStopEvent {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProgramStopEvent {
+    impl core::cmp::PartialEq for ProgramStopEvent {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProgramStopEvent {}
+    impl core::cmp::Eq for ProgramStopEvent {}
     impl core::hash::Hash for ProgramStopEvent {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -24292,22 +24292,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProgramCommand> for u16 {
+    impl core::convert::From<ProgramCommand> for u16 {
         fn from(value: ProgramCommand) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProgramCommand {
+    impl core::convert::From<u16> for ProgramCommand {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProgramCommand {
+    impl core::cmp::PartialEq for ProgramCommand {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProgramCommand {}
+    impl core::cmp::Eq for ProgramCommand {}
     impl core::hash::Hash for ProgramCommand {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -24379,22 +24379,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProgramProtection> for u16 {
+    impl core::convert::From<ProgramProtection> for u16 {
         fn from(value: ProgramProtection) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProgramProtection {
+    impl core::convert::From<u16> for ProgramProtection {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProgramProtection {
+    impl core::cmp::PartialEq for ProgramProtection {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProgramProtection {}
+    impl core::cmp::Eq for ProgramProtection {}
     impl core::hash::Hash for ProgramProtection {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -24484,22 +24484,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ProgramBreakpoint> for u16 {
+    impl core::convert::From<ProgramBreakpoint> for u16 {
         fn from(value: ProgramBreakpoint) -> Self {
             value.raw()
         }
     }
-    impl From<u16> for ProgramBreakpoint {
+    impl core::convert::From<u16> for ProgramBreakpoint {
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ProgramBreakpoint {
+    impl core::cmp::PartialEq for ProgramBreakpoint {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ProgramBreakpoint {}
+    impl core::cmp::Eq for ProgramBreakpoint {}
     impl core::hash::Hash for ProgramBreakpoint {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -36116,7 +36116,7 @@ pub mod codes {
     /// | 0xFF13 | [`PowerStageErrorAxis1`](Self::PowerStageErrorAxis1) | The drive sends this code in addition to 0x5400. |
     /// | 0xFF14 | [`PowerStageErrorAxis2`](Self::PowerStageErrorAxis2) | The drive sends this code in addition to 0x5400. |
     /// | 0xFF15 | [`PowerStageErrorAxis3`](Self::PowerStageErrorAxis3) | The drive sends this code in addition to 0x5400. |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Emergency {
         /// 0x0000: generic error. Manual: PRE-DEFINED ERROR FIELD.
         GenericError,
@@ -36213,6 +36213,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for Emergency {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Emergency {}
+    impl core::hash::Hash for Emergency {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// sdo\_abort.
     ///
     /// Note for 0x06090030: The manual states the number and the condition of the abort code, but no name. The condition includes bit 30 of 0x1014, but the manual also marks this bit as not significant. Assumed: the abort code has the name that CiA 301 defines (CiA 301 defines an abort code with the same number). Manual: COB-ID SYNC MESSAGE; COB-ID EMERGENCY MESSAGE.
@@ -36274,7 +36285,7 @@ pub mod codes {
     /// | 0x06020000 | [`ObjectDoesNotExist`](Self::ObjectDoesNotExist) | The mapped object does not exist, or the mapping is longer than 64 bits. |
     /// | 0x06040041 | [`ObjectCannotBeMapped`](Self::ObjectCannotBeMapped) | The mapped object does not exist, or the mapping is longer than 64 bits. |
     /// | 0x06040042 | [`MappingExceedsPdoLength`](Self::MappingExceedsPdoLength) | The mapping of a PDO is longer than 64 bits. |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum SdoAbort {
         /// 0x06090030: value range exceeded. Bits 29 and 30 of the COB-ID of SYNC or EMCY cannot be changed. Manual: COB-ID SYNC MESSAGE; COB-ID EMERGENCY MESSAGE.
         ValueRangeExceeded,
@@ -36313,6 +36324,17 @@ pub mod codes {
                 Self::MappingExceedsPdoLength => 0x6040042,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for SdoAbort {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for SdoAbort {}
+    impl core::hash::Hash for SdoAbort {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
 }

@@ -138,12 +138,15 @@ fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
     }
     let feature = input.parse::<LitStr>()?;
     let help = match feature.value().to_ascii_lowercase().as_str() {
-        "true" | "yes" | "on" | "always" => "write `true` without quotes",
-        "false" | "no" | "off" | "never" => "write `false` without quotes",
+        "true" | "yes" | "always" => "write `true` without quotes",
+        "false" | "no" | "never" => "write `false` without quotes",
         name if is_feature_name(name) => return Ok(Presence::Feature(feature.value())),
         _ => "expected `true`, `false`, or the name of a cargo feature",
     };
-    Err(syn::Error::new(feature.span(), format!("`{}` is not the name of a cargo feature: {help}", feature.value())))
+    Err(syn::Error::new(
+        feature.span(),
+        format!("`{}` cannot be used as the name of a cargo feature: {help}", feature.value()),
+    ))
 }
 
 /// Returns whether cargo accepts a feature with this name. Names in cargo also may have letters other than ASCII, but crates.io

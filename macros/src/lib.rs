@@ -234,7 +234,10 @@ mod tests {
             ("mod drive = \"a.eds\" { table: 1 }", "expected `true`, `false`, or the name of a cargo feature"),
             ("mod drive = \"a.eds\" { table: \"yes\" }", "write `true` without quotes"),
             ("mod drive = \"a.eds\" { debug: \"never\" }", "write `false` without quotes"),
-            ("mod drive = \"a.eds\" { serde: \"a feature\" }", "`a feature` is not the name of a cargo feature"),
+            (
+                "mod drive = \"a.eds\" { serde: \"a feature\" }",
+                "`a feature` cannot be used as the name of a cargo feature",
+            ),
             ("mod drive = \"a.eds\" { acessors: true }", "unknown option `acessors`; did you mean `accessors`?"),
             ("mod drive = \"a.eds\" { colour: true }", "unknown option `colour`; the options are device, module"),
             ("mod drive = \"a.eds\" { objects: \"6000..\" }", "6000.."),

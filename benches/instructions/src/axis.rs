@@ -319,22 +319,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<Mode> for u8 {
+    impl core::convert::From<Mode> for u8 {
         fn from(value: Mode) -> Self {
             value.raw()
         }
     }
-    impl From<u8> for Mode {
+    impl core::convert::From<u8> for Mode {
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for Mode {
+    impl core::cmp::PartialEq for Mode {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for Mode {}
+    impl core::cmp::Eq for Mode {}
     impl core::hash::Hash for Mode {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -466,22 +466,22 @@ pub mod types {
             self.raw()
         }
     }
-    impl From<ModesOfOperation> for i8 {
+    impl core::convert::From<ModesOfOperation> for i8 {
         fn from(value: ModesOfOperation) -> Self {
             value.raw()
         }
     }
-    impl From<i8> for ModesOfOperation {
+    impl core::convert::From<i8> for ModesOfOperation {
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
-    impl PartialEq for ModesOfOperation {
+    impl core::cmp::PartialEq for ModesOfOperation {
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
-    impl Eq for ModesOfOperation {}
+    impl core::cmp::Eq for ModesOfOperation {}
     impl core::hash::Hash for ModesOfOperation {
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
@@ -1593,7 +1593,7 @@ pub mod codes {
     /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
     /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
     /// | 0xF004 | [`Control`](Self::Control) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
         ContinuousOverCurrent,
@@ -1746,6 +1746,17 @@ pub mod codes {
             }
         }
     }
+    impl core::cmp::PartialEq for DriveErrors {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for DriveErrors {}
+    impl core::hash::Hash for DriveErrors {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
+        }
+    }
     /// emergency.
     ///
     /// Definition from CiA 301, 7.2.7.1.
@@ -1857,7 +1868,7 @@ pub mod codes {
     /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
     /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
     /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Emergency {
         /// 0x0000: no error. No error is present, or an error was reset.
         NoError,
@@ -2016,6 +2027,17 @@ pub mod codes {
                 Self::DeviceSpecific(code) => code,
                 Self::Unknown(code) => code,
             }
+        }
+    }
+    impl core::cmp::PartialEq for Emergency {
+        fn eq(&self, other: &Self) -> bool {
+            rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
+        }
+    }
+    impl core::cmp::Eq for Emergency {}
+    impl core::hash::Hash for Emergency {
+        fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+            core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
     }
 }

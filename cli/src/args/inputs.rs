@@ -71,7 +71,7 @@ pub(crate) struct Inputs {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Printing {
     /// Print all diagnostics in full. By default, at most three diagnostics of a code are printed for each file, the second and
-    /// third warning without the marked lines.
+    /// third warning without the marked lines, notes and help.
     #[arg(long, help_heading = DIAGNOSTICS)]
     pub all: bool,
     /// Print the number of diagnostics of each code, and the first position, instead of the diagnostics.

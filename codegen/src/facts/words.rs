@@ -138,7 +138,7 @@ pub fn origin_name(origin: &FactOrigin) -> String {
         FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
         FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs without a description".to_owned(),
         FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
-        FactOrigin::Rule(Rule::MissingKey) => "the rule for missing attributes".to_owned(),
+        FactOrigin::Rule(Rule::MissingKey) => "the rule for missing or unknown attributes".to_owned(),
         FactOrigin::Rule(Rule::CompactObject) => "the rule for compact sub-indices".to_owned(),
         FactOrigin::PrintedName => "the name in the manual".to_owned(),
     }

@@ -70,7 +70,7 @@ impl Fact {
             Fact::Behaviour => one.behaviour != other.behaviour,
             Fact::Availability => one.availability != other.availability,
             Fact::Variants => one.variants != other.variants,
-            Fact::Description => one.documentation != other.documentation,
+            Fact::Description => text(one) != text(other),
         }
     }
 
@@ -87,11 +87,14 @@ impl Fact {
             Fact::Behaviour => item.behaviour.is_some(),
             Fact::Availability => item.availability.is_some(),
             Fact::Variants => !item.variants.is_empty(),
-            Fact::Description => {
-                item.documentation.as_deref().is_some_and(|documentation| !documentation.text.is_empty())
-            }
+            Fact::Description => !text(item).is_empty(),
         }
     }
+}
+
+/// Returns the description of an item, without citations.
+fn text(item: &Item) -> &str {
+    item.documentation.as_deref().map_or("", |documentation| documentation.text.as_str())
 }
 
 /// The origin of a fact.

@@ -8,7 +8,7 @@ use super::{
 };
 
 /// Returns whether a fact with this recorded origin was added by a profile.
-fn is_of_profile(origin: Option<&FactOrigin>) -> bool {
+pub(crate) fn is_of_profile(origin: Option<&FactOrigin>) -> bool {
     matches!(origin, Some(FactOrigin::Standard(_)))
 }
 

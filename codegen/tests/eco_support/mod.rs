@@ -2,12 +2,11 @@
 
 #![allow(dead_code)]
 
-#[path = "../table_support/manual.rs"]
-mod manual_text;
 #[allow(clippy::duplicate_mod, reason = "a program may load several modules that look for the repository")]
 #[path = "../../../tests/support/root.rs"]
 mod root;
 
+use crate::manual_text;
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::source::Source;

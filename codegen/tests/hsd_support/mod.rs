@@ -3,9 +3,8 @@
 #![allow(dead_code)] // Each test program uses only some of the helpers.
 
 pub mod frames;
-#[path = "../table_support/manual.rs"]
-mod manual_text;
 
+use crate::manual_text;
 use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};

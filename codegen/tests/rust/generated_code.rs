@@ -138,6 +138,9 @@ fn every_edition_of_rust_takes_it() {
 }
 
 /// Tests types, values, bits and items with names that the Rust prelude or generated code also uses.
+/// Names of traits that generated code implements. Each is also the name of an enumeration of the test.
+const TRAITS: [&str; 8] = ["from", "eq", "partial eq", "hash", "display", "from str", "copy", "named"];
+
 #[test]
 fn names_of_the_prelude_and_of_methods_compile() {
     let words = [
@@ -192,12 +195,19 @@ fn names_of_the_prelude_and_of_methods_compile() {
         table += &format!("[enums.\"{word}\".values]\n0 = \"{word}\"\n1 = \"{other}\"\n");
         table += &format!("[bits.\"{word} bits\".at]\n0 = \"{word}\"\n1 = \"{other}\"\n");
     }
+    for word in TRAITS {
+        table += &format!("[enums.\"{word}\".values]\n0 = \"{word}\"\n");
+    }
     table += "[[chapters]]\n[chapters.registers]\n";
     for (at, word) in words.iter().enumerate() {
         let (one, other) = (2 * at, 2 * at + 1);
         table += &format!("\"{word}\" = {{ reg = {one}, type = \"u16\", access = \"rw\", enum = \"{word}\" }}\n");
         table +=
             &format!("\"{word} b\" = {{ reg = {other}, type = \"u16\", access = \"rw\", bits = \"{word} bits\" }}\n");
+    }
+    for (at, word) in TRAITS.iter().enumerate() {
+        let reg = 2 * words.len() + at;
+        table += &format!("\"{word} t\" = {{ reg = {reg}, type = \"u16\", access = \"rw\", enum = \"{word}\" }}\n");
     }
     table += "[chapters.objects]\n\"0x2000\" = { name = \"New\", code = \"record\" }\n";
     for (at, word) in words.iter().enumerate() {

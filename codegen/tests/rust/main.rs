@@ -6,8 +6,6 @@ mod compile_support;
 mod corpus_support;
 #[path = "../form_support/mod.rs"]
 mod form_support;
-#[path = "../../../tests/support/lane.rs"]
-mod lane;
 
 mod cia402;
 mod generated_code;

@@ -2,8 +2,8 @@
 //! of `prettyplease`.
 
 use crate::compile_support;
+use crate::corpus_support::lane;
 use crate::form_support;
-use crate::lane;
 
 use std::path::Path;
 

@@ -45,7 +45,7 @@ fn rules_are_the_origins_of_facts_that_the_file_lacks() {
     assert_eq!(implicit.origins.get(Fact::Name), Some(&FactOrigin::Rule(Rule::AnnouncedPdo)));
     assert_eq!(facts(&implicit.items[0], Rule::AnnouncedPdo)[..2], [Fact::Name, Fact::Type]);
     let rust = check(Source::new("drive.eds", EDS.into()), &Options::default()).rust(&Options::default().rust);
-    assert!(rust.expect("bindings").contains("Access rights from the rule for missing attributes."));
+    assert!(rust.expect("bindings").contains("Access rights from the rule for missing or unknown attributes."));
 }
 
 #[test]

@@ -4,6 +4,8 @@
 mod corpus_support;
 #[path = "../../../tests/eco_support/mod.rs"]
 mod eco_support;
+#[path = "../../../tests/table_support/manual.rs"]
+mod manual_text;
 
 mod eco;
 mod eds;

@@ -101,7 +101,7 @@ pub(super) struct ViewModel {
 
 /// Names that getters must not have. These are other methods of bit fields, methods that clippy expects in trait
 /// implementations only, and methods of all types. The methods of all types would be called instead of the getter.
-const RESERVED: [&str; 16] = [
+const RESERVED: [&str; 17] = [
     "self",
     "super",
     "crate",
@@ -118,6 +118,7 @@ const RESERVED: [&str; 16] = [
     "try_into",
     "neg",
     "not",
+    "set_flags",
 ];
 
 /// Returns a mask with the lowest `bits` bits set.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::options::RustOptions;
+use super::options::{Presence, RustOptions};
 use crate::facts::code;
 use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::names::{self, Case, NameRequest};
@@ -16,6 +16,8 @@ pub(super) struct CodeTypeModel {
     /// Lines of the documentation table with all codes.
     pub table: Vec<String>,
     pub derives: Vec<String>,
+    /// The `cfg` attribute of `PartialEq`, `Eq` and `Hash`, if the options request these.
+    pub equality: Option<Vec<String>>,
     /// Primitive integer that holds a code.
     pub native: &'static str,
     pub variants: Vec<CodeVariant>,
@@ -80,7 +82,8 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     Some(CodeTypeModel {
         name: String::new(),
         table,
-        derives: options.derives_of_integers(),
+        derives: RustOptions { partial_eq: Presence::Never, ..options.clone() }.derives(true),
+        equality: RustOptions::gate(&options.partial_eq),
         native,
         variants,
         arms,

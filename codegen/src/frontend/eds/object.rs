@@ -10,8 +10,8 @@ use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
-    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, FactOrigins, Group,
-    Item, Limits, Mappable, ObjectCode, Rule, Srdo, Type, Value,
+    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Group, Item,
+    Limits, Mappable, ObjectCode, Rule, Srdo, Type, Value,
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
@@ -221,8 +221,11 @@ impl<'a> Reader<'a, '_> {
         item.access = self.access(raw, code, &mut item);
         if ty.is_none() {
             // A value without a data type has an unknown length, so it cannot be written.
-            item.access = Access::ReadOnly;
-            item.origins = FactOrigins::by_rule(&[Fact::Type, Fact::Access], Rule::MissingKey);
+            item.origins.set(Fact::Type, Some(FactOrigin::Rule(Rule::MissingKey)));
+            if item.access != Access::ReadOnly {
+                item.access = Access::ReadOnly;
+                item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
+            }
         }
         item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, &mut item);
         item.default = self.typed(raw.get(Key::DefaultValue), item.ty, Role::Value);

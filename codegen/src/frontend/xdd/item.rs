@@ -11,8 +11,8 @@ use crate::frontend::canopen::object;
 use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
 use crate::ir::{
-    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, FactOrigins, Item,
-    Limits, Mappable, ObjectCode, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
+    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Item, Limits,
+    Mappable, ObjectCode, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
 use crate::source::Span;
 
@@ -42,8 +42,11 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         item.access = self.access(raw, view, code, parent, &mut item);
         if ty.is_none() {
             // A value without a data type has an unknown length, so it cannot be written.
-            item.access = Access::ReadOnly;
-            item.origins = FactOrigins::by_rule(&[Fact::Type, Fact::Access], Rule::MissingKey);
+            item.origins.set(Fact::Type, Some(FactOrigin::Rule(Rule::MissingKey)));
+            if item.access != Access::ReadOnly {
+                item.access = Access::ReadOnly;
+                item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
+            }
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
         let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::object_names::{in_range, item_at, item_name, name_conditions};
+use crate::ir::stated::is_of_profile;
 use crate::ir::{
     Binding, BitFieldEntry, BitMeaning, CodeTable, CompactString, Condition, Device, Direction, Documentation, Fact,
     FactOrigin, Group, IoData, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine, Submodule,
@@ -43,7 +44,8 @@ impl<'p> Completion<'p> {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
         // The codes of the profile are left out if the manual lists codes, because both lists may contradict each
         // other. The diagnosis texts of an ESI have other codes, which do not conflict with those of the profile.
-        let of_manual = |table: &CodeTable| is_table(table.origin.span.file) && table.stated_by.is_none();
+        let of_manual =
+            |table: &CodeTable| is_table(table.origin.span.file) && !is_of_profile(table.stated_by.as_deref());
         let has_codes = device.code_tables.iter().any(of_manual);
         for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
             device.code_tables.push(CodeTable { stated_by: self.standard(&table.documentation), ..table.clone() });

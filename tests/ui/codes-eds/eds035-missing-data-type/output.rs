@@ -1,7 +1,7 @@
     /// Missing: 0x2000:00, unknown type, read-only.
     /// Accessor: [`missing`](super::Pump::missing).
     ///
-    /// Type and access rights from the rule for missing attributes.
+    /// Type and access rights from the rule for missing or unknown attributes.
     pub const MISSING: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2000,
         0x00,
@@ -10,7 +10,7 @@
     /// Empty: 0x2001:00, unknown type, read-only.
     /// Accessor: [`empty`](super::Pump::empty).
     ///
-    /// Type and access rights from the rule for missing attributes.
+    /// Type and access rights from the rule for missing or unknown attributes.
     pub const EMPTY: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
         0x2001,
         0x00,

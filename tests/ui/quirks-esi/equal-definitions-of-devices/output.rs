@@ -42,22 +42,22 @@
                 self.raw()
             }
         }
-        impl From<Dt0800En08> for u8 {
+        impl core::convert::From<Dt0800En08> for u8 {
             fn from(value: Dt0800En08) -> Self {
                 value.raw()
             }
         }
-        impl From<u8> for Dt0800En08 {
+        impl core::convert::From<u8> for Dt0800En08 {
             fn from(raw: u8) -> Self {
                 Self::from_raw(raw)
             }
         }
-        impl PartialEq for Dt0800En08 {
+        impl core::cmp::PartialEq for Dt0800En08 {
             fn eq(&self, other: &Self) -> bool {
                 self.raw() == other.raw()
             }
         }
-        impl Eq for Dt0800En08 {}
+        impl core::cmp::Eq for Dt0800En08 {}
         impl core::hash::Hash for Dt0800En08 {
             fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
                 core::hash::Hash::hash(&self.raw(), state);
@@ -126,22 +126,22 @@
                 self.raw()
             }
         }
-        impl From<Dt0800En08> for u8 {
+        impl core::convert::From<Dt0800En08> for u8 {
             fn from(value: Dt0800En08) -> Self {
                 value.raw()
             }
         }
-        impl From<u8> for Dt0800En08 {
+        impl core::convert::From<u8> for Dt0800En08 {
             fn from(raw: u8) -> Self {
                 Self::from_raw(raw)
             }
         }
-        impl PartialEq for Dt0800En08 {
+        impl core::cmp::PartialEq for Dt0800En08 {
             fn eq(&self, other: &Self) -> bool {
                 self.raw() == other.raw()
             }
         }
-        impl Eq for Dt0800En08 {}
+        impl core::cmp::Eq for Dt0800En08 {}
         impl core::hash::Hash for Dt0800En08 {
             fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
                 core::hash::Hash::hash(&self.raw(), state);

@@ -4,7 +4,7 @@
     /// |---|---|
     /// | 34 | [`Bus`](Self::Bus) |
     /// | 35 | [`Sensor`](Self::Sensor) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Alarms {
         /// 34: bus.
         Bus,
@@ -19,7 +19,7 @@
     /// |---|---|
     /// | F125 | [`SynchronizationLost`](Self::SynchronizationLost) |
     /// | F130 to F132 | [`Encoder`](Self::Encoder) |
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug)]
     pub enum Faults {
         /// F125: synchronization lost.
         SynchronizationLost,

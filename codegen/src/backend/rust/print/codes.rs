@@ -1,6 +1,7 @@
 //! Prints code tables.
 
 use super::section;
+use super::types;
 use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::code_table::CodeTableModel;
 use crate::backend::rust::code_type::CodeTypeModel;
@@ -46,6 +47,10 @@ fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
     line!(code, "Unknown(", ty.native, "),");
     code.close("}");
     conversions(code, table, ty);
+    if let Some(gate) = &ty.equality {
+        let raw = |value: &str| format!("rt::codes::CodeTable::raw({value})");
+        types::equality(code, &ty.name, gate, [&raw("*self"), &raw("*other")]);
+    }
 }
 
 fn conversions(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {

@@ -64,7 +64,7 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     code.close("}");
     conversions(code, enumeration);
     if let Some(gate) = &enumeration.equality {
-        equality(code, name, gate);
+        equality(code, name, gate, ["self.raw()", "other.raw()"]);
     }
     if let Some(gate) = &enumeration.texts {
         texts(code, enumeration, gate);
@@ -74,13 +74,13 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
 /// Writes the conversions to the number and, if every number has a variant, from the number.
 fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
     let (name, native) = (&enumeration.name, enumeration.native);
-    open!(code, "impl From<", name, "> for ", native, " {");
+    open!(code, "impl core::convert::From<", name, "> for ", native, " {");
     open!(code, "fn from(value: ", name, ") -> Self {");
     line!(code, "value.raw()");
     code.close("}");
     code.close("}");
     if enumeration.complete.is_none() {
-        open!(code, "impl From<", native, "> for ", name, " {");
+        open!(code, "impl core::convert::From<", native, "> for ", name, " {");
         open!(code, "fn from(raw: ", native, ") -> Self {");
         line!(code, "Self::from_raw(raw)");
         code.close("}");
@@ -88,19 +88,20 @@ fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
     }
 }
 
-fn equality(code: &mut Code, name: &str, gate: &[String]) {
+/// Writes `PartialEq`, `Eq` and `Hash`, which use the numbers of the value and of another value.
+pub(in crate::backend::rust) fn equality(code: &mut Code, name: &str, gate: &[String], [raw, other]: [&str; 2]) {
     code.lines(gate);
-    open!(code, "impl PartialEq for ", name, " {");
+    open!(code, "impl core::cmp::PartialEq for ", name, " {");
     open!(code, "fn eq(&self, other: &Self) -> bool {");
-    line!(code, "self.raw() == other.raw()");
+    line!(code, raw, " == ", other);
     code.close("}");
     code.close("}");
     code.lines(gate);
-    line!(code, "impl Eq for ", name, " {}");
+    line!(code, "impl core::cmp::Eq for ", name, " {}");
     code.lines(gate);
     open!(code, "impl core::hash::Hash for ", name, " {");
     open!(code, "fn hash<H: core::hash::Hasher>(&self, state: &mut H) {");
-    line!(code, "core::hash::Hash::hash(&self.raw(), state);");
+    line!(code, "core::hash::Hash::hash(&", raw, ", state);");
     code.close("}");
     code.close("}");
 }

@@ -384,10 +384,14 @@ impl Change {
     fn record(&self, item: &mut Item, before: &Item, is_type: bool) {
         for fact in Fact::ALL {
             let is_other = matches!(fact, Fact::Type if !is_type) || matches!(fact, Fact::Meaning if is_type);
-            if is_other || !fact.differs(item, before) || item.is_access_assumed() && fact == Fact::Access {
+            // The row can state the same value as a rule.
+            let was_by_rule = matches!(before.origins.get(fact), Some(FactOrigin::Rule(_)));
+            let is_stated_now = was_by_rule && item.origins.get(fact).is_none();
+            let is_changed = fact.differs(item, before) || is_stated_now;
+            if is_other || !is_changed || item.is_access_assumed() && fact == Fact::Access {
                 continue;
             }
-            item.origins.set(fact, Some(self.origin(fact.is_stated(before))));
+            item.origins.set(fact, Some(self.origin(fact.is_stated(before) && !was_by_rule)));
         }
     }
 
