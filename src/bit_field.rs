@@ -45,7 +45,7 @@ struct Field<'l> {
     mask: u64,
     /// True if the flag is set while its bit is 0.
     is_inverted: bool,
-    /// True if the field has a value of its own type.
+    /// True if the field has a type with names.
     is_value: bool,
 }
 

@@ -1,4 +1,5 @@
-//! The pipeline: source → syntax → front end → resolve → check → output. The build script, the macro and the command line use this pipeline.
+//! The pipeline: source → syntax → front end → resolve → check → output. The build script, the macro and the command line use this
+//! pipeline.
 
 use std::path::PathBuf;
 
@@ -120,8 +121,8 @@ pub fn check(source: Source, options: &Options) -> Compilation {
     checked(read(source, options), options)
 }
 
-/// Applies selection and overlays, resolves the IR, which includes profiles, and checks it. These are the stages of [`check`] after the front end. Use
-/// this function for a front end in another crate.
+/// Applies selection and overlays, resolves the IR, which includes profiles, and checks it. These are the stages of [`check`] after
+/// the front end. Use this function for a front end in another crate.
 pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     if let Some(catalog) = &mut compilation.catalog {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);

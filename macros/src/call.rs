@@ -57,7 +57,7 @@ impl Parse for Call {
             parse_options(&content, &mut options, &mut overlays)?;
             input.parse::<Option<Token![;]>>()?;
         } else if input.is_empty() {
-            // The end of the input has no position of its own.
+            // The end of the input has no position.
             return Err(syn::Error::new(path.span(), "expected `;` or options in braces after this path"));
         } else {
             input.parse::<Token![;]>()?;

@@ -152,15 +152,7 @@ mod tests {
         let mut levels = Levels::lenient();
         levels.set("unnamed-bits", Level::Warn).unwrap();
         let mut diagnostics = Diagnostics::new(levels);
-        let definition = TypeDef {
-            name: "Status".into(),
-            code: None,
-            shape: Shape::BitField { base: Type::Unsigned(8), fields },
-            bits: Some(8),
-            documentation: None,
-            stated_by: None,
-            origin: Default::default(),
-        };
+        let definition = TypeDef::new("Status", Shape::BitField { base: Type::Unsigned(8), fields }, Some(8));
         check(Owner { types: &[definition], groups: &[] }, &mut diagnostics);
         diagnostics.list().iter().map(|found| found.message.clone()).collect()
     }

@@ -97,15 +97,7 @@ mod tests {
 
     fn found(base: Type, values: Vec<EnumValue>) -> Vec<String> {
         let mut diagnostics = Diagnostics::default();
-        let definition = TypeDef {
-            name: "Mode".into(),
-            code: None,
-            shape: Shape::Enumeration { base, values, closed: false },
-            bits: base.bits(),
-            documentation: None,
-            stated_by: None,
-            origin: Default::default(),
-        };
+        let definition = TypeDef::new("Mode", Shape::Enumeration { base, values, closed: false }, base.bits());
         check(Owner { types: &[definition], groups: &[] }, &mut diagnostics);
         diagnostics.list().iter().map(|found| found.message.clone()).collect()
     }

@@ -239,13 +239,8 @@ mod tests {
         item(&mut mode);
         group.items.push(mode);
         let definition = TypeDef {
-            name: "Mode".into(),
-            code: None,
-            shape,
-            bits: None,
-            documentation: None,
-            stated_by: None,
             origin: Origin { span: Span::new(FileId(0), 0, 4), line: 1 },
+            ..TypeDef::new("Mode", shape, None)
         };
         let mut diagnostics = Diagnostics::default();
         check(Owner { types: &[definition], groups: &[&[group]] }, &mut diagnostics);

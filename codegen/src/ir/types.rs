@@ -228,6 +228,14 @@ pub struct TypeDef {
     pub origin: Origin,
 }
 
+impl TypeDef {
+    /// Creates a definition without a number, a description or an origin.
+    pub fn new(name: impl Into<CompactString>, shape: Shape, bits: Option<u32>) -> Self {
+        let name = name.into();
+        TypeDef { name, code: None, shape, bits, documentation: None, stated_by: None, origin: Origin::default() }
+    }
+}
+
 /// The kind and content of a type definition.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -5,20 +5,12 @@ use lexibus_codegen::ir::{
     Catalog, Device, Direction, EnumValue, FileInfo, Format, Pdo, PdoEntry, PdoEntryKind, ProcessData, Shape, Type,
     TypeDef, TypeId,
 };
-use lexibus_codegen::source::{Encoding, Origin};
+use lexibus_codegen::source::Encoding;
 
 /// Returns an enumeration with the given base type and named values.
 fn enumeration(name: &str, base: Type, values: std::ops::Range<i128>) -> TypeDef {
     let value = |value: i128| EnumValue::new(format!("value {value}").into(), value);
-    TypeDef {
-        name: name.into(),
-        code: None,
-        shape: Shape::Enumeration { base, values: values.map(value).collect(), closed: false },
-        bits: base.bits(),
-        documentation: None,
-        stated_by: None,
-        origin: Origin::default(),
-    }
+    TypeDef::new(name, Shape::Enumeration { base, values: values.map(value).collect(), closed: false }, base.bits())
 }
 
 /// Returns a PDO with consecutive entries. Entries without a type become padding.

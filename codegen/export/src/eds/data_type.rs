@@ -112,7 +112,6 @@ fn code(ty: Type) -> Option<u32> {
 mod tests {
     use super::*;
     use lexibus_codegen::ir::TypeId;
-    use lexibus_codegen::source::Origin;
 
     #[test]
     fn basic_types_keep_their_numbers() {
@@ -124,15 +123,7 @@ mod tests {
 
     #[test]
     fn types_that_canopen_does_not_have() {
-        let shape = |shape| TypeDef {
-            name: "T".into(),
-            code: None,
-            shape,
-            bits: None,
-            documentation: None,
-            stated_by: None,
-            origin: Origin::default(),
-        };
+        let shape = |shape| TypeDef::new("T", shape, None);
         let types = [
             shape(Shape::Enumeration { base: Type::Unsigned(3), values: Vec::new(), closed: false }),
             shape(Shape::Record(Vec::new())),

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
-use super::options::{Presence, RustOptions};
+use super::options::RustOptions;
 use crate::facts::code;
 use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::names::{self, Case, NameRequest};
@@ -82,7 +82,7 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     Some(CodeTypeModel {
         name: String::new(),
         table,
-        derives: RustOptions { partial_eq: Presence::Never, ..options.clone() }.derives(true),
+        derives: options.derives_without_equality(),
         equality: RustOptions::gate(&options.partial_eq),
         native,
         variants,

@@ -9,7 +9,7 @@ use super::docs::WORDS;
 use super::links::DocModule;
 use super::literal;
 use super::naming::types::NamedType;
-use super::options::{Presence, RustOptions};
+use super::options::RustOptions;
 use super::value_type;
 use crate::ir::{EnumValue, Shape, Zone};
 use crate::names::{self, Case, NameRequest};
@@ -75,7 +75,7 @@ pub(super) fn model(
     EnumerationModel {
         docs,
         // `PartialEq` compares the numbers, so that `Unknown(1)` equals the variant for 1.
-        derives: RustOptions { partial_eq: Presence::Never, ..options.clone() }.derives(true),
+        derives: options.derives_without_equality(),
         texts: RustOptions::gate(&options.debug),
         equality: RustOptions::gate(&options.partial_eq),
         base: named.base,

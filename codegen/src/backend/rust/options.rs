@@ -84,15 +84,21 @@ impl RustOptions {
 
     /// Returns the lines with the attributes of a generated type.
     pub(super) fn derives(&self, plain_data: bool) -> Vec<String> {
-        self.derives_with(plain_data, "PartialEq")
+        self.derives_with(plain_data, Some("PartialEq"))
     }
 
     /// Returns the lines with the attributes of a generated type whose values are integers.
     pub(super) fn derives_of_integers(&self) -> Vec<String> {
-        self.derives_with(true, "PartialEq, Eq, Hash")
+        self.derives_with(true, Some("PartialEq, Eq, Hash"))
     }
 
-    fn derives_with(&self, plain_data: bool, equality: &'static str) -> Vec<String> {
+    /// Returns the lines with the attributes of a generated type that compares its numbers. Its code implements the traits for
+    /// equality.
+    pub(super) fn derives_without_equality(&self) -> Vec<String> {
+        self.derives_with(true, None)
+    }
+
+    fn derives_with(&self, plain_data: bool, equality: Option<&'static str>) -> Vec<String> {
         let mut always = if plain_data { vec!["Clone", "Copy"] } else { Vec::new() };
         let mut gated = Vec::new();
         let mut add = |presence: &Presence, paths: &'static str| match presence {
@@ -104,7 +110,9 @@ impl RustOptions {
         };
         add(&self.debug, "Debug");
         if plain_data {
-            add(&self.partial_eq, equality);
+            if let Some(equality) = equality {
+                add(&self.partial_eq, equality);
+            }
             add(&self.defmt, "defmt::Format");
             add(&self.serde, "serde::Serialize, serde::Deserialize");
         }

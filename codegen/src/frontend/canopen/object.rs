@@ -149,13 +149,9 @@ pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Di
     }
     let (target, bits) = defined_type(group, index, code);
     types.push(TypeDef {
-        name: group.name.clone(),
         code: Some(u32::from(index)),
-        shape: Shape::Alias(target),
-        bits,
-        documentation: None,
-        stated_by: None,
         origin: group.origin,
+        ..TypeDef::new(group.name.clone(), Shape::Alias(target), bits)
     });
     Some((u32::from(index), target))
 }

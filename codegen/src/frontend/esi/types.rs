@@ -13,7 +13,7 @@ use crate::etg::type_name::{self, Basic, Spelling};
 use crate::frontend::xml::Given;
 use crate::ir::{BitFieldEntry, BitMeaning, CompactString, Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
-use crate::source::{Origin, Span};
+use crate::source::Span;
 use crate::text::brief;
 
 /// Types of a device, module or dictionary.
@@ -128,13 +128,10 @@ impl<'t, 'a> Types<'t, 'a> {
         let opaque = Type::Opaque(None);
         types.meaning = vec![opaque; raw.len()];
         let empty = |ty: &RawType<'_>| TypeDef {
-            name: ty.name.compact(),
             code: ty.code,
-            shape: Shape::Alias(opaque),
-            bits: ty.bits,
             documentation: ty.comment.documentation(),
-            stated_by: None,
             origin: ty.origin,
+            ..TypeDef::new(ty.name.compact(), Shape::Alias(opaque), ty.bits)
         };
         types.defs = raw.iter().map(empty).collect();
         for at in types.links.order() {
@@ -398,16 +395,7 @@ impl<'t, 'a> Types<'t, 'a> {
             }
         };
         let ty = Type::Named(TypeId(self.defs.len() as u32));
-        let origin = Origin::default();
-        self.defs.push(TypeDef {
-            name: name.into(),
-            code: None,
-            shape,
-            bits,
-            documentation: None,
-            stated_by: None,
-            origin,
-        });
+        self.defs.push(TypeDef::new(name, shape, bits));
         self.made.insert(name.into(), ty);
         ty
     }

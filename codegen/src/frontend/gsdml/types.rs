@@ -37,16 +37,7 @@ pub(super) struct ValueItem {
 impl<'a> Types<'a> {
     fn push(&mut self, name: &str, shape: Shape, bits: Option<u32>) -> TypeId {
         let id = TypeId(u32::try_from(self.defs.len()).unwrap_or(u32::MAX));
-        let origin = Origin::default();
-        self.defs.push(TypeDef {
-            name: name.into(),
-            code: None,
-            shape,
-            bits,
-            documentation: None,
-            stated_by: None,
-            origin,
-        });
+        self.defs.push(TypeDef::new(name, shape, bits));
         id
     }
 
@@ -138,15 +129,7 @@ impl<'a> Types<'a> {
             let ValueItem { id: name, documentation, values, origin, .. } = item;
             let base = narrowest(&values);
             let shape = Shape::Enumeration { base, values, closed: false };
-            self.defs.push(TypeDef {
-                name,
-                code: None,
-                shape,
-                bits: base.bits(),
-                documentation,
-                stated_by: None,
-                origin,
-            });
+            self.defs.push(TypeDef { documentation, origin, ..TypeDef::new(name, shape, base.bits()) });
         }
         self.defs
     }

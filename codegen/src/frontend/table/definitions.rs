@@ -185,13 +185,9 @@ impl Definitions {
     fn push(&mut self, reader: &Reader<'_, '_>, about: About<'_>, base: Type, shape: Shape) -> TypeId {
         let id = TypeId(self.types.len() as u32);
         self.types.push(TypeDef {
-            name: about.name,
-            code: None,
-            shape,
-            bits: base.bits(),
             documentation: reader.documentation(about.doc, about.cite),
-            stated_by: None,
             origin: about.origin,
+            ..TypeDef::new(about.name, shape, base.bits())
         });
         id
     }

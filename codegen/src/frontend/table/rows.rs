@@ -180,13 +180,8 @@ impl Rows {
         let bits = self.definitions.underlying(element).bits().and_then(|bits| bits.checked_mul(count));
         let id = TypeId(self.definitions.types.len() as u32);
         self.definitions.types.push(TypeDef {
-            name: named.name.into(),
-            code: None,
-            shape: Shape::Array { element, dimensions: vec![(0, count)] },
-            bits,
-            documentation: None,
-            stated_by: None,
             origin: reader.origin(named.key),
+            ..TypeDef::new(named.name, Shape::Array { element, dimensions: vec![(0, count)] }, bits)
         });
         Type::Named(id)
     }

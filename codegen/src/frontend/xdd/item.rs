@@ -203,15 +203,11 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let Some(values) = allowed.values.iter().map(value).collect::<Option<Vec<_>>>() else { return ty };
         let id = TypeId(self.types.len() as u32);
         self.enumerations.insert(position, id);
-        self.types.push(TypeDef {
-            name: view.texts().labels.name(),
-            code: None,
-            shape: Shape::Enumeration { base: ty, values, closed: false },
-            bits: ty.bits(),
-            documentation: None,
-            stated_by: None,
-            origin: crate::source::Origin::default(),
-        });
+        self.types.push(TypeDef::new(
+            view.texts().labels.name(),
+            Shape::Enumeration { base: ty, values, closed: false },
+            ty.bits(),
+        ));
         Type::Named(id)
     }
 

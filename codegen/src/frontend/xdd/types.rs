@@ -20,13 +20,9 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
     let raw = std::mem::take(&mut application.types);
     let defs = raw.into_iter().zip(shapes).zip(bits);
     defs.map(|((raw, shape), bits)| TypeDef {
-        name: raw.name,
-        code: None,
-        shape: shape.unwrap_or(Shape::Alias(Type::Opaque(None))),
-        bits,
         documentation: raw.texts.descriptions.documentation(),
-        stated_by: None,
         origin: raw.origin,
+        ..TypeDef::new(raw.name, shape.unwrap_or(Shape::Alias(Type::Opaque(None))), bits)
     })
     .collect()
 }

@@ -160,7 +160,7 @@ impl Boot {
     }
 
     /// Sets the date of the configuration. It takes precedence over a date that the configuration contains. The date
-    /// January 1, 1984, 0:00 means that there is no date.
+    /// January 1, 1984, 0:00 stands for a missing date.
     #[must_use]
     pub const fn configuration_date(mut self, date: TimeOfDay) -> Self {
         self.date = Some(date);
