@@ -15,7 +15,7 @@ mod word;
 pub(crate) use cob_id::is_restricted;
 pub use cob_id::CobId;
 #[cfg(feature = "canopen")]
-pub(crate) use cob_id::{can_id, EXTENDED};
+pub(crate) use cob_id::{can_id, is_can_id, EXTENDED};
 pub use configuration::PdoConfiguration;
 pub use custom::{AnyPdo, Mappable, Mapped, NoCobId, OnEtherCat, Remappable, Rpdo, Tpdo};
 pub use field::Field;

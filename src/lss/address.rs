@@ -29,6 +29,11 @@ impl LssAddress {
         [self.vendor_id, self.product_code, self.revision_number, self.serial_number]
     }
 
+    /// Returns the number at a position in object 0x1018, or `None` if the position exceeds 3.
+    pub(super) fn at(self, position: u8) -> Option<u32> {
+        self.to_array().get(usize::from(position)).copied()
+    }
+
     /// Returns one of the four numbers.
     #[must_use]
     pub const fn part(self, part: IdentityPart) -> u32 {

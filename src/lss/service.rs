@@ -58,8 +58,8 @@ pub enum Service {
     IdentifyUnconfigured,
 }
 
-/// Creates a message from a command specifier and four bytes.
-const fn with_number(command: u8, number: u32) -> Message {
+/// Creates a message from a command specifier and a number.
+pub(super) const fn with_number(command: u8, number: u32) -> Message {
     let [a, b, c, d] = number.to_le_bytes();
     [command, a, b, c, d, 0, 0, 0]
 }
@@ -75,11 +75,6 @@ pub(super) const fn number(message: &Message) -> u32 {
     u32::from_le_bytes([a, b, c, d])
 }
 
-/// Creates an answer with a number.
-pub(super) const fn answer_number(command: u8, number: u32) -> Message {
-    with_number(command, number)
-}
-
 /// Creates the answer to a service that the slave accepts or refuses.
 pub(super) const fn answer_result(command: u8, result: Result<(), Refusal>) -> Message {
     match result {
@@ -91,12 +86,10 @@ pub(super) const fn answer_result(command: u8, result: Result<(), Refusal>) -> M
 impl Service {
     /// Returns a message of the service, or `None` after the last one.
     pub(super) fn message(self, step: u8) -> Option<Message> {
-        if let Self::SwitchSelective(address) = self {
-            let part = IdentityPart::ALL.get(usize::from(step))?;
-            return Some(with_number(command::SWITCH_SELECTIVE + step, address.part(*part)));
-        }
         let message = match self {
-            Self::SwitchSelective(_) => return None,
+            Self::SwitchSelective(address) => {
+                return address.at(step).map(|number| with_number(command::SWITCH_SELECTIVE + step, number))
+            }
             Self::SwitchGlobal(state) => with_bytes(command::SWITCH_GLOBAL, state.mode(), 0),
             Self::ConfigureNodeId(node) => {
                 with_bytes(command::CONFIGURE_NODE_ID, node.map_or(command::NO_NODE_ID, NodeId::get), 0)
@@ -149,9 +142,7 @@ impl Service {
             Self::Inquire(_) => Ok(number(answer)),
             Self::InquireNodeId if code == command::NO_NODE_ID || NodeId::new(code).is_some() => Ok(code.into()),
             Self::InquireNodeId => Err(LssError::UnexpectedReply),
-            Self::ConfigureNodeId(_) | Self::ConfigureBitTiming { .. } | Self::Store if code != 0 => {
-                Err(LssError::Refused(Refusal { code, specific }))
-            }
+            _ if self.is_change() && code != 0 => Err(LssError::Refused(Refusal { code, specific })),
             _ => Ok(0),
         }
     }

@@ -1,10 +1,10 @@
 //! Slave side of LSS.
 
-use super::address::{IdentityPart, LssAddress};
+use super::address::LssAddress;
 use super::command;
 use super::error::Refusal;
 use super::fast_scan::Request;
-use super::service::{answer_number, answer_result, number, LssState, Message};
+use super::service::{answer_result, number, with_number, LssState, Message};
 use crate::node_id::NodeId;
 
 /// The device of an LSS [`Slave`]: its bit timing and its non-volatile memory.
@@ -105,10 +105,10 @@ impl Slave {
             }
             (_, LssState::Waiting) if is_selective => self.select(command - command::SWITCH_SELECTIVE, number(request)),
             (command::IDENTIFY_UNCONFIGURED, LssState::Waiting) if self.is_unconfigured() => {
-                Some(answer_number(command::IDENTIFIED_UNCONFIGURED, 0))
+                Some(with_number(command::IDENTIFIED_UNCONFIGURED, 0))
             }
             (command::FAST_SCAN, LssState::Waiting) if self.is_unconfigured() => {
-                self.scan(Request::of(request)).then(|| answer_number(command::IDENTIFIED, 0))
+                self.scan(Request::of(request)).then(|| with_number(command::IDENTIFIED, 0))
             }
             (_, LssState::Configuration) => self.configure(request, host),
             _ => None,
@@ -134,7 +134,7 @@ impl Slave {
 
     /// Compares a part of the address. All four parts must match in their order.
     fn select(&mut self, part: u8, value: u32) -> Option<Message> {
-        let expected = IdentityPart::ALL.get(usize::from(part)).map(|part| self.address.part(*part));
+        let expected = self.address.at(part);
         let is_next = part == 0 || part == self.selected;
         self.selected = if is_next && expected == Some(value) { part + 1 } else { 0 };
         if self.selected < 4 {
@@ -142,7 +142,7 @@ impl Slave {
         }
         self.selected = 0;
         self.state = LssState::Configuration;
-        Some(answer_number(command::SWITCHED_SELECTIVE, 0))
+        Some(with_number(command::SWITCHED_SELECTIVE, 0))
     }
 
     /// Processes a fastscan request. Returns whether the slave answers.
@@ -151,9 +151,9 @@ impl Slave {
             self.scanned = Some(0);
             return true;
         }
-        let part = IdentityPart::ALL.get(usize::from(request.part)).filter(|_| self.scanned == Some(request.part));
-        let (Some(part), Some(mask)) = (part, u32::MAX.checked_shl(request.bit.into())) else { return false };
-        if (self.address.part(*part) ^ request.number) & mask != 0 {
+        let number = self.address.at(request.part).filter(|_| self.scanned == Some(request.part));
+        let (Some(number), Some(mask)) = (number, u32::MAX.checked_shl(request.bit.into())) else { return false };
+        if (number ^ request.number) & mask != 0 {
             return false;
         }
         if request.bit == 0 {
@@ -178,11 +178,11 @@ impl Slave {
             }
             command::INQUIRE_NODE_ID => {
                 let node = self.active.map_or(command::NO_NODE_ID, NodeId::get);
-                return Some(answer_number(command, node.into()));
+                return Some(with_number(command, node.into()));
             }
             _ => {
-                let part = IdentityPart::ALL.get(usize::from(command.checked_sub(command::INQUIRE)?))?;
-                return Some(answer_number(command, self.address.part(*part)));
+                let number = self.address.at(command.checked_sub(command::INQUIRE)?)?;
+                return Some(with_number(command, number));
             }
         };
         Some(answer_result(command, result))

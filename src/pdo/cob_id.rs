@@ -46,12 +46,18 @@ impl CobId {
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const EXTENDED: u32 = 1 << 29;
 
+/// Returns whether a number is a CAN-ID: 11 bits, or 29 bits and bit 29.
+#[cfg(feature = "canopen")]
+pub(crate) const fn is_can_id(id: u32) -> bool {
+    id <= 0x7FF || id >> 29 == 1
+}
+
 /// Returns the CAN-ID of a COB-ID, with bit 29 if the CAN-ID has 29 bits. Returns `None` if a CAN-ID of 11 bits has
 /// higher bits. Ignores bits 30 and 31, whose meaning depends on the object.
 #[cfg(feature = "canopen")]
 pub(crate) const fn can_id(cob_id: u32) -> Option<u32> {
     let id = cob_id & (EXTENDED | 0x1FFF_FFFF);
-    if id & EXTENDED != 0 || id <= 0x7FF {
+    if is_can_id(id) {
         Some(id)
     } else {
         None

@@ -1,7 +1,7 @@
 //! Pairs of COB-IDs on which SDO messages are sent.
 
 use crate::node_id::NodeId;
-use crate::pdo::{is_restricted, EXTENDED};
+use crate::pdo::{is_can_id, is_restricted};
 
 /// The two COB-IDs of an SDO channel (CiA 301 7.5.2.33 and 7.5.2.34). For a CAN-ID of 29 bits, bit 29 is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +45,7 @@ impl Channel {
 }
 
 const fn is_possible(id: u32) -> bool {
-    !is_restricted(id) && (id & EXTENDED == 0 || id >> 29 == 1)
+    is_can_id(id) && !is_restricted(id)
 }
 
 #[cfg(test)]

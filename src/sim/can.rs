@@ -29,8 +29,6 @@ pub use self::bus::CanBus;
 
 /// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
 const NMT: u32 = 0x000;
-/// Bits of the error register (0x1001): generic error, and communication error.
-const COMMUNICATION_ERROR: u8 = 0x11;
 /// Maximum number of sent frames that are kept. Older frames are lost, as on a real bus.
 const MOST_FRAMES: usize = 1024;
 

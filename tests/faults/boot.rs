@@ -8,7 +8,7 @@ use lexibus::sim::{CanBus, CanNode, Device};
 use lexibus::{Configuration, Error, NodeId, SdoWrite, Setting};
 use lexibus_drives::demo_drive::{ENTRIES, IDENTITY};
 
-use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::faulty::{faults, Fault, Faulty, TIMEOUT};
 use crate::matrix::Row;
 use crate::now::now;
 use crate::random::Random;
@@ -76,16 +76,8 @@ fn a_fault_is_not_a_wrong_device() {
 /// Returns the rows for the boot of a node in the table of faults.
 pub fn rows() -> Vec<Row> {
     let foreign = CanFrame::new(0x706, &[4]).expect("a frame");
-    let faults = [
-        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
-        ("lost", Fault::Lost),
-        ("duplicated", Fault::Duplicated),
-        ("truncated", Fault::Truncated),
-        ("foreign", Fault::Foreign(foreign)),
-        ("noise", Fault::Noise),
-    ];
     let mut rows = Vec::new();
-    for (fault_name, fault) in faults {
+    for (fault_name, fault) in faults(foreign) {
         for is_async in [false, true] {
             let mut node = node();
             let start = node.port().time();

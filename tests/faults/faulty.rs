@@ -9,6 +9,18 @@ use lexibus::sim::CanBus;
 /// Timeout of the clients under test.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
 
+/// Returns the faults of the table with their names. `foreign` is a frame of another node or service.
+pub fn faults(foreign: CanFrame) -> [(&'static str, Fault); 6] {
+    [
+        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
+        ("lost", Fault::Lost),
+        ("duplicated", Fault::Duplicated),
+        ("truncated", Fault::Truncated),
+        ("foreign", Fault::Foreign(foreign)),
+        ("noise", Fault::Noise),
+    ]
+}
+
 /// Longest step of the simulated time, after which the frames that the nodes send by themselves are taken.
 const STEP: Duration = Duration::from_millis(10);
 

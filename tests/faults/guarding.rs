@@ -7,7 +7,7 @@ use lexibus::clients::canopen::{CanFrame, GuardError, Guarding, NmtCommand, NmtS
 use lexibus::sim::{CanBus, CanNode, Device};
 use lexibus::NodeId;
 
-use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::faulty::{faults, Fault, Faulty, TIMEOUT};
 use crate::matrix::Row;
 use crate::now::now;
 use crate::random::Random;
@@ -63,16 +63,8 @@ fn late_answers_are_not_those_of_the_next_cycle() {
 /// Returns the rows for node guarding in the table of faults.
 pub fn rows() -> Vec<Row> {
     let foreign = CanFrame::new(0x706, &[4]).expect("a frame");
-    let faults = [
-        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
-        ("lost", Fault::Lost),
-        ("duplicated", Fault::Duplicated),
-        ("truncated", Fault::Truncated),
-        ("foreign", Fault::Foreign(foreign)),
-        ("noise", Fault::Noise),
-    ];
     let mut rows = Vec::new();
-    for (fault_name, fault) in faults {
+    for (fault_name, fault) in faults(foreign) {
         for is_async in [false, true] {
             let (mut node, mut guarding) = (node(), Guarding::new(TIMEOUT, 3));
             guard(&mut node, &mut guarding, is_async).expect("a state");

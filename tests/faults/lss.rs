@@ -8,7 +8,7 @@ use lexibus::lss::{IdentityPart, LssAddress, LssError, LssState};
 use lexibus::sim::{CanBus, CanNode, Device};
 use lexibus::{AccessRights, Bound, DataType, Entry, Flags, NodeId, Object, RawInitial};
 
-use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::faulty::{faults, Fault, Faulty, TIMEOUT};
 use crate::matrix::Row;
 use crate::now::now;
 use crate::random::Random;
@@ -157,16 +157,8 @@ fn a_lost_or_late_answer_doesnt_end_the_search() {
 /// Returns the rows for LSS in the table of faults.
 pub fn rows() -> Vec<Row> {
     let foreign = CanFrame::new(0x7E4, &[0x5A, 9, 9, 9, 9, 0, 0, 0]).expect("a frame");
-    let faults = [
-        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
-        ("lost", Fault::Lost),
-        ("duplicated", Fault::Duplicated),
-        ("truncated", Fault::Truncated),
-        ("foreign", Fault::Foreign(foreign)),
-        ("noise", Fault::Noise),
-    ];
     let mut rows = Vec::new();
-    for (fault_name, fault) in faults {
+    for (fault_name, fault) in faults(foreign) {
         for is_async in [false, true] {
             let mut master = master();
             master.switch_global(LssState::Configuration).expect("a bus");

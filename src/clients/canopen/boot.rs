@@ -3,13 +3,11 @@
 mod error;
 mod plan;
 
-use core::time::Duration;
-
 use super::frame::CanFrame;
 use super::guarding::{GuardError, Guarding};
 use super::nmt::{NmtCommand, NmtState};
 use super::node::{state_of, Node};
-use super::port::{AsyncCanPort, CanPort, MOST_WAITING};
+use super::port::{AsyncCanPort, CanPort};
 use crate::bus::Object;
 use crate::client::{AsyncClient, Client};
 use crate::configuration::Configuration;
@@ -76,7 +74,7 @@ const fn other_identity<E>(sub_index: u8, expected: u32, actual: u32) -> BootErr
 macro_rules! boot {
     (
         $Port:ident $Client:ident $send_step:ident: $boot:ident $nmt:ident $wait_for:ident $guard:ident $number:ident $version:ident $check:ident
-        $date:ident $configure:ident $write:ident $store:ident $discard:ident $run:ident $($async:ident $await:ident)?
+        $date:ident $configure:ident $write:ident $store:ident $discard_states:ident $run:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
             /// Boots the node as the NMT master (CiA 302-2). The steps have this order:
@@ -98,7 +96,6 @@ macro_rules! boot {
             /// Returns the error of the step that failed. [`BootError::status`] returns the error status of CiA 302-2.
             pub $($async)? fn $boot(&mut self, boot: &Boot) -> Result<Booted, BootError<P::Error>> {
                 if let Some(patience) = boot.reset {
-                    self.$discard()$(.$await)??;
                     self.$nmt(NmtCommand::ResetNode)$(.$await)?.map_err(BootError::Command)?;
                     match self.$wait_for(NmtState::BootUp, patience)$(.$await)? {
                         Err(Error::Timeout) => return Err(BootError::NoBootUp),
@@ -118,7 +115,7 @@ macro_rules! boot {
                         }
                     }
                 }
-                self.$discard()$(.$await)??;
+                self.$discard_states()$(.$await)?.map_err(BootError::Command)?;
                 self.$nmt(NmtCommand::Start)$(.$await)?.map_err(BootError::Command)?;
                 self.$run(boot.error_control)$(.$await)??;
                 Ok(Booted { device_type, is_configured, is_stored })
@@ -202,19 +199,6 @@ macro_rules! boot {
                 self.$write(STORE, b"save")$(.$await)?
             }
 
-            /// Discards the heartbeats that have already arrived.
-            $($async)? fn $discard(&mut self) -> Result<(), BootError<P::Error>> {
-                let id = self.id();
-                for _ in 0..MOST_WAITING {
-                    let is_heartbeat = &mut |frame: &CanFrame| state_of(frame, id).is_some();
-                    let waiting = self.port().receive(Duration::ZERO, is_heartbeat)$(.$await)?;
-                    if waiting.map_err(|error| BootError::Command(Error::Client(error)))?.is_none() {
-                        break;
-                    }
-                }
-                Ok(())
-            }
-
             /// Waits until the node reports Operational.
             $($async)? fn $run(&mut self, error_control: ErrorControl) -> Result<(), BootError<P::Error>> {
                 let (id, mut actual) = (self.id(), None);
@@ -251,10 +235,10 @@ macro_rules! boot {
 
 boot! {
     CanPort Client send: boot nmt wait_for guard boot_number boot_version boot_check boot_date boot_configure boot_write boot_store
-    boot_discard boot_run
+    discard_states boot_run
 }
 boot! {
     AsyncCanPort AsyncClient send_async: boot_async nmt_async wait_for_async guard_async boot_number_async boot_version_async
-    boot_check_async boot_date_async boot_configure_async boot_write_async boot_store_async boot_discard_async boot_run_async
+    boot_check_async boot_date_async boot_configure_async boot_write_async boot_store_async discard_states_async boot_run_async
     async await
 }

@@ -4,7 +4,7 @@ use core::time::Duration;
 
 use embedded_can::{ExtendedId, Id, StandardId};
 
-use crate::pdo::EXTENDED;
+use crate::pdo::{is_can_id, EXTENDED};
 
 /// A CAN frame: a data frame, or a remote frame, which requests a data frame. A received frame also has a
 /// [time](Self::time).
@@ -50,14 +50,14 @@ impl CanFrame {
     pub fn new(id: u32, data: &[u8]) -> Option<Self> {
         let mut bytes = [0; 8];
         bytes.get_mut(..data.len())?.copy_from_slice(data);
-        is_valid(id).then_some(Self { id, data: bytes, length: data.len() as u8, is_remote: false, time: None })
+        is_can_id(id).then_some(Self { id, data: bytes, length: data.len() as u8, is_remote: false, time: None })
     }
 
     /// Creates a remote frame, which requests a data frame of this length. Returns `None` if `length` is more than 8, or
     /// if `id` is invalid, as for [`new`](Self::new).
     #[must_use]
     pub fn remote(id: u32, length: u8) -> Option<Self> {
-        let is_possible = length <= 8 && is_valid(id);
+        let is_possible = length <= 8 && is_can_id(id);
         is_possible.then_some(Self { id, data: [0; 8], length, is_remote: true, time: None })
     }
 
@@ -145,10 +145,6 @@ impl CanFrame {
         }
         F::new(id, self.data())
     }
-}
-
-const fn is_valid(id: u32) -> bool {
-    id <= 0x7FF || id >> 29 == 1
 }
 
 #[cfg(test)]

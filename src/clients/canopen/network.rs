@@ -14,8 +14,9 @@ use core::time::Duration;
 
 use self::kept::{Kept, Kind, Owner};
 use super::frame::CanFrame;
+use super::node::pdo_id;
 use crate::node_id::NodeId;
-use crate::pdo::{can_id, is_restricted, CobId};
+use crate::pdo::{can_id, CobId};
 use crate::sdo::Channel;
 
 /// Maximum number of async handles that wait for the interface without polling.
@@ -212,7 +213,7 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
     /// or if there is no room: a network has room for `N` COB-IDs. Also returns `None` for the handle of the services.
     #[must_use]
     pub fn with_pdo(self, cob_id: CobId) -> Option<Self> {
-        let id = can_id(cob_id.resolve(self.owner?)).filter(|id| !is_restricted(*id))?;
+        let id = pdo_id(cob_id, self.owner?)?;
         self.with(id, Kind::ProcessData)
     }
 

@@ -155,7 +155,12 @@ pub(super) fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
 fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u32, Error<E>> {
     // Bit 31 marks a PDO that is disabled by default; a configuration can enable it. Bit 30 means that RTR isn't
     // allowed.
-    can_id(cob_id.resolve(node)).filter(|id| !is_restricted(*id)).ok_or(Error::OutOfRange(OutOfRange))
+    pdo_id(cob_id, node).ok_or(Error::OutOfRange(OutOfRange))
+}
+
+/// Returns the CAN-ID of a PDO of `node`, or `None` if a PDO must not use it.
+pub(super) fn pdo_id(cob_id: CobId, node: NodeId) -> Option<u32> {
+    can_id(cob_id.resolve(node)).filter(|id| !is_restricted(*id))
 }
 
 fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>> {
@@ -167,7 +172,7 @@ fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>
 macro_rules! methods {
     (
         $Port:ident: $send:ident $nmt:ident $send_time:ident $time:ident $sync:ident $sync_with_counter:ident $heartbeat:ident $wait_for:ident $emergency:ident $send_pdo:ident
-        $receive_pdo:ident $latest_pdo:ident $($async:ident $await:ident)?
+        $receive_pdo:ident $latest_pdo:ident $discard_states:ident $newest:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
             /// Sends a frame on the bus.
@@ -189,16 +194,34 @@ macro_rules! methods {
             ///
             /// Returns the errors of [`send`](Self::send).
             pub $($async)? fn $nmt(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
-                let id = self.id;
-                let is_restart = matches!(command, NmtCommand::ResetNode | NmtCommand::ResetCommunication);
-                for _ in 0..if is_restart { MOST_WAITING } else { 0 } {
-                    let old = self.port.receive(Duration::ZERO, &mut |frame| state_of(frame, id).is_some())$(.$await)?;
-                    if old.map_err(Error::Client)?.is_none() {
-                        break;
-                    }
+                if matches!(command, NmtCommand::ResetNode | NmtCommand::ResetCommunication) {
+                    self.$discard_states()$(.$await)??;
                 }
-                let frame = command.frame(Some(id));
+                let frame = command.frame(Some(self.id));
                 self.$send(&frame)$(.$await)?
+            }
+
+            /// Discards the heartbeats and boot-up messages of the node that have already arrived.
+            pub(super) $($async)? fn $discard_states(&mut self) -> Result<(), Error<P::Error>> {
+                let id = self.id;
+                self.$newest(Duration::ZERO, &mut |frame| state_of(frame, id).is_some())$(.$await)?.map(|_| ())
+            }
+
+            /// Receives all waiting frames for which `is_wanted` returns true, and returns the newest. If no frame is waiting,
+            /// waits for `patience`.
+            $($async)? fn $newest(
+                &mut self,
+                mut patience: Duration,
+                is_wanted: &mut dyn FnMut(&CanFrame) -> bool,
+            ) -> Result<Option<CanFrame>, Error<P::Error>> {
+                let mut newest = None;
+                for _ in 0..MOST_WAITING {
+                    let frame = self.port.receive(patience, is_wanted)$(.$await)?.map_err(Error::Client)?;
+                    let Some(frame) = frame else { break };
+                    newest = Some(frame);
+                    patience = Duration::ZERO;
+                }
+                Ok(newest)
             }
 
             /// Sends TIME with the default COB-ID 0x100 (CiA 301 7.2.6). All nodes that consume TIME set their clocks.
@@ -229,14 +252,8 @@ macro_rules! methods {
                 &mut self,
                 patience: Duration,
             ) -> Result<Option<(TimeOfDay, Option<Duration>)>, Error<P::Error>> {
-                let (mut newest, mut patience) = (None, patience);
-                for _ in 0..MOST_WAITING {
-                    let frame = self.port.receive(patience, &mut |frame| TimeOfDay::of(frame).is_some())$(.$await)?;
-                    let Some(frame) = frame.map_err(Error::Client)? else { break };
-                    newest = TimeOfDay::of(&frame).map(|time| (time, frame.time()));
-                    patience = Duration::ZERO;
-                }
-                Ok(newest)
+                let newest = self.$newest(patience, &mut |frame| TimeOfDay::of(frame).is_some())$(.$await)??;
+                Ok(newest.and_then(|frame| Some((TimeOfDay::of(&frame)?, frame.time()))))
             }
 
             /// Sends SYNC. The nodes of the network send and apply their synchronous PDOs when they receive SYNC.
@@ -377,15 +394,7 @@ macro_rules! methods {
             /// - [`Error::OutOfRange`] if `cob_id` is invalid, as for [`send_pdo`](Self::send_pdo).
             pub $($async)? fn $latest_pdo(&mut self, cob_id: CobId) -> Result<Option<CanFrame>, Error<P::Error>> {
                 let id = identifier(cob_id, self.id)?;
-                let mut newest = None;
-                for _ in 0..MOST_WAITING {
-                    let frame = self.port.receive(Duration::ZERO, &mut |frame| frame.id() == id && !frame.is_remote())$(.$await)?;
-                    match frame.map_err(Error::Client)? {
-                        Some(frame) => newest = Some(frame),
-                        None => break,
-                    }
-                }
-                Ok(newest)
+                self.$newest(Duration::ZERO, &mut |frame| frame.id() == id && !frame.is_remote())$(.$await)?
             }
         }
     };
@@ -393,8 +402,9 @@ macro_rules! methods {
 
 methods! {
     CanPort: send nmt send_time time sync sync_with_counter heartbeat wait_for emergency send_pdo receive_pdo latest_pdo
+    discard_states newest
 }
 methods! {
     AsyncCanPort: send_async nmt_async send_time_async time_async sync_async sync_with_counter_async heartbeat_async wait_for_async emergency_async send_pdo_async
-    receive_pdo_async latest_pdo_async async await
+    receive_pdo_async latest_pdo_async discard_states_async newest_async async await
 }

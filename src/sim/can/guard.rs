@@ -2,7 +2,8 @@
 
 use core::time::Duration;
 
-use super::{CanNode, COMMUNICATION_ERROR};
+use super::pdo::emit_communication_error;
+use super::CanNode;
 use crate::clients::canopen::{CanFrame, NmtState};
 use crate::time::TimeOfDay;
 
@@ -54,8 +55,7 @@ impl CanNode {
 
     /// Reports that the node life time has passed, and changes the NMT state as object 0x1029 declares (CiA 301 7.5.2.32).
     pub(super) fn fail_life_guarding(&mut self) {
-        let register = self.device.slots.number(0x1001, 0).unwrap_or(0) as u8 | COMMUNICATION_ERROR;
-        self.device.emit_emergency(LIFE_GUARD_ERROR, register, [0; 5]);
+        emit_communication_error(&mut self.device, LIFE_GUARD_ERROR);
         if self.state != NmtState::Stopped {
             self.tell();
         }

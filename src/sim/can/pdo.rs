@@ -179,6 +179,12 @@ impl Sent {
     }
 }
 
+/// Emits an emergency message with a communication error. The other bits of the error register (0x1001) are unchanged.
+pub(super) fn emit_communication_error(device: &mut Device, code: u16) {
+    let register = device.slots.number(0x1001, 0).unwrap_or(0) as u8 | COMMUNICATION_ERROR;
+    device.emit_emergency(code, register, [0; 5]);
+}
+
 /// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long. If the
 /// device refuses a value, returns the index of the mapping and the abort code.
 fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)> {
@@ -186,8 +192,7 @@ fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)
     let mapping = device.mapping(index).ok().filter(|mapping| !mapping.is_empty())?;
     let length = process::length(process::width(&mapping));
     if data.len() != length {
-        let register = device.slots.number(0x1001, 0).unwrap_or(0) as u8 | COMMUNICATION_ERROR;
-        device.emit_emergency(if data.len() < length { TOO_SHORT } else { TOO_LONG }, register, [0; 5]);
+        emit_communication_error(device, if data.len() < length { TOO_SHORT } else { TOO_LONG });
     }
     device.receive_mapped(&mapping, data).err().map(|code| (index, code))
 }
