@@ -30,6 +30,11 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     }
 }
 
+/// Returns the last part of a path, with the separators of any system.
+pub fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
 /// Returns the Levenshtein distance: the number of characters to insert, delete or replace to get from `a` to `b`.
 pub fn edit_distance(a: &str, b: &str) -> usize {
     // One row of the usual table: `row[j]` is the distance between the first `i` characters of `a` and the first `j` of `b`.

@@ -70,7 +70,11 @@ export class Window {
       this.requests.push(request.url());
       if (!request.url().startsWith(this.root)) complain(`requests ${request.url()}`);
     });
-    this.context.on("requestfailed", (request) => complain(`failed to load ${request.url()}: ${request.failure()?.errorText}`));
+    // A browser aborts a request only if the page is left before the file is loaded, for example the index of the search.
+    this.context.on("requestfailed", (request) => {
+      const error = request.failure()?.errorText;
+      if (error !== "net::ERR_ABORTED") complain(`failed to load ${request.url()}: ${error}`);
+    });
     this.context.on("console", (message) => {
       if (!["log", "info", "debug"].includes(message.type())) complain(`console: ${message.text()}`);
     });

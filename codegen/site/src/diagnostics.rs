@@ -150,7 +150,7 @@ impl ShownDiagnostics {
 fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic {
     let source = |span: Span| compilation.sources.get(span.file.0 as usize);
     let position = source(diagnostic.span).map(|source| {
-        let name = source.name().rsplit(['/', '\\']).next().unwrap_or_default();
+        let name = lexibus_codegen::text::file_name(source.name());
         let at = source.position(diagnostic.span.start);
         if diagnostic.span.is_empty() {
             name.to_owned()

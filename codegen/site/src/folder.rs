@@ -46,7 +46,7 @@ pub(super) struct Folder<'a> {
     pub pages: Vec<Page>,
     pub index: Index,
     pub listed: ListedCatalog,
-    diagnostics: ShownDiagnostics,
+    diagnostics: &'a ShownDiagnostics,
     /// Links to the pages of the device that was written last.
     last: Rc<Links>,
     /// Pages with the changes since a revision that another description contains.
@@ -126,7 +126,7 @@ impl<'a> Folder<'a> {
         format: &'static dyn Pages,
         addresses: &'a Addresses,
         name: &str,
-        diagnostics: ShownDiagnostics,
+        diagnostics: &'a ShownDiagnostics,
     ) -> Self {
         Folder {
             format,
@@ -164,7 +164,8 @@ impl<'a> Folder<'a> {
         self.open(self.home.clone());
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
         let modules = self.modules(catalog);
-        let diagnostics = self.numbered("Diagnostics", diagnostics::pages(&self.diagnostics.list).len());
+        let groups = diagnostics::pages(&self.diagnostics.list);
+        let diagnostics = self.numbered("Diagnostics", groups.len());
         let first = format!("{FIRST}{}", self.format.ending());
         let mut shared = modules.files.clone();
         shared.extend(diagnostics.iter().cloned());
@@ -191,9 +192,8 @@ impl<'a> Folder<'a> {
         let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
         let frame = self.frame(title, device_pages, &here, languages(&catalog.devices, &languages_of_modules));
         self.module_pages(&modules, &frame);
-        let list = std::mem::take(&mut self.diagnostics.list);
-        for ((file, _), groups) in diagnostics.iter().zip(diagnostics::pages(&list)) {
-            self.page(&frame, file, Content::Diagnostics(&groups));
+        for ((file, _), groups) in diagnostics.iter().zip(&groups) {
+            self.page(&frame, file, Content::Diagnostics(groups));
         }
         if only.is_none() {
             let devices = std::mem::take(&mut self.listed.devices);
@@ -295,7 +295,7 @@ impl<'a> Folder<'a> {
             doubts: &device.doubts,
             modbus: &device.modbus,
             calls: &usage.calls,
-            diagnostics: &self.diagnostics,
+            diagnostics: self.diagnostics,
         };
         let mut areas = area::areas(&device.groups, &device.types, known, html::size_of_section, &mut self.files);
         for area in &mut areas {
@@ -380,7 +380,7 @@ impl<'a> Folder<'a> {
 
     fn modules(&mut self, catalog: &Catalog) -> Modules {
         let (files, ending) = (&mut self.files, self.format.ending());
-        Modules::new(catalog, &self.diagnostics, html::size_of_module, || files.file("modules") + ending)
+        Modules::new(catalog, self.diagnostics, html::size_of_module, || files.file("modules") + ending)
     }
 
     fn module_pages(&mut self, modules: &Modules, frame: &Frameset) {

@@ -148,7 +148,7 @@ impl Site {
     fn folder(&mut self, name: &str, catalog: &Catalog, diagnostics: ShownDiagnostics) -> Vec<Page> {
         self.announce(name, catalog);
         let format = self.format.pages();
-        let mut folder = Folder::new(format, &self.addresses, name, diagnostics);
+        let mut folder = Folder::new(format, &self.addresses, name, &diagnostics);
         folder.catalog(catalog);
         let Folder { home, mut pages, index, listed, changes, .. } = folder;
         let shared = format.of_catalog(&|| index.script()).into_iter();

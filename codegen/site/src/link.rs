@@ -11,7 +11,6 @@ pub(super) struct Link {
     pub target: String,
 }
 
-/// The elements that have the same relation to an item, such as the PDOs that map it.
 /// Returns the elements without repetitions, in the order of their first occurrence.
 pub(super) fn unique<T: PartialEq>(list: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut unique = Vec::new();
@@ -23,6 +22,7 @@ pub(super) fn unique<T: PartialEq>(list: impl IntoIterator<Item = T>) -> Vec<T> 
     unique
 }
 
+/// The elements that have the same relation to an item, such as the PDOs that map it.
 #[derive(Debug)]
 pub(super) struct Relation {
     pub title: &'static str,

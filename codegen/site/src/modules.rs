@@ -65,11 +65,7 @@ impl Modules {
     ) -> Self {
         let all = models(catalog, diagnostics);
         let ranges = split::ranges(all.iter().map(size), PAGE, split::SIZE);
-        let title = |at: usize| match ranges.len() {
-            1 => "Modules".to_owned(),
-            count => format!("Modules ({} of {count})", at + 1),
-        };
-        let files = (0..ranges.len()).map(|at| (file(), title(at))).collect();
+        let files = (0..ranges.len()).map(|at| (file(), split::title("Modules", at, ranges.len()))).collect();
         let mut modules = Modules { all, files, ranges };
         modules.link_parts();
         modules

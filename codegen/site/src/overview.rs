@@ -52,7 +52,7 @@ pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> O
     let title = title.collect::<Vec<_>>().join(", ");
     identity.extend((!title.is_empty()).then_some(("Manual", title)));
     if let Some(file) = catalog.files.first() {
-        let name = file.name.rsplit(['/', '\\']).next().unwrap_or_default();
+        let name = lexibus_codegen::text::file_name(&file.name);
         identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));
     }
     let models = device.variants.iter().map(|variant| Model {

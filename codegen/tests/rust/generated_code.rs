@@ -137,10 +137,10 @@ fn every_edition_of_rust_takes_it() {
     }
 }
 
-/// Tests types, values, bits and items with names that the Rust prelude or generated code also uses.
 /// Names of traits that generated code implements. Each is also the name of an enumeration of the test.
 const TRAITS: [&str; 8] = ["from", "eq", "partial eq", "hash", "display", "from str", "copy", "named"];
 
+/// Tests types, values, bits and items with names that the Rust prelude or generated code also uses.
 #[test]
 fn names_of_the_prelude_and_of_methods_compile() {
     let words = [

@@ -43,7 +43,7 @@ pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
 /// Converts the header of another format to a header that CiA 306 allows.
 fn convert(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> ir::Header {
     let name = if given.file_name.is_empty() { context.file_name } else { &given.file_name };
-    let name = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let name = lexibus_codegen::text::file_name(name);
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     let ending = if context.flavour == Flavour::Dcf { "dcf" } else { "eds" };
     let mut header = ir::Header {

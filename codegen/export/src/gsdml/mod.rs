@@ -85,7 +85,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
 pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let source = catalog.files.first().filter(|_| is_gsdml(catalog));
     let stem = source.and_then(|file| {
-        let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
+        let name = lexibus_codegen::text::file_name(&file.name);
         name.strip_suffix(".xml").or_else(|| name.strip_suffix(".XML"))
     });
     if let (Some(stem), None) = (stem.filter(|stem| stem.starts_with("GSDML-V")), &options.date) {

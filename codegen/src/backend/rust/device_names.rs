@@ -13,7 +13,7 @@ const RESERVED_FOR_FILE: [&str; 4] = ["self", "super", "crate", "rt"];
 
 /// Returns the file name without folders. Spaces replace characters that could mislead a reader.
 pub(super) fn file_name(file: &FileInfo) -> String {
-    let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
+    let name = crate::text::file_name(&file.name);
     name.chars().map(|letter| if literal::is_harmless(letter) { letter } else { ' ' }).collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::deftype::defined_type;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Access, Group, ObjectCode, Shape, Type, TypeDef};
+use crate::ir::{Access, Fact, FactOrigin, Group, Item, ObjectCode, Rule, Shape, Type, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -154,4 +154,14 @@ pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Di
         ..TypeDef::new(group.name.clone(), Shape::Alias(target), bits)
     });
     Some((u32::from(index), target))
+}
+
+/// Makes an item without a data type read-only. A value of unknown length cannot be written.
+pub fn without_type(item: &mut Item) {
+    let rule = || Some(FactOrigin::Rule(Rule::MissingKey));
+    item.origins.set(Fact::Type, rule());
+    if item.access != Access::ReadOnly {
+        item.access = Access::ReadOnly;
+        item.origins.set(Fact::Access, rule());
+    }
 }

@@ -220,12 +220,7 @@ impl<'a> Reader<'a, '_> {
         item.ty = ty.unwrap_or(Type::Opaque(None));
         item.access = self.access(raw, code, &mut item);
         if ty.is_none() {
-            // A value without a data type has an unknown length, so it cannot be written.
-            item.origins.set(Fact::Type, Some(FactOrigin::Rule(Rule::MissingKey)));
-            if item.access != Access::ReadOnly {
-                item.access = Access::ReadOnly;
-                item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
-            }
+            object::without_type(&mut item);
         }
         item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, &mut item);
         item.default = self.typed(raw.get(Key::DefaultValue), item.ty, Role::Value);

@@ -29,7 +29,7 @@ impl Header {
     pub fn root(&mut self, reader: &mut Reader<'_, '_>, root: &Tag<'_>) -> Read<()> {
         let Some(location) = root.attribute("schemaLocation")? else { return Ok(()) };
         let text = location.value(reader.diagnostics);
-        if let Some(version) = text.rsplit(['/', '\\']).next().and_then(version_in) {
+        if let Some(version) = version_in(crate::text::file_name(&text)) {
             self.version = Some((version.into(), location.span));
         }
         Ok(())
@@ -100,7 +100,7 @@ impl Header {
         if !diagnostics.wants(&codes::GSDML_FILE_NAME) {
             return;
         }
-        let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let name = crate::text::file_name(name);
         let Some(named) = version_of_name(name) else {
             let message = format!("`{name}` is not a GSDML file name");
             diagnostics.push(

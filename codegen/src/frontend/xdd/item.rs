@@ -41,12 +41,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let base = underlying(&self.types, item.ty);
         item.access = self.access(raw, view, code, parent, &mut item);
         if ty.is_none() {
-            // A value without a data type has an unknown length, so it cannot be written.
-            item.origins.set(Fact::Type, Some(FactOrigin::Rule(Rule::MissingKey)));
-            if item.access != Access::ReadOnly {
-                item.access = Access::ReadOnly;
-                item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
-            }
+            object::without_type(&mut item);
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
         let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));

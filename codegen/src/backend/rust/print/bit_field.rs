@@ -89,19 +89,25 @@ fn texts(code: &mut Code, name: &str, debug: &DebugModel) {
     let values = slice(&debug.values);
     format(
         code,
-        debug,
+        &debug.gate,
         "Debug",
         name,
         call!("rt::debug_bits", "f", debug.raw, "<Self as rt::BitField>::LAYOUT", values),
     );
     for name_of_trait in ["LowerHex", "UpperHex", "Binary"] {
-        format(code, debug, name_of_trait, name, call!(seq!["core::fmt::", name_of_trait, "::fmt"], "&self.0", "f"));
+        format(
+            code,
+            &debug.gate,
+            name_of_trait,
+            name,
+            call!(seq!["core::fmt::", name_of_trait, "::fmt"], "&self.0", "f"),
+        );
     }
 }
 
 /// Writes the implementation of a trait of `core::fmt`.
-fn format(code: &mut Code, debug: &DebugModel, name_of_trait: &str, name: &str, body: Doc) {
-    code.lines(&debug.gate);
+pub(super) fn format(code: &mut Code, gate: &[String], name_of_trait: &str, name: &str, body: Doc) {
+    code.lines(gate);
     open!(code, "impl core::fmt::", name_of_trait, " for ", name, " {");
     open!(code, "fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {");
     line!(code, body);

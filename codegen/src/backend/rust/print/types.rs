@@ -115,12 +115,7 @@ fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     let names: Vec<Doc> = enumeration.variants.iter().map(named).collect();
     line!(code, "const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
     code.close("}");
-    code.lines(gate);
-    open!(code, "impl core::fmt::Display for ", name, " {");
-    open!(code, "fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {");
-    line!(code, "rt::display_name(*self, f)");
-    code.close("}");
-    code.close("}");
+    bit_field::format(code, gate, "Display", name, call!("rt::display_name", "*self", "f"));
     code.lines(gate);
     open!(code, "impl core::str::FromStr for ", name, " {");
     line!(code, "type Err = rt::UnknownName;");
@@ -233,10 +228,7 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
     code.close("}");
     if let Some((bits, [getter, constructor])) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("Returns the state, or `None` if the bits match no state.");
-        open!(code, call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, "> {");
-        line!(code, patterns.name, "::from_raw(self.0)");
-        code.close("}");
+        self::getter(code, patterns, getter, "state");
         code.doc("Returns the bits of a state. All bits on which the state does not depend are 0.");
         let state = seq!["state: ", patterns.name];
         open!(code, call!(seq!["pub const fn ", constructor], state), " -> Self {");
@@ -244,6 +236,14 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
         code.close("}");
         code.close("}");
     }
+}
+
+/// Writes the method of a bit field that returns the state or command.
+fn getter(code: &mut Code, patterns: &PatternsModel, getter: &str, noun: &str) {
+    code.doc(&format!("Returns the {noun}, or `None` if the bits match no {noun}."));
+    open!(code, call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, "> {");
+    line!(code, patterns.name, "::from_raw(self.0)");
+    code.close("}");
 }
 
 /// Writes the function that returns the first of the patterns that match.
@@ -286,10 +286,7 @@ fn commands(code: &mut Code, patterns: &PatternsModel) {
     code.close("}");
     if let Some((bits, [getter, setter])) = &patterns.bits {
         open!(code, "impl ", bits, " {");
-        code.doc("Returns the command, or `None` if the bits match no command.");
-        open!(code, call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, "> {");
-        line!(code, patterns.name, "::from_raw(self.0)");
-        code.close("}");
+        self::getter(code, patterns, getter, "command");
         code.doc("Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.");
         line!(code, "#[must_use]");
         let command = seq!["command: ", patterns.name];

@@ -407,7 +407,7 @@ impl Change {
 
 /// Returns the file name of the overlay, without folders.
 pub(super) fn file_name(reader: &Reader<'_, '_>) -> CompactString {
-    reader.source.name().rsplit(['/', '\\']).next().unwrap_or_default().into()
+    crate::text::file_name(reader.source.name()).into()
 }
 
 fn is_described(documentation: &Option<Box<Documentation>>) -> bool {
