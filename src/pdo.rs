@@ -17,7 +17,7 @@ pub use cob_id::CobId;
 #[cfg(feature = "canopen")]
 pub(crate) use cob_id::{can_id, is_can_id, EXTENDED};
 pub use configuration::PdoConfiguration;
-pub use custom::{AnyPdo, Mappable, Mapped, NoCobId, OnEtherCat, Remappable, Rpdo, Tpdo};
+pub use custom::{AnyPdo, Mappable, Mapped, NoCobId, NotMappable, OnEtherCat, Remappable, Rpdo, Tpdo};
 pub use field::Field;
 pub use mapping::{MappedEntry, Pdo};
 pub use parameters::{PdoParameterError, PdoParameters, TransmissionType};

@@ -6980,7 +6980,7 @@ pub mod remappable {
         const MAX_BITS: u32 = 64;
     }
 }
-/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
+/// Items for use by the macro `lexibus::pdo!`, and whether they can be mapped. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;
@@ -7003,6 +7003,7 @@ pub mod mappable {
         0x6040_0010,
     >;
     pub type status_word = rt::Mappable<super::types::StatusWord, rt::Tpdo, 0x6041_0010>;
+    pub type modes_of_operation = rt::pdo::NotMappable;
     pub type internal_position_actual_value = rt::Mappable<i32, rt::Tpdo, 0x6063_0020>;
     pub type velocity_actual_value = rt::Mappable<i32, rt::Tpdo, 0x606C_0020>;
     pub type torque_actual_value = rt::Mappable<i16, rt::Tpdo, 0x6077_0010>;
@@ -7010,6 +7011,11 @@ pub mod mappable {
     pub mod interpolation_data_record {
         use super::rt;
         pub type position_command_value = rt::Mappable<i32, rt::Rpdo, 0x60C1_0120>;
+    }
+    pub mod interpolation_time_period {
+        use super::rt;
+        pub type interpolation_time_units = rt::pdo::NotMappable;
+        pub type interpolation_time_index = rt::pdo::NotMappable;
     }
     pub type following_error_actual_value = rt::Mappable<i32, rt::Tpdo, 0x60F4_0020>;
     pub type digital_inputs = rt::Mappable<u32, rt::Tpdo, 0x60FD_0020>;

@@ -4613,7 +4613,7 @@ pub mod remappable {
         const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
     }
 }
-/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
+/// Items for use by the macro `lexibus::pdo!`, and whether they can be mapped. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;
@@ -4622,11 +4622,16 @@ pub mod mappable {
         rt::Tpdo,
         0x1001_0008,
     >;
+    pub type motor_temperature = rt::pdo::NotMappable;
+    pub type application_name = rt::pdo::NotMappable;
+    pub type firmware_image = rt::pdo::NotMappable;
     pub mod analog_inputs {
         use super::rt;
+        pub type highest_sub_index_supported = rt::pdo::NotMappable;
         pub type input_1 = rt::Mappable<i16, rt::Tpdo, 0x2010_0110>;
         pub type input_2 = rt::Mappable<i16, rt::Tpdo, 0x2010_0210>;
     }
+    pub type encoder_counts = rt::pdo::NotMappable;
     pub type controlword = rt::Mappable<
         super::types::Controlword,
         rt::Rpdo,
@@ -4645,7 +4650,14 @@ pub mod mappable {
     >;
     pub type position_actual_value = rt::Mappable<i32, rt::Tpdo, 0x6064_0020>;
     pub type target_position = rt::Mappable<i32, rt::AnyPdo, 0x607A_0020>;
+    pub mod software_position_limit {
+        use super::rt;
+        pub type highest_sub_index_supported = rt::pdo::NotMappable;
+        pub type min_position_limit = rt::pdo::NotMappable;
+        pub type max_position_limit = rt::pdo::NotMappable;
+    }
     pub type profile_velocity = rt::Mappable<u32, rt::AnyPdo, 0x6081_0020>;
+    pub type profile_acceleration = rt::pdo::NotMappable;
 }
 /// PDOs with their default mapping.
 pub mod pdo {

@@ -18390,7 +18390,7 @@ pub mod remappable {
         const COMMUNICATION: Option<u16> = Some(0x1803);
     }
 }
-/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
+/// Items for use by the macro `lexibus::pdo!`, and whether they can be mapped. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;
@@ -18420,6 +18420,7 @@ pub mod mappable {
     >;
     pub type home_offset = rt::Mappable<i32, rt::AnyPdo, 0x607C_0020>;
     pub type homing_acceleration = rt::Mappable<u32, rt::AnyPdo, 0x609A_0020>;
+    pub type master_encoder_increments = rt::pdo::NotMappable;
     pub type gear_ratio_numerator = rt::Mappable<u8, rt::AnyPdo, 0x3001_0008>;
     pub type gear_ratio_divisor = rt::Mappable<u8, rt::AnyPdo, 0x3002_0008>;
     pub type motion_profile_type = rt::Mappable<
@@ -18450,19 +18451,31 @@ pub mod mappable {
         rt::Tpdo,
         0x60FD_0020,
     >;
+    pub mod drive_parameters_settings {
+        use super::rt;
+        pub type number_of_entries_of_the_parameter_window = rt::pdo::NotMappable;
+        pub type parameter_write_address = rt::pdo::NotMappable;
+        pub type parameter_write_value = rt::pdo::NotMappable;
+        pub type parameter_read_address = rt::pdo::NotMappable;
+        pub type parameter_read_value = rt::pdo::NotMappable;
+    }
     pub type ip_set_point_16 = rt::Mappable<i16, rt::Rpdo, 0x2002_0010>;
     pub type position_actual_value_16 = rt::Mappable<i16, rt::AnyPdo, 0x2003_0010>;
     pub type latched_user_position_16 = rt::Mappable<i16, rt::AnyPdo, 0x2004_0010>;
     pub mod drive_variable_read {
         use super::rt;
+        pub type number_of_entries_of_the_read_window = rt::pdo::NotMappable;
         pub type variable_read_address = rt::Mappable<u16, rt::AnyPdo, 0x2005_0110>;
         pub type variable_read_value = rt::Mappable<u32, rt::Tpdo, 0x2005_0220>;
     }
     pub mod drive_variable_write {
         use super::rt;
+        pub type number_of_entries_of_the_write_window = rt::pdo::NotMappable;
         pub type variable_write_address = rt::Mappable<u16, rt::AnyPdo, 0x2006_0110>;
         pub type variable_write_value = rt::Mappable<u32, rt::AnyPdo, 0x2006_0220>;
     }
+    pub type save_parameters = rt::pdo::NotMappable;
+    pub type error_codes = rt::pdo::NotMappable;
     pub type controlword = rt::Mappable<
         super::types::Controlword,
         rt::AnyPdo,
@@ -18476,18 +18489,33 @@ pub mod mappable {
     >;
     pub type velocity_sensor_actual_value = rt::Mappable<i32, rt::Tpdo, 0x6069_0020>;
     pub type velocity_demand_value = rt::Mappable<i32, rt::Tpdo, 0x606B_0020>;
+    pub mod feed_constant {
+        use super::rt;
+        pub type number_of_entries_of_the_feed_constant = rt::pdo::NotMappable;
+        pub type feed_constant = rt::pdo::NotMappable;
+        pub type shaft_revolutions = rt::pdo::NotMappable;
+    }
     pub mod homing_speeds {
         use super::rt;
+        pub type number_of_entries_of_the_homing_speeds = rt::pdo::NotMappable;
         pub type homing_fast_speed = rt::Mappable<i32, rt::AnyPdo, 0x6099_0120>;
         pub type homing_slow_speed = rt::Mappable<u32, rt::AnyPdo, 0x6099_0220>;
     }
     pub mod interpolation_data_record {
         use super::rt;
+        pub type number_of_entries_of_the_interpolation_data = rt::pdo::NotMappable;
         pub type position_set_point = rt::Mappable<i32, rt::Rpdo, 0x60C1_0120>;
+    }
+    pub mod interpolation_time_period {
+        use super::rt;
+        pub type number_of_entries_of_the_interpolation_time = rt::pdo::NotMappable;
+        pub type ip_time_units = rt::pdo::NotMappable;
+        pub type time_index = rt::pdo::NotMappable;
     }
     pub type max_slippage = rt::Mappable<i32, rt::AnyPdo, 0x60F8_0020>;
     pub mod digital_outputs {
         use super::rt;
+        pub type number_of_entries_of_the_digital_outputs = rt::pdo::NotMappable;
         pub type digital_outputs = rt::Mappable<
             super::super::types::DigitalOutputs,
             rt::AnyPdo,
@@ -18499,6 +18527,10 @@ pub mod mappable {
             0x60FE_0220,
         >;
     }
+    pub type supported_drive_modes = rt::pdo::NotMappable;
+    pub type drive_manufacturer = rt::pdo::NotMappable;
+    pub type http_drive_catalog_address = rt::pdo::NotMappable;
+    pub type single_device_type = rt::pdo::NotMappable;
 }
 /// PDOs with their default mapping.
 pub mod pdo {

@@ -52961,7 +52961,7 @@ pub mod remappable {
         const COB_ID: rt::CobId = rt::CobId::from_node(0x480);
     }
 }
-/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
+/// Items for use by the macro `lexibus::pdo!`, and whether they can be mapped. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;
@@ -52970,85 +52970,487 @@ pub mod mappable {
     pub type rpostarg = rt::Mappable<i32, rt::Rpdo, 0x2008_0120>;
     pub type rupplim = rt::Mappable<i32, rt::Rpdo, 0x200C_0120>;
     pub type rlowlim = rt::Mappable<i32, rt::Rpdo, 0x2010_0120>;
+    pub type rposactsaved = rt::pdo::NotMappable;
+    pub type rposactsavedflag = rt::pdo::NotMappable;
     pub type rstsflg = rt::Mappable<super::types::Status, rt::Tpdo, 0x20C7_0110>;
     pub type rstsflg1 = rt::Mappable<super::types::Status1, rt::Tpdo, 0x20C8_0110>;
+    pub type rstscllp = rt::pdo::NotMappable;
+    pub type rflag1 = rt::pdo::NotMappable;
+    pub type rflag = rt::pdo::NotMappable;
+    pub type rhwconfig = rt::pdo::NotMappable;
     pub type rvel = rt::Mappable<i32, rt::Rpdo, 0x203F_0120>;
     pub type rvss = rt::Mappable<i32, rt::Rpdo, 0x2041_0120>;
     pub type racc = rt::Mappable<u32, rt::Rpdo, 0x2043_0120>;
+    pub type raccpro = rt::pdo::NotMappable;
     pub type rdec = rt::Mappable<u32, rt::Rpdo, 0x2046_0120>;
+    pub type rdecpro = rt::pdo::NotMappable;
     pub type rdeceme = rt::Mappable<u32, rt::Rpdo, 0x2049_0120>;
     pub type rvelact = rt::Mappable<i32, rt::Tpdo, 0x204B_0120>;
     pub type rvelactreq = rt::Mappable<i32, rt::Tpdo, 0x204D_0120>;
+    pub type rvelmax = rt::pdo::NotMappable;
+    pub type rdefum = rt::pdo::NotMappable;
+    pub type rpwmacc = rt::pdo::NotMappable;
+    pub type rpwm = rt::pdo::NotMappable;
+    pub type rveladjpicur = rt::pdo::NotMappable;
+    pub type rdlyadjpicur = rt::pdo::NotMappable;
+    pub type rzerovellim = rt::pdo::NotMappable;
+    pub type rzeroveltim = rt::pdo::NotMappable;
+    pub type rcurlimtim = rt::pdo::NotMappable;
     pub type rveltarg = rt::Mappable<i32, rt::Rpdo, 0x21ED_0120>;
     pub type rcmdwr = rt::Mappable<super::types::Command, rt::Rpdo, 0x203B_0110>;
     pub type rcmd1wr = rt::Mappable<super::types::Command1, rt::Rpdo, 0x203C_0110>;
     pub type rcmdrd = rt::Mappable<super::types::CommandState, rt::Tpdo, 0x203D_0110>;
     pub type rcmd1rd = rt::Mappable<super::types::CommandState1, rt::Tpdo, 0x203E_0110>;
+    pub type rtasknum = rt::pdo::NotMappable;
+    pub type rptroldcmd = rt::pdo::NotMappable;
+    pub type rbufcmdstatus = rt::pdo::NotMappable;
+    pub type rbufcmdcommand = rt::pdo::NotMappable;
+    pub type rbufcmdparameter = rt::pdo::NotMappable;
+    pub type rhmaxspc = rt::pdo::NotMappable;
+    pub type rdefinpbls = rt::pdo::NotMappable;
+    pub type rdefinpfls = rt::pdo::NotMappable;
+    pub type rhofs = rt::pdo::NotMappable;
+    pub type rhpos = rt::pdo::NotMappable;
     pub type rhcurcoll = rt::Mappable<u16, rt::Rpdo, 0x2028_0110>;
+    pub type rhtimcoll = rt::pdo::NotMappable;
+    pub type rhtinv = rt::pdo::NotMappable;
     pub type rhmode = rt::Mappable<super::types::HomingMethodI16, rt::Rpdo, 0x2052_0110>;
     pub type rhvh = rt::Mappable<i32, rt::Rpdo, 0x2053_0120>;
     pub type rhvl = rt::Mappable<i32, rt::Rpdo, 0x2055_0120>;
     pub type rhacc = rt::Mappable<u32, rt::Rpdo, 0x2057_0120>;
+    pub type rhsts = rt::pdo::NotMappable;
+    pub type rhindexpc = rt::pdo::NotMappable;
+    pub type rshstop = rt::pdo::NotMappable;
+    pub type rspcstop = rt::pdo::NotMappable;
+    pub type rspcstopcalc = rt::pdo::NotMappable;
     pub type rbestpflg = rt::Mappable<super::types::BestopSetup, rt::Rpdo, 0x2031_0110>;
     pub type rbestppar = rt::Mappable<u16, rt::Rpdo, 0x2032_0110>;
+    pub type rshestop = rt::pdo::NotMappable;
     pub type restpflg = rt::Mappable<super::types::EstopSetup, rt::Rpdo, 0x202D_0110>;
     pub type restppar1 = rt::Mappable<u32, rt::Rpdo, 0x202E_0120>;
     pub type restppar2 = rt::Mappable<u16, rt::Rpdo, 0x2030_0110>;
+    pub type rgearmul = rt::pdo::NotMappable;
+    pub type rgeardiv = rt::pdo::NotMappable;
+    pub type rpostimeout = rt::pdo::NotMappable;
+    pub type rdeadpos = rt::pdo::NotMappable;
+    pub type rsettim = rt::pdo::NotMappable;
     pub type ralarm = rt::Mappable<super::types::Alarm, rt::Tpdo, 0x20E3_0110>;
     pub type rwarning = rt::Mappable<super::types::Warning, rt::Tpdo, 0x20E4_0110>;
+    pub type rbufalm0 = rt::pdo::NotMappable;
+    pub type rbufalm1 = rt::pdo::NotMappable;
+    pub type rbufalm2 = rt::pdo::NotMappable;
+    pub type rbufalm3 = rt::pdo::NotMappable;
+    pub type rbufalm4 = rt::pdo::NotMappable;
+    pub type rbufalm5 = rt::pdo::NotMappable;
+    pub type rbufalm6 = rt::pdo::NotMappable;
+    pub type rbufalm7 = rt::pdo::NotMappable;
+    pub type ralmcnt = rt::pdo::NotMappable;
+    pub type ralmack = rt::pdo::NotMappable;
+    pub type rtempalm = rt::pdo::NotMappable;
+    pub type rtensmax = rt::pdo::NotMappable;
+    pub type rtensmin = rt::pdo::NotMappable;
+    pub type rcurmax = rt::pdo::NotMappable;
+    pub type rflwmax = rt::pdo::NotMappable;
+    pub type ri2tmax = rt::pdo::NotMappable;
+    pub type rmaskalm = rt::pdo::NotMappable;
+    pub type rposalmtime = rt::pdo::NotMappable;
+    pub type rtempwrn = rt::pdo::NotMappable;
+    pub type rovvwrn = rt::pdo::NotMappable;
+    pub type runvwrn = rt::pdo::NotMappable;
+    pub type rovcwrn = rt::pdo::NotMappable;
+    pub type rflwvrn = rt::pdo::NotMappable;
+    pub type ri2twrn = rt::pdo::NotMappable;
+    pub type rmaskwrn = rt::pdo::NotMappable;
+    pub type rposwrtime = rt::pdo::NotMappable;
     pub type rflwdisp = rt::Mappable<i32, rt::Tpdo, 0x2103_0120>;
+    pub type rflwmem = rt::pdo::NotMappable;
+    pub type rflwtim = rt::pdo::NotMappable;
+    pub type rflwmemp = rt::pdo::NotMappable;
+    pub type rflwmemn = rt::pdo::NotMappable;
+    pub type rflwencerr = rt::pdo::NotMappable;
+    pub type rpostimeoutwrn = rt::pdo::NotMappable;
     pub type ralarm32 = rt::Mappable<super::types::Alarm32, rt::Tpdo, 0x222F_0120>;
     pub type rwarning32 = rt::Mappable<super::types::Warning32, rt::Tpdo, 0x2231_0120>;
+    pub type ralarmreact = rt::pdo::NotMappable;
+    pub type ralmbuffres = rt::pdo::NotMappable;
+    pub type ralmbuffptr = rt::pdo::NotMappable;
+    pub type ralmbufftime = rt::pdo::NotMappable;
+    pub type ralmbuffcode = rt::pdo::NotMappable;
     pub type rhslsi = rt::Mappable<super::types::LimitSwitches, rt::Tpdo, 0x206B_0110>;
     pub type rhsinp = rt::Mappable<super::types::DigitalInputs, rt::Tpdo, 0x206C_0110>;
     pub type rlsi = rt::Mappable<super::types::LimitSwitches, rt::Tpdo, 0x206D_0110>;
+    pub type rdeflsi = rt::pdo::NotMappable;
+    pub type rfillsi = rt::pdo::NotMappable;
+    pub type renflsi = rt::pdo::NotMappable;
+    pub type rmemlsi = rt::pdo::NotMappable;
     pub type rinp = rt::Mappable<super::types::DigitalInputs, rt::Tpdo, 0x2072_0110>;
+    pub type rdefinp = rt::pdo::NotMappable;
+    pub type rfillnp = rt::pdo::NotMappable;
+    pub type renfinp = rt::pdo::NotMappable;
+    pub type rmeminp = rt::pdo::NotMappable;
     pub type rout = rt::Mappable<super::types::DigitalOutputs, rt::Rpdo, 0x2077_0110>;
+    pub type rdefout = rt::pdo::NotMappable;
+    pub type rfuno0 = rt::pdo::NotMappable;
+    pub type rfuno1 = rt::pdo::NotMappable;
+    pub type rfuno2 = rt::pdo::NotMappable;
+    pub type rfuno3 = rt::pdo::NotMappable;
+    pub type rfuno4 = rt::pdo::NotMappable;
+    pub type rfuno5 = rt::pdo::NotMappable;
+    pub type rfuno6 = rt::pdo::NotMappable;
+    pub type rfuno7 = rt::pdo::NotMappable;
+    pub type rfuni0 = rt::pdo::NotMappable;
+    pub type rfuni1 = rt::pdo::NotMappable;
+    pub type rfuni2 = rt::pdo::NotMappable;
+    pub type rfuni3 = rt::pdo::NotMappable;
+    pub type rfuni4 = rt::pdo::NotMappable;
+    pub type rfuni5 = rt::pdo::NotMappable;
+    pub type rfuni6 = rt::pdo::NotMappable;
+    pub type rfuni7 = rt::pdo::NotMappable;
+    pub type rdiginplev = rt::pdo::NotMappable;
+    pub type rstpoutmaxfreq = rt::pdo::NotMappable;
+    pub type rtrginp5v = rt::pdo::NotMappable;
+    pub type rtrginp24v = rt::pdo::NotMappable;
+    pub type routenable = rt::pdo::NotMappable;
+    pub type rfuni8 = rt::pdo::NotMappable;
+    pub type rfuni9 = rt::pdo::NotMappable;
+    pub type rfuni10 = rt::pdo::NotMappable;
+    pub type rfuni11 = rt::pdo::NotMappable;
+    pub type rfuni12 = rt::pdo::NotMappable;
+    pub type rfuni13 = rt::pdo::NotMappable;
+    pub type rfuni14 = rt::pdo::NotMappable;
+    pub type rfuni15 = rt::pdo::NotMappable;
+    pub type rstepouttime = rt::pdo::NotMappable;
+    pub type rstepoutcount = rt::pdo::NotMappable;
     pub type ranainp = rt::Mappable<i16, rt::Tpdo, 0x2089_0110>;
+    pub type rdefanainp = rt::pdo::NotMappable;
+    pub type rmulanainp = rt::pdo::NotMappable;
+    pub type rdivanainp = rt::pdo::NotMappable;
+    pub type roffsanainp = rt::pdo::NotMappable;
+    pub type rdeadainp = rt::pdo::NotMappable;
     pub type ranaout = rt::Mappable<u16, rt::Rpdo, 0x208F_0110>;
+    pub type rdefanaout = rt::pdo::NotMappable;
+    pub type rmulanaout = rt::pdo::NotMappable;
+    pub type rdivanaout = rt::pdo::NotMappable;
+    pub type roffsananaout = rt::pdo::NotMappable;
+    pub type rfloatingrollerperc = rt::pdo::NotMappable;
+    pub type ranainpdisable = rt::pdo::NotMappable;
     pub type ranainp1 = rt::Mappable<i16, rt::Tpdo, 0x21AE_0110>;
+    pub type rdefanainp1 = rt::pdo::NotMappable;
+    pub type rmulanainp1 = rt::pdo::NotMappable;
+    pub type rdivanainp1 = rt::pdo::NotMappable;
+    pub type roffsanainp1 = rt::pdo::NotMappable;
+    pub type rdeadainp1 = rt::pdo::NotMappable;
     pub type ranainp2 = rt::Mappable<i16, rt::Tpdo, 0x21B4_0110>;
+    pub type rdefanainp2 = rt::pdo::NotMappable;
+    pub type rmulanainp2 = rt::pdo::NotMappable;
+    pub type rdivanainp2 = rt::pdo::NotMappable;
+    pub type roffsnainp2 = rt::pdo::NotMappable;
+    pub type rdeadainp2 = rt::pdo::NotMappable;
+    pub type rencalignsteps = rt::pdo::NotMappable;
+    pub type rencmotfbk = rt::pdo::NotMappable;
+    pub type rencnewperiod = rt::pdo::NotMappable;
+    pub type rmotcode = rt::pdo::NotMappable;
     pub type rmotenc = rt::Mappable<i32, rt::Tpdo, 0x2097_0120>;
+    pub type rmotencper = rt::pdo::NotMappable;
+    pub type rmotencpuls = rt::pdo::NotMappable;
     pub type renc1pos = rt::Mappable<i32, rt::AnyPdo, 0x471F_0120>;
+    pub type renc1pulse = rt::pdo::NotMappable;
+    pub type renc1period = rt::pdo::NotMappable;
+    pub type renc1vel = rt::pdo::NotMappable;
+    pub type renc1sample = rt::pdo::NotMappable;
+    pub type renc1velmul = rt::pdo::NotMappable;
+    pub type renc1veldiv = rt::pdo::NotMappable;
+    pub type renc1topcnt = rt::pdo::NotMappable;
+    pub type renc1topvel = rt::pdo::NotMappable;
+    pub type renc1topsample = rt::pdo::NotMappable;
+    pub type renc1topvelmul = rt::pdo::NotMappable;
+    pub type renc1topveldiv = rt::pdo::NotMappable;
+    pub type renc1code = rt::pdo::NotMappable;
     pub type rextencvel = rt::Mappable<u16, rt::Tpdo, 0x2033_0110>;
     pub type rextencsmp = rt::Mappable<u16, rt::Rpdo, 0x2034_0110>;
     pub type rextencvelmul = rt::Mappable<u16, rt::Rpdo, 0x2035_0110>;
     pub type rextencveldiv = rt::Mappable<u16, rt::Rpdo, 0x2036_0110>;
+    pub type rextencotovel = rt::pdo::NotMappable;
+    pub type rextencotovelmul = rt::pdo::NotMappable;
+    pub type rextencotoveldiv = rt::pdo::NotMappable;
+    pub type rextencotopcncnt = rt::pdo::NotMappable;
+    pub type rextencmode = rt::pdo::NotMappable;
     pub type rextenc = rt::Mappable<i32, rt::Tpdo, 0x2099_0120>;
+    pub type rextencper = rt::pdo::NotMappable;
+    pub type rnewencper = rt::pdo::NotMappable;
+    pub type rextencpuls = rt::pdo::NotMappable;
     pub type renc2pos = rt::Mappable<i32, rt::AnyPdo, 0x4721_0120>;
+    pub type renc2pulse = rt::pdo::NotMappable;
+    pub type renc2period = rt::pdo::NotMappable;
+    pub type renc2vel = rt::pdo::NotMappable;
+    pub type renc2sample = rt::pdo::NotMappable;
+    pub type renc2velmul = rt::pdo::NotMappable;
+    pub type renc2veldiv = rt::pdo::NotMappable;
+    pub type renc2topcnt = rt::pdo::NotMappable;
+    pub type renc2topvel = rt::pdo::NotMappable;
+    pub type renc2topsample = rt::pdo::NotMappable;
+    pub type renc2topvelmul = rt::pdo::NotMappable;
+    pub type renc2topveldiv = rt::pdo::NotMappable;
+    pub type renc2code = rt::pdo::NotMappable;
+    pub type renc3code = rt::pdo::NotMappable;
+    pub type rssiencframelen = rt::pdo::NotMappable;
+    pub type rssiencturnbit = rt::pdo::NotMappable;
+    pub type rssienccountsbit = rt::pdo::NotMappable;
     pub type rssienccounts = rt::Mappable<u16, rt::Tpdo, 0x2060_0110>;
     pub type rssiencturns = rt::Mappable<i16, rt::Tpdo, 0x2061_0110>;
     pub type rencabsquote = rt::Mappable<i32, rt::AnyPdo, 0x4725_0120>;
     pub type rencabspos = rt::Mappable<u16, rt::AnyPdo, 0x4727_0110>;
     pub type rencabsturns = rt::Mappable<i16, rt::AnyPdo, 0x4728_0110>;
+    pub type rencabsframembit = rt::pdo::NotMappable;
+    pub type rencabsposbit = rt::pdo::NotMappable;
+    pub type rencabsturnsbit = rt::pdo::NotMappable;
+    pub type renc1mode = rt::pdo::NotMappable;
+    pub type renc2mode = rt::pdo::NotMappable;
+    pub type rencabsmode = rt::pdo::NotMappable;
+    pub type rencabsctrl = rt::pdo::NotMappable;
+    pub type rencabsbrate = rt::pdo::NotMappable;
+    pub type rencabsframepause = rt::pdo::NotMappable;
+    pub type rencabsprebit = rt::pdo::NotMappable;
+    pub type rencabscode = rt::pdo::NotMappable;
+    pub type rencabspulse = rt::pdo::NotMappable;
+    pub type rthetainit = rt::pdo::NotMappable;
+    pub type rthetaack = rt::pdo::NotMappable;
+    pub type rrslvact = rt::pdo::NotMappable;
+    pub type rrslvoffsetsin = rt::pdo::NotMappable;
+    pub type rrslvoffsetcos = rt::pdo::NotMappable;
+    pub type rrslvcorr = rt::pdo::NotMappable;
+    pub type rrslvrawangleout = rt::pdo::NotMappable;
+    pub type rrslvsinfirot = rt::pdo::NotMappable;
+    pub type rrslvcosfirot = rt::pdo::NotMappable;
+    pub type rloadsav = rt::pdo::NotMappable;
+    pub type rmemvar = rt::pdo::NotMappable;
+    pub type reepsts = rt::pdo::NotMappable;
+    pub type rindex = rt::pdo::NotMappable;
     pub type reepsts32 = rt::Mappable<
         super::types::EepromStatus32,
         rt::Tpdo,
         0x2149_0120,
     >;
+    pub type rstrtmode = rt::pdo::NotMappable;
+    pub type rstrtconf = rt::pdo::NotMappable;
+    pub type rstrtvel = rt::pdo::NotMappable;
+    pub type rstrtvss = rt::pdo::NotMappable;
+    pub type rstrtacc = rt::pdo::NotMappable;
+    pub type rstrtdec = rt::pdo::NotMappable;
+    pub type rstrtpostarg = rt::pdo::NotMappable;
+    pub type rstrthvh = rt::pdo::NotMappable;
+    pub type rstrthvl = rt::pdo::NotMappable;
+    pub type rstrthacc = rt::pdo::NotMappable;
+    pub type rstrthmode = rt::pdo::NotMappable;
+    pub type rcuronramptime = rt::pdo::NotMappable;
     pub type rcuract = rt::Mappable<i16, rt::Tpdo, 0x20D1_0110>;
     pub type rcurnom = rt::Mappable<u16, rt::Rpdo, 0x20D2_0110>;
     pub type rcurred = rt::Mappable<u16, rt::Rpdo, 0x20D3_0110>;
     pub type rcurboost = rt::Mappable<u16, rt::Rpdo, 0x20D4_0110>;
     pub type rcurtorque = rt::Mappable<i16, rt::Rpdo, 0x20D5_0110>;
+    pub type rtboost = rt::pdo::NotMappable;
+    pub type rtcred = rt::pdo::NotMappable;
+    pub type rfocmode = rt::pdo::NotMappable;
     pub type rcurmodeact = rt::Mappable<
         super::types::CurrentLevelState,
         rt::Tpdo,
         0x20DC_0110,
     >;
+    pub type rcurmode = rt::pdo::NotMappable;
+    pub type rconfig = rt::pdo::NotMappable;
+    pub type renmask = rt::pdo::NotMappable;
     pub type rtrqdisp = rt::Mappable<u32, rt::Tpdo, 0x2108_0120>;
+    pub type rstpres = rt::pdo::NotMappable;
+    pub type rkpiq = rt::pdo::NotMappable;
+    pub type rkiiq = rt::pdo::NotMappable;
+    pub type rkpid = rt::pdo::NotMappable;
+    pub type rkiid = rt::pdo::NotMappable;
+    pub type rkpvel = rt::pdo::NotMappable;
+    pub type rkivel = rt::pdo::NotMappable;
+    pub type rkcvel = rt::pdo::NotMappable;
+    pub type rkppos = rt::pdo::NotMappable;
+    pub type rkipos = rt::pdo::NotMappable;
+    pub type rkcipos = rt::pdo::NotMappable;
+    pub type rkffpos = rt::pdo::NotMappable;
+    pub type rkafpos = rt::pdo::NotMappable;
+    pub type rswacfw = rt::pdo::NotMappable;
+    pub type radpicur = rt::pdo::NotMappable;
+    pub type rstpressd = rt::pdo::NotMappable;
+    pub type rkpstpdir = rt::pdo::NotMappable;
+    pub type rampfrq = rt::pdo::NotMappable;
+    pub type rdefluxen = rt::pdo::NotMappable;
+    pub type rdefluxmin = rt::pdo::NotMappable;
+    pub type rphamode = rt::pdo::NotMappable;
+    pub type rphagain = rt::pdo::NotMappable;
+    pub type rveladjopenmode = rt::pdo::NotMappable;
+    pub type radjcura = rt::pdo::NotMappable;
+    pub type radjcurb = rt::pdo::NotMappable;
+    pub type rvbusoffs = rt::pdo::NotMappable;
     pub type rla = rt::Mappable<i16, rt::Tpdo, 0x2172_0110>;
     pub type rlb = rt::Mappable<i16, rt::Tpdo, 0x2173_0110>;
     pub type rlan = rt::Mappable<i16, rt::Tpdo, 0x2174_0110>;
     pub type rlbn = rt::Mappable<i16, rt::Tpdo, 0x2175_0110>;
+    pub type rla_offs = rt::pdo::NotMappable;
+    pub type rlb_offs = rt::pdo::NotMappable;
+    pub type rla_offs_ei = rt::pdo::NotMappable;
+    pub type rlb_offs_ei = rt::pdo::NotMappable;
+    pub type rid = rt::pdo::NotMappable;
     pub type riq = rt::Mappable<i16, rt::Tpdo, 0x217B_0110>;
+    pub type ridcorr = rt::pdo::NotMappable;
+    pub type rpwmmode = rt::pdo::NotMappable;
+    pub type rpidpos_kp = rt::pdo::NotMappable;
+    pub type rpidpos_ki = rt::pdo::NotMappable;
+    pub type rpidpos_kd = rt::pdo::NotMappable;
+    pub type rpidpos_tau_kd = rt::pdo::NotMappable;
+    pub type rpidpos_kff = rt::pdo::NotMappable;
+    pub type rpidpos_kaf = rt::pdo::NotMappable;
+    pub type rpidpos_kff_fc = rt::pdo::NotMappable;
+    pub type rpidpos_kaw = rt::pdo::NotMappable;
+    pub type rpidvel_kp = rt::pdo::NotMappable;
+    pub type rpidvel_ki = rt::pdo::NotMappable;
+    pub type rpidvel_kd = rt::pdo::NotMappable;
+    pub type rpidveltau_kd = rt::pdo::NotMappable;
+    pub type rpidvel_kff = rt::pdo::NotMappable;
+    pub type rpidvel_kaf = rt::pdo::NotMappable;
+    pub type rpidvel_kff_fc = rt::pdo::NotMappable;
+    pub type rpidvel_kaw = rt::pdo::NotMappable;
+    pub type rfilvel_fc = rt::pdo::NotMappable;
+    pub type rfilvel_pg = rt::pdo::NotMappable;
+    pub type rfilcur_fc = rt::pdo::NotMappable;
+    pub type rfilcur_pg = rt::pdo::NotMappable;
+    pub type rpidposinpact = rt::pdo::NotMappable;
+    pub type rpidpospropact = rt::pdo::NotMappable;
+    pub type rpidposintact = rt::pdo::NotMappable;
+    pub type rpidposderact = rt::pdo::NotMappable;
+    pub type rpidposffact = rt::pdo::NotMappable;
+    pub type rpidposafact = rt::pdo::NotMappable;
+    pub type rpidposoutact = rt::pdo::NotMappable;
+    pub type rpidvelinpact = rt::pdo::NotMappable;
+    pub type rpidvelpropact = rt::pdo::NotMappable;
+    pub type rpidvelintact = rt::pdo::NotMappable;
+    pub type rpidvelderact = rt::pdo::NotMappable;
+    pub type rpidvelffact = rt::pdo::NotMappable;
+    pub type rpidvelafact = rt::pdo::NotMappable;
+    pub type rpidveloutact = rt::pdo::NotMappable;
+    pub type rfilvelinpact = rt::pdo::NotMappable;
+    pub type rfilveloutact = rt::pdo::NotMappable;
+    pub type rfilcurinpact = rt::pdo::NotMappable;
+    pub type rfilcuroutact = rt::pdo::NotMappable;
+    pub type rmotype = rt::pdo::NotMappable;
+    pub type rmotres = rt::pdo::NotMappable;
+    pub type rmotind = rt::pdo::NotMappable;
+    pub type rmotkfm = rt::pdo::NotMappable;
+    pub type rmottensnom = rt::pdo::NotMappable;
+    pub type rmotiph = rt::pdo::NotMappable;
+    pub type rmotktq = rt::pdo::NotMappable;
+    pub type rmotvelnom = rt::pdo::NotMappable;
+    pub type rtim0 = rt::pdo::NotMappable;
+    pub type rtim1 = rt::pdo::NotMappable;
+    pub type rtim2 = rt::pdo::NotMappable;
+    pub type rtim3 = rt::pdo::NotMappable;
+    pub type rtim4 = rt::pdo::NotMappable;
+    pub type rtim5 = rt::pdo::NotMappable;
+    pub type rtim6 = rt::pdo::NotMappable;
+    pub type rtim7 = rt::pdo::NotMappable;
+    pub type rfreerun = rt::pdo::NotMappable;
     pub type rtempact = rt::Mappable<i16, rt::Tpdo, 0x2094_0110>;
     pub type rtensact = rt::Mappable<u16, rt::Tpdo, 0x2095_0110>;
+    pub type rcurdact = rt::pdo::NotMappable;
+    pub type rswrev = rt::pdo::NotMappable;
+    pub type rhwrev = rt::pdo::NotMappable;
+    pub type rserial = rt::pdo::NotMappable;
+    pub type rrotsw = rt::pdo::NotMappable;
+    pub type rhwoptions = rt::pdo::NotMappable;
+    pub type rindtype = rt::pdo::NotMappable;
+    pub type rindfamily = rt::pdo::NotMappable;
+    pub type rindmodel = rt::pdo::NotMappable;
+    pub type rindfielbus = rt::pdo::NotMappable;
+    pub type rindoptions = rt::pdo::NotMappable;
+    pub type rindregset = rt::pdo::NotMappable;
+    pub type rindswrev = rt::pdo::NotMappable;
+    pub type rindhwrev = rt::pdo::NotMappable;
+    pub type rindsn = rt::pdo::NotMappable;
+    pub type rtestintmot = rt::pdo::NotMappable;
+    pub type rprofists = rt::pdo::NotMappable;
+    pub type rprofibaud = rt::pdo::NotMappable;
+    pub type rprofiaddr = rt::pdo::NotMappable;
+    pub type rcanbaud = rt::pdo::NotMappable;
+    pub type rcanaddr = rt::pdo::NotMappable;
+    pub type rcantx = rt::pdo::NotMappable;
+    pub type rcanrx = rt::pdo::NotMappable;
+    pub type rcanovr = rt::pdo::NotMappable;
+    pub type rcanerr = rt::pdo::NotMappable;
+    pub type rcanidx = rt::pdo::NotMappable;
+    pub type rcansub = rt::pdo::NotMappable;
+    pub type rcannew = rt::pdo::NotMappable;
+    pub type rcancmd = rt::pdo::NotMappable;
+    pub type rcanact = rt::pdo::NotMappable;
+    pub type rcansts = rt::pdo::NotMappable;
+    pub type rserbaud = rt::pdo::NotMappable;
+    pub type rserpar = rt::pdo::NotMappable;
+    pub type rserdly = rt::pdo::NotMappable;
+    pub type rseraddr = rt::pdo::NotMappable;
+    pub type rintmot = rt::pdo::NotMappable;
+    pub type rfinsenable = rt::pdo::NotMappable;
+    pub type rfinsnode = rt::pdo::NotMappable;
+    pub type rmdbport = rt::pdo::NotMappable;
+    pub type rethintmot = rt::pdo::NotMappable;
+    pub type rextmdbtime = rt::pdo::NotMappable;
+    pub type rstatuscan = rt::pdo::NotMappable;
+    pub type rcanmodeofoperation = rt::pdo::NotMappable;
+    pub type rswrevariantais = rt::pdo::NotMappable;
+    pub type rhwrevariantais = rt::pdo::NotMappable;
+    pub type rethercatid = rt::pdo::NotMappable;
+    pub type rstrmodeofoperation = rt::pdo::NotMappable;
+    pub type rds402compatibility = rt::pdo::NotMappable;
+    pub type rethlocipaddr32 = rt::pdo::NotMappable;
+    pub type rethlocipaddr10 = rt::pdo::NotMappable;
+    pub type rethsubnet32 = rt::pdo::NotMappable;
+    pub type rethsubnet10 = rt::pdo::NotMappable;
+    pub type rethgwaddr32 = rt::pdo::NotMappable;
+    pub type rethgwaddr10 = rt::pdo::NotMappable;
+    pub type rethmacaddr054 = rt::pdo::NotMappable;
+    pub type rethmacaddr032 = rt::pdo::NotMappable;
+    pub type rethmacaddr010 = rt::pdo::NotMappable;
+    pub type rethmacaddr154 = rt::pdo::NotMappable;
+    pub type rethmacaddr132 = rt::pdo::NotMappable;
+    pub type rethmacaddr110 = rt::pdo::NotMappable;
+    pub type rethmacaddr254 = rt::pdo::NotMappable;
+    pub type rethmacaddr232 = rt::pdo::NotMappable;
+    pub type rethmacaddr210 = rt::pdo::NotMappable;
+    pub type rethprotsock1 = rt::pdo::NotMappable;
+    pub type rethprotsock2 = rt::pdo::NotMappable;
+    pub type rethprotsock3 = rt::pdo::NotMappable;
+    pub type rethprotsock4 = rt::pdo::NotMappable;
+    pub type rethprotsock5 = rt::pdo::NotMappable;
+    pub type rethprotsock6 = rt::pdo::NotMappable;
+    pub type rethprotsock7 = rt::pdo::NotMappable;
+    pub type rethportsock1 = rt::pdo::NotMappable;
+    pub type rethportsock2 = rt::pdo::NotMappable;
+    pub type rethportsock3 = rt::pdo::NotMappable;
+    pub type rethportsock4 = rt::pdo::NotMappable;
+    pub type rethportsock5 = rt::pdo::NotMappable;
+    pub type rethportsock6 = rt::pdo::NotMappable;
+    pub type rethportsock7 = rt::pdo::NotMappable;
+    pub type rethcptimeout = rt::pdo::NotMappable;
+    pub type rprofinetnameptr = rt::pdo::NotMappable;
+    pub type rprofinetnamechr = rt::pdo::NotMappable;
+    pub type rprofinetname = rt::pdo::NotMappable;
+    pub type rswrevariantaios = rt::pdo::NotMappable;
+    pub type rhwrevariantaios = rt::pdo::NotMappable;
+    pub type rmodelantaios = rt::pdo::NotMappable;
+    pub type rmodulcmd = rt::pdo::NotMappable;
+    pub type rmodulpos = rt::pdo::NotMappable;
+    pub type rmodulmotenc = rt::pdo::NotMappable;
+    pub type rmodulextenc = rt::pdo::NotMappable;
     pub type rlineupcmd = rt::Mappable<
         super::types::LineUpCommand,
         rt::Rpdo,
         0x21A4_0110,
     >;
+    pub type rlineuppos = rt::pdo::NotMappable;
+    pub type rlineupmotenc = rt::pdo::NotMappable;
+    pub type rlineupextenc = rt::pdo::NotMappable;
     pub type rlineupdef = rt::Mappable<
         super::types::LineUpDefinition,
         rt::Rpdo,
@@ -53078,9 +53480,40 @@ pub mod mappable {
         rt::Rpdo,
         0x2156_0110,
     >;
+    pub type rtouchprobefunc_v6 = rt::pdo::NotMappable;
+    pub type rtouchprobestatus_v6 = rt::pdo::NotMappable;
+    pub type rtouchprobepos1pos_v6 = rt::pdo::NotMappable;
+    pub type rtouchprobepos1neg_v6 = rt::pdo::NotMappable;
+    pub type rtouchprobe1inp = rt::pdo::NotMappable;
+    pub type rtouchprobe1timestamppos = rt::pdo::NotMappable;
+    pub type rtouchprobe1timestampneg = rt::pdo::NotMappable;
+    pub type rtouchprobe1posedgecnt = rt::pdo::NotMappable;
+    pub type rtouchprobe1negedgecnt = rt::pdo::NotMappable;
+    pub type rtouchprobe2pos = rt::pdo::NotMappable;
+    pub type rtouchprobe2neg_v6 = rt::pdo::NotMappable;
+    pub type rtouchprobe2inp = rt::pdo::NotMappable;
+    pub type rtouchprobe2timestamppos = rt::pdo::NotMappable;
+    pub type rtouchprobe2timestampneg = rt::pdo::NotMappable;
+    pub type rtouchprobe2posedgecnt = rt::pdo::NotMappable;
+    pub type rtouchprobe2negedgecnt = rt::pdo::NotMappable;
+    pub type rtouchprobe1source = rt::pdo::NotMappable;
+    pub type rtouchprobe2source = rt::pdo::NotMappable;
+    pub type rcapselinp = rt::pdo::NotMappable;
+    pub type rcaptvelmax = rt::pdo::NotMappable;
+    pub type rcaptval = rt::pdo::NotMappable;
+    pub type rcaptcnt = rt::pdo::NotMappable;
+    pub type rcamstpulse = rt::pdo::NotMappable;
+    pub type rcamstmaxfrq = rt::pdo::NotMappable;
     pub type rcamstrtphase = rt::Mappable<u16, rt::Tpdo, 0x217E_0110>;
     pub type rcamstposact = rt::Mappable<u16, rt::Tpdo, 0x217F_0110>;
+    pub type rcamphaseact = rt::pdo::NotMappable;
+    pub type rcamflgwr = rt::pdo::NotMappable;
     pub type rcamflgrd = rt::Mappable<super::types::CamStatus, rt::Tpdo, 0x2182_0110>;
+    pub type rcamkpl = rt::pdo::NotMappable;
+    pub type rcamstspmstmmpulse = rt::pdo::NotMappable;
+    pub type rcamstspslvmmstep = rt::pdo::NotMappable;
+    pub type rcamstspcor = rt::pdo::NotMappable;
+    pub type rcamstspaccspace = rt::pdo::NotMappable;
     pub type rcamstspctrl = rt::Mappable<
         super::types::CamStartStopControl,
         rt::Rpdo,
@@ -53091,6 +53524,20 @@ pub mod mappable {
         rt::Tpdo,
         0x21CD_0110,
     >;
+    pub type rcamstsplowquotestlv = rt::pdo::NotMappable;
+    pub type rcamstsphighquotestlv = rt::pdo::NotMappable;
+    pub type rcamstsplowquotemst = rt::pdo::NotMappable;
+    pub type rcamstsphighquotemst = rt::pdo::NotMappable;
+    pub type rcammodeselect = rt::pdo::NotMappable;
+    pub type rcamstspsimvel = rt::pdo::NotMappable;
+    pub type rcamstspdecspace = rt::pdo::NotMappable;
+    pub type rcamstspstartdly = rt::pdo::NotMappable;
+    pub type rcamstspstopdly = rt::pdo::NotMappable;
+    pub type rwindspoolimpturn = rt::pdo::NotMappable;
+    pub type rwindyarnguidemmstep = rt::pdo::NotMappable;
+    pub type rwindaccspoolturn = rt::pdo::NotMappable;
+    pub type rwindyarnshift = rt::pdo::NotMappable;
+    pub type rwindtyingshift = rt::pdo::NotMappable;
     pub type rwindctrl = rt::Mappable<
         super::types::WindingControl,
         rt::Rpdo,
@@ -53101,10 +53548,43 @@ pub mod mappable {
         rt::Tpdo,
         0x21DD_0110,
     >;
+    pub type rwindquotelleft = rt::pdo::NotMappable;
+    pub type rwindquoteright = rt::pdo::NotMappable;
+    pub type rwindquotestop = rt::pdo::NotMappable;
+    pub type rwindtyingquotelleft = rt::pdo::NotMappable;
+    pub type rwindtyingquoteright = rt::pdo::NotMappable;
+    pub type rwindyarnguidemturnmotor = rt::pdo::NotMappable;
     pub type rwindrevcnt = rt::Mappable<u16, rt::Tpdo, 0x21EA_0110>;
+    pub type rwindrevpause = rt::pdo::NotMappable;
+    pub type renccamfbk = rt::pdo::NotMappable;
+    pub type rbrakedlyopen = rt::pdo::NotMappable;
+    pub type rbrakedlyclose = rt::pdo::NotMappable;
+    pub type rusrpidkp = rt::pdo::NotMappable;
+    pub type rusrpidki = rt::pdo::NotMappable;
+    pub type rusrpidkd = rt::pdo::NotMappable;
+    pub type rusrpidkt = rt::pdo::NotMappable;
+    pub type rusrpidflag = rt::pdo::NotMappable;
+    pub type rusrpidmaxout = rt::pdo::NotMappable;
+    pub type rusrpidminout = rt::pdo::NotMappable;
     pub type rusrpidsetpoint = rt::Mappable<i32, rt::Rpdo, 0x21FD_0120>;
     pub type rusrpidprocessvalue = rt::Mappable<i32, rt::Tpdo, 0x21FF_0120>;
     pub type rusrpidout = rt::Mappable<i32, rt::Tpdo, 0x2201_0120>;
+    pub type rfgapplyto = rt::pdo::NotMappable;
+    pub type rfgvalmin = rt::pdo::NotMappable;
+    pub type rfgvalmax = rt::pdo::NotMappable;
+    pub type rfgfreq = rt::pdo::NotMappable;
+    pub type rfgperiod = rt::pdo::NotMappable;
+    pub type rfgcmd = rt::pdo::NotMappable;
+    pub type rfgmode = rt::pdo::NotMappable;
+    pub type rfgout32 = rt::pdo::NotMappable;
+    pub type rfgout16 = rt::pdo::NotMappable;
+    pub type rstsprg = rt::pdo::NotMappable;
+    pub type rprgrunmode = rt::pdo::NotMappable;
+    pub type rprgstopevent = rt::pdo::NotMappable;
+    pub type rprgcnt = rt::pdo::NotMappable;
+    pub type rprgccflag = rt::pdo::NotMappable;
+    pub type rprgeventcounterptr = rt::pdo::NotMappable;
+    pub type rprgeventcounter = rt::pdo::NotMappable;
     pub type error_register = rt::Mappable<
         super::types::ErrorRegister,
         rt::Tpdo,
@@ -53112,17 +53592,26 @@ pub mod mappable {
     >;
     pub mod read_write_variable {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
+        pub type variable_number_sdo = rt::pdo::NotMappable;
+        pub type variable_value_sdo = rt::pdo::NotMappable;
         pub type variable_number_write_pdo = rt::Mappable<u16, rt::Rpdo, 0x23E8_0310>;
         pub type variable_value_write_pdo = rt::Mappable<i32, rt::Rpdo, 0x23E8_0420>;
         pub type variable_number_read_pdo = rt::Mappable<u16, rt::Rpdo, 0x23E8_0510>;
         pub type variable_value_read_pdo = rt::Mappable<i32, rt::Tpdo, 0x23E8_0620>;
     }
+    pub type error_code = rt::pdo::NotMappable;
     pub type controlword = rt::Mappable<
         super::types::Controlword,
         rt::Rpdo,
         0x6040_0010,
     >;
     pub type statusword = rt::Mappable<super::types::Statusword, rt::Tpdo, 0x6041_0010>;
+    pub type quick_stop_option_code = rt::pdo::NotMappable;
+    pub type shutdown_option_code = rt::pdo::NotMappable;
+    pub type disable_operation_option_code = rt::pdo::NotMappable;
+    pub type stop_option_code = rt::pdo::NotMappable;
+    pub type fault_reaction_option_code = rt::pdo::NotMappable;
     pub type modes_of_operation = rt::Mappable<
         super::types::ModesOfOperation,
         rt::Rpdo,
@@ -53145,6 +53634,7 @@ pub mod mappable {
     pub type end_velocity = rt::Mappable<i32, rt::Rpdo, 0x6082_0020>;
     pub type profile_acceleration = rt::Mappable<u32, rt::Rpdo, 0x6083_0020>;
     pub type profile_deceleration = rt::Mappable<u32, rt::Rpdo, 0x6084_0020>;
+    pub type quick_stop_deceleration = rt::pdo::NotMappable;
     pub type motion_profile_type = rt::Mappable<
         super::types::MotionProfileType,
         rt::Rpdo,
@@ -53157,6 +53647,7 @@ pub mod mappable {
     >;
     pub mod homing_speeds {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
         pub type speed_during_search_for_switch = rt::Mappable<
             u32,
             rt::Rpdo,
@@ -53195,18 +53686,34 @@ pub mod mappable {
         rt::Tpdo,
         0x60BD_0020,
     >;
+    pub type interpolation_submode_select = rt::pdo::NotMappable;
     pub mod interpolation_data_record {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
         pub type _1st_ip_function_parameter = rt::Mappable<i32, rt::Rpdo, 0x60C1_0120>;
         pub type _2nd_ip_function_parameter = rt::Mappable<i32, rt::Rpdo, 0x60C1_0220>;
     }
     pub mod interpolation_time_period {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
         pub type interpolation_time_units = rt::Mappable<u8, rt::Rpdo, 0x60C2_0108>;
+        pub type interpolation_time_index = rt::pdo::NotMappable;
+    }
+    pub mod interpolation_sync_definition {
+        use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
+        pub type synchronize_on_group = rt::pdo::NotMappable;
+        pub type ip_sync_every_n_event = rt::pdo::NotMappable;
     }
     pub mod interpolation_data_configuration {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
+        pub type maximum_buffer_size = rt::pdo::NotMappable;
+        pub type actual_size = rt::pdo::NotMappable;
+        pub type buffer_organisation = rt::pdo::NotMappable;
         pub type buffer_position = rt::Mappable<u8, rt::Rpdo, 0x60C4_0408>;
+        pub type size_of_data_record = rt::pdo::NotMappable;
+        pub type buffer_clear = rt::pdo::NotMappable;
     }
     pub type digital_inputs = rt::Mappable<
         super::types::ProfileDigitalInputs,
@@ -53215,6 +53722,7 @@ pub mod mappable {
     >;
     pub mod digital_outputs {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
         pub type physical_outputs = rt::Mappable<
             super::super::types::ProfileDigitalOutputs,
             rt::Rpdo,
@@ -53226,6 +53734,10 @@ pub mod mappable {
             0x60FE_0220,
         >;
     }
+    pub type motor_type = rt::pdo::NotMappable;
+    pub type supported_drive_modes = rt::pdo::NotMappable;
+    pub type drive_manufacturer = rt::pdo::NotMappable;
+    pub type http_drive_catalog_address = rt::pdo::NotMappable;
 }
 /// PDOs with their default mapping.
 pub mod pdo {

@@ -58,6 +58,10 @@ pub enum Tpdo {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyPdo {}
 
+/// Marks an object that cannot be mapped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPdo {}
+
 /// Marks a CANopen PDO without a default COB-ID.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCobId {}
@@ -69,13 +73,19 @@ pub enum OnEtherCat {}
 /// An object that can be mapped into PDOs of direction `D`. The field of the PDO has the type `F`. `WORD` is the
 /// mapping entry of the object.
 ///
-/// The generated module `mappable` has a type alias for each mappable object.
+/// The generated module `mappable` has a type alias for each object.
 pub struct Mappable<F, D, const WORD: u32>(PhantomData<fn() -> (F, D)>);
+
+/// An object that cannot be mapped. [`pdo!`](crate::pdo!) reports it as an error.
+pub type NotMappable = Mappable<u8, NoPdo, 8>;
 
 /// The field and the mapping entry of a [`Mappable`].
 pub trait Mapped {
     /// The type of the field.
     type Field;
+
+    /// The direction of PDOs that can contain the object: [`Rpdo`], [`Tpdo`], [`AnyPdo`] or [`NoPdo`].
+    type Direction;
 
     /// Mapping entry, encoded as in the mapping object: index, sub-index and length in bits, with the index in the most
     /// significant bytes.
@@ -87,12 +97,29 @@ pub trait Mapped {
 
 impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     type Field = F;
+    type Direction = D;
     const WORD: u32 = WORD;
 }
 
-/// Marks objects that can be mapped into PDOs of direction `D`.
+/// Marks the directions of objects that can be mapped.
 #[diagnostic::on_unimplemented(
-    message = "this object cannot be mapped into a PDO of direction `{D}`",
+    message = "this object is not mappable",
+    label = "the description doesn't allow it in a PDO",
+    note = "in an EDS, the object has `PDOMapping=0`; in an XDD, `PDOmapping=\"no\"`; in an ESI, no `PdoMapping`",
+    note = "if the device can map the object, set `pdo = \"rx\"`, `\"tx\"` or `\"both\"` in an overlay"
+)]
+pub trait IsMappable {
+    /// Generated code evaluates this constant to require the trait at compile time.
+    const HOLDS: () = ();
+}
+
+impl IsMappable for Rpdo {}
+impl IsMappable for Tpdo {}
+impl IsMappable for AnyPdo {}
+
+/// Marks the directions of objects that can be mapped into PDOs of direction `D`.
+#[diagnostic::on_unimplemented(
+    message = "this object is mappable only into a `{Self}`, and the PDO is an `{D}`",
     label = "the device allows it only in the other direction",
     note = "the device receives an `Rpdo` and transmits a `Tpdo`"
 )]
@@ -101,10 +128,10 @@ pub trait MappableInto<D> {
     const HOLDS: () = ();
 }
 
-impl<F, const WORD: u32> MappableInto<Rpdo> for Mappable<F, Rpdo, WORD> {}
-impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, Tpdo, WORD> {}
-impl<F, const WORD: u32> MappableInto<Rpdo> for Mappable<F, AnyPdo, WORD> {}
-impl<F, const WORD: u32> MappableInto<Tpdo> for Mappable<F, AnyPdo, WORD> {}
+impl MappableInto<Rpdo> for Rpdo {}
+impl MappableInto<Tpdo> for Tpdo {}
+impl<D> MappableInto<D> for AnyPdo {}
+impl<D> MappableInto<D> for NoPdo {}
 
 /// Only [`CobId`] implements this trait. The trait has a lifetime parameter, so that rustc checks the bound only when
 /// the method is called.
@@ -163,6 +190,19 @@ pub trait FitsGranularity {
 
 impl FitsGranularity for Check<true> {}
 
+/// Requires that the entry ends within the maximum length of the PDO. Only [`Check<true>`](Check) implements this trait.
+#[diagnostic::on_unimplemented(
+    message = "this object doesn't fit into the PDO",
+    label = "ends beyond the maximum length of the PDO",
+    note = "a PDO on CANopen has at most 64 bits; on EtherCAT, the sync manager has a maximum length"
+)]
+pub trait FitsLength {
+    /// Generated code evaluates this constant to require the trait at compile time.
+    const HOLDS: () = ();
+}
+
+impl FitsLength for Check<true> {}
+
 /// Checks that [`pdo!`](crate::pdo!) makes at compile time.
 pub mod check {
     use super::{MappedEntry, Remappable};
@@ -185,10 +225,10 @@ pub mod check {
         mapping.len() <= P::ENTRIES && mapping.len() <= u8::MAX as usize
     }
 
-    /// Returns whether the mapping has no more bits than the PDO can have.
+    /// Returns whether the first `bits` bits of a mapping fit into the PDO.
     #[must_use]
-    pub const fn fits_bits<P: Remappable>(mapping: &[MappedEntry]) -> bool {
-        super::bits(mapping) <= P::MAX_BITS
+    pub const fn fits_bits<P: Remappable>(bits: u32) -> bool {
+        bits <= P::MAX_BITS
     }
 
     /// Returns whether the mapping contains all fixed entries.

@@ -60,7 +60,8 @@
 /// # Compile-time checks
 ///
 /// - The mapping of the PDO must be writable.
-/// - Each object must exist and be mappable in the PDO's direction (`cannot find type … in module …::mappable`).
+/// - Each object must exist (`cannot find type … in module …::mappable`), be mappable, and be mappable in the PDO's
+///   direction.
 /// - The length of each object must be a multiple of the granularity.
 /// - The device must support a dummy entry for each gap.
 /// - The mapping object must have enough sub-indices for all entries. The number of bits must not exceed 64 on CANopen,
@@ -125,9 +126,15 @@ macro_rules! pdo {
             [$($words)* { item $($device)* mappable::$field }]
             [$($bits)* + <$($device)* mappable::$field as $crate::pdo::Mapped>::BITS] [] { $($($rest)*)? });
     };
+    (@entries $head:tt $name:ident $device:tt $path:ty, $fields:tt $words:tt $bits:tt $attributes:tt
+        { $field:tt: types::$type:ident $($rest:tt)* }
+    ) => {
+        $crate::pdo!(@typed $field types::$type);
+    };
     (@entries $head:tt $name:ident [$($device:tt)*] $path:ty, [$($fields:tt)*] [$($words:tt)*] [$($bits:tt)*]
         $attributes:tt { $field:tt: $($segment:ident)::+ $(, $($rest:tt)*)? }
     ) => {
+        $crate::pdo!(@refuse $field $($segment)::+);
         $crate::pdo!(@entries $head $name [$($device)*] $path,
             [$($fields)* { $attributes $field [$($device)* mappable::$($segment)::+] [$($bits)*] }]
             [$($words)* { item $($device)* mappable::$($segment)::+ }]
@@ -235,18 +242,30 @@ macro_rules! pdo {
         $(
             #[allow(non_camel_case_types)]
             const _: () = {
-                type MappedObject = $item;
+                type MappedInto = <$item as $crate::pdo::Mapped>::Direction;
                 type Granularity = $crate::pdo::custom::Check<
                     { $crate::pdo::custom::check::is_multiple::<$path>(<$item as $crate::pdo::Mapped>::BITS) },
                 >;
+                type Length = $crate::pdo::custom::Check<
+                    {
+                        $crate::pdo::custom::check::fits_bits::<$path>(
+                            0 $($at)* + <$item as $crate::pdo::Mapped>::BITS,
+                        )
+                    },
+                >;
                 {
-                    type $field = MappedObject;
+                    type $field = MappedInto;
                     type Direction = <$path as $crate::pdo::Remappable>::Direction;
+                    <$field as $crate::pdo::custom::IsMappable>::HOLDS;
                     <$field as $crate::pdo::custom::MappableInto<Direction>>::HOLDS
                 }
                 {
                     type $field = Granularity;
                     <$field as $crate::pdo::custom::FitsGranularity>::HOLDS
+                }
+                {
+                    type $field = Length;
+                    <$field as $crate::pdo::custom::FitsLength>::HOLDS
                 }
             };
         )+
@@ -264,10 +283,14 @@ macro_rules! pdo {
                 ::core::concat!("`", ::core::stringify!($name), "` has more entries than this PDO can have")
             );
             ::core::assert!(
-                $crate::pdo::custom::check::fits_bits::<$path>(mapping),
+                // A field beyond the end is reported at the field.
+                $crate::pdo::custom::check::fits_bits::<$path>($crate::pdo::custom::bits(mapping))
+                    $(|| !$crate::pdo::custom::check::fits_bits::<$path>(
+                        0 $($at)* + <$item as $crate::pdo::Mapped>::BITS,
+                    ))+,
                 ::core::concat!(
-                    "`", ::core::stringify!($name), "` has more bits than this PDO can have: 64 on CANopen, ",
-                    "the length of the sync manager on EtherCAT"
+                    "`", ::core::stringify!($name), "` has a gap `_` beyond the maximum length of this PDO: ",
+                    "64 bits on CANopen, the length of the sync manager on EtherCAT"
                 )
             );
             ::core::assert!(
@@ -275,6 +298,26 @@ macro_rules! pdo {
                 ::core::concat!("`", ::core::stringify!($name), "` lacks a fixed entry of this PDO")
             );
         };
+    };
+
+    // A field has the type of its object.
+    (@refuse $field:tt bool) => { $crate::pdo!(@typed $field bool); };
+    (@refuse $field:tt u8) => { $crate::pdo!(@typed $field u8); };
+    (@refuse $field:tt u16) => { $crate::pdo!(@typed $field u16); };
+    (@refuse $field:tt u32) => { $crate::pdo!(@typed $field u32); };
+    (@refuse $field:tt u64) => { $crate::pdo!(@typed $field u64); };
+    (@refuse $field:tt i8) => { $crate::pdo!(@typed $field i8); };
+    (@refuse $field:tt i16) => { $crate::pdo!(@typed $field i16); };
+    (@refuse $field:tt i32) => { $crate::pdo!(@typed $field i32); };
+    (@refuse $field:tt i64) => { $crate::pdo!(@typed $field i64); };
+    (@refuse $field:tt f32) => { $crate::pdo!(@typed $field f32); };
+    (@refuse $field:tt f64) => { $crate::pdo!(@typed $field f64); };
+    (@refuse $field:tt $($object:tt)+) => {};
+    (@typed $field:tt $($type:tt)+) => {
+        ::core::compile_error!(::core::concat!(
+            "`", ::core::stringify!($field: $($type)+), "` names a type. A field has the type of its object: write `",
+            ::core::stringify!($field), "`, or the name of an object after the colon"
+        ));
     };
 
     (@word $path:ty, { gap $gap:literal }) => {

@@ -61,8 +61,10 @@ fn limits_are_those_of_the_description() {
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
-    // Values that cannot be mapped or have no fixed size are left out.
-    assert!(!text.contains("internal") && !text.contains("type name"), "{text}");
+    // `pdo!` refuses values that cannot be mapped or have no fixed size.
+    for name in ["internal", "name"] {
+        assert!(text.contains(&format!("pub type {name} = rt::pdo::NotMappable;")), "{text}");
+    }
 }
 
 #[test]

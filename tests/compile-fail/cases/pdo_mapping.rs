@@ -2,6 +2,25 @@
 
 use lexibus_drives::{demo_drive, vector_step};
 
+#[allow(non_camel_case_types)]
+mod device {
+    pub mod mappable {
+        pub type position = lexibus::Mappable<i64, lexibus::AnyPdo, 0x2000_0040>;
+    }
+
+    pub mod remappable {
+        pub enum RxPdo1 {}
+
+        impl lexibus::Remappable for RxPdo1 {
+            type Direction = lexibus::Rpdo;
+            type CobId = lexibus::pdo::NoCobId;
+            const INDEX: u16 = 0x1600;
+            const ENTRIES: usize = 8;
+            const DUMMIES: u32 = 1 << 6;
+        }
+    }
+}
+
 lexibus::pdo! {
     pub struct TooLong: vector_step::pdo::RxPdo3 {
         target_position,
@@ -20,6 +39,10 @@ lexibus::pdo! {
 
 lexibus::pdo! {
     pub struct NoDummyInATpdo: demo_drive::pdo::TxPdo2 { statusword, _: 8 }
+}
+
+lexibus::pdo! {
+    pub struct GapAtTheEnd: device::pdo::RxPdo1 { position, _: 16 }
 }
 
 fn main() {}

@@ -180,6 +180,9 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
     described(definition.documentation.as_deref(), &context.manual, &mut lines);
+    if let Some(origin) = WORDS.defined_by(definition.stated_by.as_deref(), definition.documentation.as_deref()) {
+        lines.extend([String::new(), origin]);
+    }
     doubts_about(context, SubjectKind::Type, &definition.name, &mut lines);
     let users = context.links.users(position, DocModule::TYPES);
     if !users.is_empty() {

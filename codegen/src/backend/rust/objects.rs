@@ -35,9 +35,10 @@ pub(super) struct ObjectModel {
 }
 
 impl ObjectModel {
-    /// Returns whether any of the items can be mapped into PDOs.
-    pub(super) fn has_mappable(&self) -> bool {
-        self.items.iter().any(|item| item.mappable.is_some())
+    /// Returns whether `lexibus::pdo!` knows the names of the items. It knows all mappable items, and items outside of the
+    /// communication parameters, so that it can report that they aren't mappable.
+    pub(super) fn is_in_mappable(&self) -> bool {
+        self.items.iter().any(|item| item.mappable.is_some() || item.object.is_some_and(|(index, _)| index >= 0x2000))
     }
 
     /// Returns whether the code of the items contains a path into the runtime crate.

@@ -67,12 +67,13 @@
         /// TxPDO 0x1A00: Inputs.
         pub inputs: super::pdo::Inputs,
     }
-/// Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.
+/// Items for use by the macro `lexibus::pdo!`, and whether they can be mapped. Their names are those of the accessors.
 #[allow(missing_docs, non_camel_case_types)]
 pub mod mappable {
     use ::lexibus as rt;
     pub mod digital_inputs {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
         pub type limit_switch = rt::Mappable<bool, rt::Tpdo, 0x2000_0101>;
         pub type digital_inputs_2 = rt::Mappable<bool, rt::Tpdo, 0x2000_0201>;
     }
@@ -85,6 +86,7 @@ pub mod mappable {
     >;
     pub mod safe_inputs {
         use super::rt;
+        pub type number_of_entries = rt::pdo::NotMappable;
         pub type limit_switch = rt::Mappable<bool, rt::Tpdo, 0x2010_0101>;
         pub type digital_inputs_2 = rt::Mappable<bool, rt::Tpdo, 0x2010_0201>;
     }

@@ -28,3 +28,33 @@
         "ms",
         rt::Flags::NONE,
     );
+    /// Pump mode: 0x7000:00, UNSIGNED8, read-write.
+    /// Accessor: [`pump_mode`](super::Axis::pump_mode). Value type: [`PumpMode`](super::types::PumpMode).
+    ///
+    /// Changed by an overlay: the data sheet has other values.
+    ///
+    /// Bits and values from overlay pump.overlay.toml:11.
+    pub const PUMP_MODE: ReadWrite<super::types::PumpMode> = ReadWriteNamedPumpMode::object(
+        0x7000,
+        0x00,
+        "Pump mode",
+    );
+    /// PumpMode.
+    ///
+    /// Definition from overlay pump.overlay.toml:13.
+    ///
+    /// Value type of [`PUMP_MODE`](super::objects::PUMP_MODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`On`](Self::On) |
+    #[derive(Clone, Copy, Debug)]
+    pub enum PumpMode {
+        /// 0: off.
+        Off,
+        /// 1: on.
+        On,
+        /// A number that no other variant represents.
+        Unknown(u8),
+    }

@@ -30,21 +30,25 @@ fn remappable(code: &mut Code, remappable: &RemappableModel) {
 
 fn mappable(code: &mut Code, model: &Model) {
     code.doc(
-        "Items that can be mapped into PDOs, for use by the macro `lexibus::pdo!`. Their names are those of the accessors.",
+        "Items for use by the macro `lexibus::pdo!`, and whether they can be mapped. Their names are those of the accessors.",
     );
     line!(code, "#[allow(missing_docs, non_camel_case_types)]");
     open!(code, "pub mod mappable {");
     code.use_runtime();
     let stop = Stop;
-    for object in model.objects.iter().filter(|object| object.has_mappable()) {
+    for object in model.objects.iter().filter(|object| object.is_in_mappable()) {
         if object.is_module {
             open!(code, "pub mod ", object.name, " {");
             line!(code, "use super::rt;");
         }
         for item in &object.items {
-            let Some(arguments) = &item.mappable else { continue };
             let name = if object.is_module { item.mappable_name() } else { object.name.clone() };
-            line!(code, "pub type ", name, " = ", stop, list("rt::Mappable<", arguments, ">"), ";");
+            match &item.mappable {
+                Some(arguments) => {
+                    line!(code, "pub type ", name, " = ", stop, list("rt::Mappable<", arguments, ">"), ";")
+                }
+                None => line!(code, "pub type ", name, " = rt::pdo::NotMappable;"),
+            }
         }
         if object.is_module {
             code.close("}");
