@@ -73,7 +73,7 @@ fn a_row_changes_what_it_says_and_nothing_else() {
     let origin =
         FactOrigin::Overlay { file: "pump.overlay.toml".into(), line: 6, replaces: false, why: "page 12".into() };
     assert_eq!((new.origins.get(Fact::Unit), new.origins.get(Fact::Type)), (Some(&origin), None));
-    assert_eq!(&compilation.sources[1].text()[new.at.low.range()], "1", "the limit comes from the overlay");
+    assert_eq!(&compilation.sources[1].text()[new.at.others.low.range()], "1", "the limit comes from the overlay");
     let gain = item(&compilation, 0x2010, 2);
     assert_eq!((gain.name.as_str(), gain.ty), ("Gain 2", Type::Integer(16)));
     assert_eq!(words(gain), "A gain.\nChanged by an overlay: as the manual has it.");

@@ -77,6 +77,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
         }
     }
     raw.fields.shrink_to_fit();
+    raw.values.shrink_to_fit();
     // All data types share one list of extensions, so each key starts with the name of its data type.
     for extension in reader.extensions.iter_mut().skip(start) {
         extension.key = format_compact!("{}/{}", brief(&raw.name.text), extension.key);

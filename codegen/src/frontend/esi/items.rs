@@ -335,11 +335,11 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
         if let Some(raw) = more.clone().find_map(|more| more.min.as_ref()) {
             item.limits.low = value::convert(reader, raw, base, Role::Limit);
-            item.at.low = raw.given.span;
+            item.at.others.low = raw.given.span;
         }
         if let Some(raw) = more.clone().find_map(|more| more.max.as_ref()) {
             item.limits.high = value::convert(reader, raw, base, Role::Limit);
-            item.at.high = raw.given.span;
+            item.at.others.high = raw.given.span;
         }
         if let Some(given) = more.clone().map(|more| &more.unit).find(|unit| !unit.is_empty()) {
             let unit = self.unit(reader, given);

@@ -244,6 +244,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         if self.extensions.len() <= start {
             return Extensions::new();
         }
-        self.extensions.drain(start..).collect()
+        let mut extensions = Extensions::with_capacity(self.extensions.len() - start);
+        extensions.extend(self.extensions.drain(start..));
+        extensions
     }
 }

@@ -233,7 +233,7 @@ impl RowPatcher<'_> {
         };
         let same_type = item.ty == before.ty || (shape(item.ty).is_some() && shape(item.ty) == shape(before.ty));
         let mut moved = item.clone();
-        (moved.ty, moved.at) = (before.ty, before.at);
+        (moved.ty, moved.at) = (before.ty, before.at.clone());
         same_type && moved == *before
     }
 
