@@ -7,7 +7,7 @@ use compact_str::format_compact;
 use smallvec::SmallVec;
 
 use super::data_type::{Dimension, RawField, RawType};
-use super::reader::Reader;
+use super::reader::{Names, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::etg::type_name::{self, Basic, Spelling};
 use crate::frontend::xml::Given;
@@ -133,7 +133,7 @@ impl<'t, 'a> Types<'t, 'a> {
         types.meaning = vec![opaque; raw.len()];
         let empty = |ty: &RawType<'_>| TypeDef {
             code: ty.code,
-            documentation: ty.comment.documentation(),
+            documentation: ty.comment.as_deref().and_then(Names::documentation),
             origin: ty.origin,
             ..TypeDef::new(ty.name.compact(), Shape::Alias(opaque), ty.bits)
         };
