@@ -120,10 +120,10 @@ impl ShownDiagnostics {
             at.access,
             at.mappable,
             at.default,
-            at.low,
-            at.high,
-            at.configured,
-            at.documentation,
+            at.others.low,
+            at.others.high,
+            at.others.configured,
+            at.others.documentation,
         ])
     }
 

@@ -28,7 +28,7 @@ pub(super) fn readings(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         let message = format!("`{name}` is {access} and signed, but its minimum {low} is above zero");
         let help =
             "remove the minimum if it belongs to a setpoint and the value can be zero; otherwise use an unsigned type";
-        diagnostics.push(codes::READING_LIMITS.at(access_span(item, item.at.low), message).help(help));
+        diagnostics.push(codes::READING_LIMITS.at(access_span(item, item.at.others.low), message).help(help));
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 /// none does.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
-    let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
+    let facts = [alias.span, item.at.ty, item.at.others.low, item.at.others.high];
     facts.into_iter().find(|fact| !fact.is_empty() && fact.file != row.file).unwrap_or(row)
 }
 

@@ -183,7 +183,8 @@ mod tests {
     #[test]
     fn conditions_distinguish_meanings_of_the_same_bits() {
         let when = |mode| {
-            Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)], names: Vec::new(), mask: None })
+            let item = "mode".into();
+            Some(Box::new(Condition { item, values: vec![Value::Int(mode)], names: Vec::new(), mask: None }))
         };
         let one = BitFieldEntry { when: when(1), ..field("all", 0, 8) };
         assert_eq!(found(vec![one.clone(), BitFieldEntry { when: when(2), ..field("part", 0, 1) }]), [""; 0]);

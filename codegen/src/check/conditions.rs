@@ -19,12 +19,12 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for (_, definition) in stated::types(owner.types) {
         match &definition.shape {
             Shape::Enumeration { values, .. } => {
-                for (value, condition) in values.iter().filter_map(|value| Some((value, value.when.as_ref()?))) {
+                for (value, condition) in values.iter().filter_map(|value| Some((value, value.when.as_deref()?))) {
                     possible(context, condition, value.at.0, diagnostics);
                 }
             }
             Shape::BitField { fields, .. } => {
-                let conditions: Vec<&Condition> = fields.iter().filter_map(|field| field.when.as_ref()).collect();
+                let conditions: Vec<&Condition> = fields.iter().filter_map(|field| field.when.as_deref()).collect();
                 for condition in &conditions {
                     possible(context, condition, definition.origin.span, diagnostics);
                 }

@@ -21,8 +21,8 @@ pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
 pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         let (given, other, span) = match (&item.limits.low, &item.limits.high) {
-            (Some(_), None) => ("minimum", "maximum", item.at.low),
-            (None, Some(_)) => ("maximum", "minimum", item.at.high),
+            (Some(_), None) => ("minimum", "maximum", item.at.others.low),
+            (None, Some(_)) => ("maximum", "minimum", item.at.others.high),
             _ => continue,
         };
         let message = format!("`{}` has a {given}, but no {other}", brief(&item.name));
@@ -53,7 +53,7 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     if let (Some(low), Some(high)) = (low, high) {
         if low.compare(high) == Some(Ordering::Greater) {
             let message = format!("the minimum {low} is greater than the maximum {high}");
-            let found = codes::LIMITS_SWAPPED.at(item.at.low.or(item.origin.span), message);
+            let found = codes::LIMITS_SWAPPED.at(item.at.others.low.or(item.origin.span), message);
             let found = found.label("the limits are kept, but generated code does not check them");
             diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
                 Some(help) => found.help(help),
@@ -63,12 +63,12 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
         }
     }
     let default = (item.default.as_ref(), item.at.default, "default");
-    for (value, span, what) in [default, (item.configured_value(), item.at.configured, "configured value")] {
+    for (value, span, what) in [default, (item.configured_value(), item.at.others.configured, "configured value")] {
         let Some(value) = value else { continue };
         let Some(reason) = excluded(&item.limits, value) else { continue };
         let limit = match reason {
-            Excluded::Above(_) => item.at.high,
-            _ => item.at.low,
+            Excluded::Above(_) => item.at.others.high,
+            _ => item.at.others.low,
         };
         let message = format!("the {what} {value} is {reason}");
         let (help, note) = match reason {

@@ -58,10 +58,13 @@ impl Check<'_, '_> {
     fn values(&self) -> Vec<Number> {
         let (default, at) = (self.item.default.as_ref(), &self.item.at);
         let default = match fixed(self.item) {
-            Some(_) => Number::of("fixed value", default, at.default.or(at.low)),
+            Some(_) => Number::of("fixed value", default, at.default.or(at.others.low)),
             None => Number::of("default", default, at.default),
         };
-        default.into_iter().chain(Number::of("configured value", self.item.configured_value(), at.configured)).collect()
+        default
+            .into_iter()
+            .chain(Number::of("configured value", self.item.configured_value(), at.others.configured))
+            .collect()
     }
 
     /// Returns the minimum and the maximum of an item, if these limits differ.
@@ -70,8 +73,8 @@ impl Check<'_, '_> {
             return Vec::new();
         }
         let (limits, at) = (&self.item.limits, &self.item.at);
-        let low = Number::of("minimum", limits.low.as_ref(), at.low);
-        low.into_iter().chain(Number::of("maximum", limits.high.as_ref(), at.high)).collect()
+        let low = Number::of("minimum", limits.low.as_ref(), at.others.low);
+        low.into_iter().chain(Number::of("maximum", limits.high.as_ref(), at.others.high)).collect()
     }
 
     fn enumeration(&mut self, base: Type, values: &[EnumValue], closed: bool) {

@@ -115,7 +115,7 @@ impl Mapping<'_, '_> {
         if found == 0 {
             return;
         }
-        let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.configured.or(item.at.default));
+        let span = mapping.sub(0).map_or(mapping.origin.span, |item| item.at.others.configured.or(item.at.default));
         let message = format!(
             "sub-index 0 declares {}, but the number of entries with a value is only {found}",
             count_of(announced, "mapped object")
@@ -222,7 +222,7 @@ impl Mapping<'_, '_> {
             Direction::Transmit => (value & 0xFFFF, "TPDO"),
         };
         if counted != i128::from(announced) {
-            let span = item.at.configured.or(item.at.default).or(item.origin.span);
+            let span = item.at.others.configured.or(item.at.default).or(item.origin.span);
             self.report(
                 &codes::PDO_COUNT_1004,
                 span,

@@ -69,8 +69,8 @@ impl<'d> Referrers<'d> {
 
     fn of_type(&mut self, definition: &'d TypeDef) {
         let conditions: Vec<&Condition> = match &definition.shape {
-            Shape::BitField { fields, .. } => fields.iter().filter_map(|field| field.when.as_ref()).collect(),
-            Shape::Enumeration { values, .. } => values.iter().filter_map(|value| value.when.as_ref()).collect(),
+            Shape::BitField { fields, .. } => fields.iter().filter_map(|field| field.when.as_deref()).collect(),
+            Shape::Enumeration { values, .. } => values.iter().filter_map(|value| value.when.as_deref()).collect(),
             _ => return,
         };
         self.add_all(items_of(conditions), Referrer::Type(definition));

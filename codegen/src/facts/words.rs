@@ -132,7 +132,7 @@ pub fn access_name(access: Access) -> &'static str {
 pub fn origin_name(origin: &FactOrigin) -> String {
     match origin {
         FactOrigin::Stated => "the description".to_owned(),
-        FactOrigin::Overlay { file, line, .. } => format!("overlay {file}:{line}"),
+        FactOrigin::Overlay(row) => format!("overlay {}:{}", row.file, row.line),
         FactOrigin::Standard(clause) => clause.to_string(),
         FactOrigin::Rule(Rule::UnstatedAccess) => "the rule for missing access rights".to_owned(),
         FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
@@ -521,7 +521,7 @@ impl Words<'_> {
 
     /// Returns a sentence about the origin of facts: `Unit from overlay pump.toml:12 instead of the description.`
     fn origin_sentence(&self, facts: &str, origin: &FactOrigin) -> String {
-        let replaces = matches!(origin, FactOrigin::Overlay { replaces: true, .. });
+        let replaces = matches!(origin, FactOrigin::Overlay(row) if row.replaces);
         let instead = if replaces { " instead of the description" } else { "" };
         format!("{facts} from {}{instead}.", self.escaped(&origin_name(origin)))
     }
@@ -600,7 +600,7 @@ impl Words<'_> {
             let is_elsewhere = match origin {
                 FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
                 FactOrigin::Standard(_) => matches!(fact, Fact::Meaning | Fact::Description),
-                FactOrigin::Overlay { .. } | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
+                FactOrigin::Overlay(_) | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
             };
             if is_elsewhere {
                 continue;

@@ -107,21 +107,26 @@ pub enum FactOrigin {
     /// The name that the manual prints. The text of the description only spells out this name.
     PrintedName,
     /// An overlay of the user.
-    Overlay {
-        /// File name of the overlay, without folders.
-        file: CompactString,
-        /// Line of the row in the overlay.
-        line: u32,
-        /// True if the overlay replaces a fact of the description.
-        replaces: bool,
-        /// Reason for the change, from the row or the head of the overlay; may be empty.
-        #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
-        why: CompactString,
-    },
+    Overlay(Box<OverlayOrigin>),
     /// A standard and a clause of it: `CiA 402, 17.3.7`.
     Standard(CompactString),
     /// A rule of the compiler.
     Rule(Rule),
+}
+
+/// The row of an overlay that states a fact.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct OverlayOrigin {
+    /// File name of the overlay, without folders.
+    pub file: CompactString,
+    /// Line of the row in the overlay.
+    pub line: u32,
+    /// True if the overlay replaces a fact of the description.
+    pub replaces: bool,
+    /// Reason for the change, from the row or the head of the overlay; may be empty.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub why: CompactString,
 }
 
 /// A rule by which the compiler completes descriptions.
@@ -151,7 +156,7 @@ impl FactOrigin {
             FactOrigin::Rule(_) => 0,
             FactOrigin::Standard(_) => 1,
             FactOrigin::Stated | FactOrigin::PrintedName => 2,
-            FactOrigin::Overlay { .. } => 3,
+            FactOrigin::Overlay(_) => 3,
         }
     }
 
@@ -159,7 +164,7 @@ impl FactOrigin {
     /// fact does not exist yet. The later of two overlays takes precedence, and the first of two standards.
     pub(crate) fn takes_precedence_over(&self, present: Option<&FactOrigin>) -> bool {
         let Some(present) = present else { return true };
-        self.rank() > present.rank() || matches!(self, FactOrigin::Overlay { .. })
+        self.rank() > present.rank() || matches!(self, FactOrigin::Overlay(_))
     }
 }
 
@@ -206,7 +211,7 @@ mod tests {
     use super::*;
 
     fn overlay() -> FactOrigin {
-        FactOrigin::Overlay { file: "a.toml".into(), line: 3, replaces: true, why: "".into() }
+        FactOrigin::Overlay(Box::new(OverlayOrigin { file: "a.toml".into(), line: 3, replaces: true, why: "".into() }))
     }
 
     #[test]

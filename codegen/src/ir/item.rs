@@ -5,7 +5,7 @@ use thin_vec::ThinVec;
 
 use super::{
     Access, Availability, Behaviour, Binding, Bus, CompactString, Documentation, Doubts, Extensions, Fact, FactOrigin,
-    FactOrigins, ItemRef, ItemVariant, Limits, Mappable, Quantity, Rule, Texts, Type, Value,
+    FactOrigins, ItemRef, ItemVariant, Limits, Mappable, Missing, Quantity, Rare, Rule, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -28,7 +28,7 @@ pub struct Item {
     /// Default value of the item.
     pub default: Option<Value>,
     /// Minimum, maximum and allowed ranges; empty = all values of the type.
-    pub limits: Limits,
+    pub limits: Rare<Limits>,
     /// Differences of the item between models or buses, in the order of the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "ThinVec::is_empty"))]
     pub variants: ThinVec<ItemVariant>,
@@ -79,7 +79,7 @@ impl Item {
             access: Access::ReadOnly,
             mappable: Mappable::default(),
             default: None,
-            limits: Limits::default(),
+            limits: Rare::default(),
             variants: ThinVec::new(),
             configured: None,
             quantity: None,
@@ -198,7 +198,7 @@ impl RelatedItems {
 }
 
 /// Locations of the facts of an item in the source. Spans of missing facts are empty.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ItemSpans {
     /// Location of the name.
@@ -211,6 +211,15 @@ pub struct ItemSpans {
     pub mappable: Span,
     /// Location of the default value.
     pub default: Span,
+    /// Locations of facts that few items have.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub others: Rare<OtherSpans>,
+}
+
+/// Locations of facts that few items have. Spans of missing facts are empty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct OtherSpans {
     /// Location of the minimum.
     pub low: Span,
     /// Location of the maximum.
@@ -219,6 +228,17 @@ pub struct ItemSpans {
     pub configured: Span,
     /// Location of the description.
     pub documentation: Span,
+}
+
+impl OtherSpans {
+    const MISSING: OtherSpans =
+        OtherSpans { low: Span::MISSING, high: Span::MISSING, configured: Span::MISSING, documentation: Span::MISSING };
+}
+
+impl Missing for OtherSpans {
+    fn missing() -> &'static Self {
+        &OtherSpans::MISSING
+    }
 }
 
 /// Settings of an item in a configuration file (DCF, XDC).

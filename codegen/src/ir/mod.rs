@@ -39,6 +39,7 @@ pub(crate) mod object_names;
 pub mod owner;
 mod process_data;
 mod profinet;
+mod rare;
 #[cfg(feature = "serde")]
 mod real;
 mod reference;
@@ -65,6 +66,7 @@ pub use message::*;
 pub use module::*;
 pub use process_data::*;
 pub use profinet::*;
+pub use rare::{Missing, Rare};
 pub use reference::*;
 pub use shared::*;
 pub use types::*;

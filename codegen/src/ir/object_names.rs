@@ -35,8 +35,10 @@ pub(crate) fn name_conditions(
 ) {
     for definition in types {
         let conditions: Vec<_> = match &mut definition.shape {
-            Shape::BitField { fields, .. } => fields.iter_mut().filter_map(|field| field.when.as_mut()).collect(),
-            Shape::Enumeration { values, .. } => values.iter_mut().filter_map(|value| value.when.as_mut()).collect(),
+            Shape::BitField { fields, .. } => fields.iter_mut().filter_map(|field| field.when.as_deref_mut()).collect(),
+            Shape::Enumeration { values, .. } => {
+                values.iter_mut().filter_map(|value| value.when.as_deref_mut()).collect()
+            }
             _ => continue,
         };
         for when in conditions {

@@ -59,7 +59,7 @@ impl<'a> List<'a> {
     fn item(&mut self, item: &'a Item) {
         let span = item.origin.span;
         let documentation = stated::description(&item.origins, &item.documentation);
-        self.documented(item.at.documentation.or(span), &item.name, documentation, &item.names);
+        self.documented(item.at.others.documentation.or(span), &item.name, documentation, &item.names);
         let effects = stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.side_effects);
         effects.for_each(|effect| self.push(span, &item.name, effect));
     }

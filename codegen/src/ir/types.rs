@@ -308,7 +308,7 @@ pub struct BitFieldEntry {
     /// Meaning of the bits.
     pub meaning: BitMeaning,
     /// Condition on another item under which the bits have this meaning, such as the mode of operation.
-    pub when: Option<Condition>,
+    pub when: Option<Box<Condition>>,
     /// Event at which the bits take effect; `None` = the bits take effect as long as they are set.
     pub trigger: Option<Trigger>,
     /// Access rights of the bits, if they differ from those of the item.
@@ -418,7 +418,7 @@ pub struct EnumValue {
     pub names: Texts,
     /// Condition on another item under which the device has this value, such as the mode of operation.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub when: Option<Condition>,
+    pub when: Option<Box<Condition>>,
     /// Models, firmware versions and buses that have the value.
     pub availability: Option<Box<Availability>>,
     /// Description of the value from the source.

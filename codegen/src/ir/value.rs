@@ -5,6 +5,7 @@ use std::fmt;
 
 use thin_vec::ThinVec;
 
+use super::rare::Missing;
 use super::{CompactString, Type};
 
 /// A value, converted to the type of its item.
@@ -98,6 +99,13 @@ pub struct Limits {
     /// Allowed ranges in the order of the source, if there are several ranges or a list of values. Each range has a minimum and a
     /// maximum. `low` and `high` are the minimum and maximum of all ranges.
     pub allowed: ThinVec<(Value, Value)>,
+}
+
+impl Missing for Limits {
+    fn missing() -> &'static Self {
+        static MISSING: Limits = Limits { low: None, high: None, allowed: ThinVec::new() };
+        &MISSING
+    }
 }
 
 impl Limits {

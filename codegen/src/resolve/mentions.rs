@@ -118,10 +118,10 @@ pub(super) fn for_each_condition(types: &mut [TypeDef], visit: &mut dyn FnMut(&m
     for definition in types {
         match &mut definition.shape {
             Shape::Enumeration { values, .. } => {
-                values.iter_mut().filter_map(|value| value.when.as_mut()).for_each(&mut *visit)
+                values.iter_mut().filter_map(|value| value.when.as_deref_mut()).for_each(&mut *visit)
             }
             Shape::BitField { fields, .. } => {
-                fields.iter_mut().filter_map(|field| field.when.as_mut()).for_each(&mut *visit)
+                fields.iter_mut().filter_map(|field| field.when.as_deref_mut()).for_each(&mut *visit)
             }
             _ => {}
         }

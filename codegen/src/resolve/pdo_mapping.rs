@@ -151,7 +151,7 @@ pub(crate) fn mapping_values(mapping: &Group) -> impl Iterator<Item = MappingVal
     let subs = mapping.items.iter().filter_map(|item| Some((item.object()?.1, item))).filter(|(sub, _)| *sub > 0);
     let announced = subs.take_while(move |(sub, _)| count.is_none_or(|count| i128::from(*sub) <= count));
     announced.map(|(_, item)| {
-        let span = item.at.configured.or(item.at.default).or(item.origin.span);
+        let span = item.at.others.configured.or(item.at.default).or(item.origin.span);
         let word = match item.initial() {
             Some(&Value::Int(word)) if word > 0 && word <= i128::from(u32::MAX) => {
                 MappingWord::Object((word >> 16) as u16, (word >> 8) as u8, (word & 0xFF) as u32)

@@ -20,6 +20,9 @@ pub struct Span {
 }
 
 impl Span {
+    /// Span of a missing element.
+    pub const MISSING: Span = Span::new(FileId(0), 0, 0);
+
     /// Creates the span `start..end` of `file`.
     pub const fn new(file: FileId, start: u32, end: u32) -> Self {
         Span { file, start, end }

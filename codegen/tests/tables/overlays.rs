@@ -1,7 +1,7 @@
 //! Tests overlays: which facts they change or keep, and which errors they cause.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::ir::{Access, Device, Fact, FactOrigin, Item, Shape, Type, Value};
+use lexibus_codegen::ir::{Access, Device, Fact, FactOrigin, Item, OverlayOrigin, Shape, Type, Value};
 use lexibus_codegen::limits;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::Builder;
@@ -70,10 +70,10 @@ fn a_row_changes_what_it_says_and_nothing_else() {
     assert_eq!((&new.name, new.ty, new.access, &new.default), (&old.name, old.ty, old.access, &old.default));
     assert_eq!((new.origin, new.at.name, new.at.ty), (old.origin, old.at.name, old.at.ty));
     assert_eq!(words(new), "Changed by an overlay: page 12.");
-    let origin =
-        FactOrigin::Overlay { file: "pump.overlay.toml".into(), line: 6, replaces: false, why: "page 12".into() };
+    let (file, why) = ("pump.overlay.toml".into(), "page 12".into());
+    let origin = FactOrigin::Overlay(Box::new(OverlayOrigin { file, line: 6, replaces: false, why }));
     assert_eq!((new.origins.get(Fact::Unit), new.origins.get(Fact::Type)), (Some(&origin), None));
-    assert_eq!(&compilation.sources[1].text()[new.at.low.range()], "1", "the limit comes from the overlay");
+    assert_eq!(&compilation.sources[1].text()[new.at.others.low.range()], "1", "the limit comes from the overlay");
     let gain = item(&compilation, 0x2010, 2);
     assert_eq!((gain.name.as_str(), gain.ty), ("Gain 2", Type::Integer(16)));
     assert_eq!(words(gain), "A gain.\nChanged by an overlay: as the manual has it.");
@@ -150,7 +150,7 @@ fn objects_are_added_and_removed() {
     let added = item(&compilation, 0x2005, 0);
     assert_eq!((added.name.as_str(), added.ty, added.access), ("Temperature", Type::Integer(16), Access::ReadOnly));
     assert_eq!(words(added), "Added by an overlay: as the manual has it.");
-    let is_of_overlay = |origin| matches!(origin, Some(&FactOrigin::Overlay { replaces: false, .. }));
+    let is_of_overlay = |origin| matches!(origin, Some(FactOrigin::Overlay(row)) if !row.replaces);
     assert!([Fact::Name, Fact::Type, Fact::Access].iter().all(|fact| is_of_overlay(added.origins.get(*fact))));
     assert!(is_of_overlay(device.object(0x2005).expect("the object").origins.get(Fact::Name)));
     assert_eq!(item(&compilation, 0x2010, 5).name, "D");
@@ -182,7 +182,7 @@ fn tables_of_the_device_are_added_or_replaced() {
     let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
     assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
     let origin = |origin: &Option<Box<FactOrigin>>| match origin.as_deref() {
-        Some(FactOrigin::Overlay { file, replaces, .. }) => (file.to_string(), *replaces),
+        Some(FactOrigin::Overlay(row)) => (row.file.to_string(), row.replaces),
         other => panic!("{other:?}"),
     };
     let table = &device.code_tables[0];
@@ -403,7 +403,7 @@ fn a_submodule_of_several_devices_is_changed_once() {
     let item = speed(&both);
     assert_eq!((words(&item), item.doubts.len()), ("Told.\nChanged by an overlay: w.", 1));
     let origin = item.origins.get(Fact::Description);
-    assert!(matches!(origin, Some(FactOrigin::Overlay { why, .. }) if why == "w"), "{origin:?}");
+    assert!(matches!(origin, Some(FactOrigin::Overlay(row)) if row.why == "w"), "{origin:?}");
     let one = applied("for = { device = \"A\" }\n", "unit = \"rpm\"");
     let found: Vec<_> = findings(&one).into_iter().map(|(code, _)| code).collect();
     assert_eq!((found, speed(&one).quantity.is_some()), (vec!["TAB053"], true), "B also has the description");

@@ -47,7 +47,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
             Mappable { rpdo: b.one_in(4), tpdo: b.one_in(4) }
         },
         default: b.maybe(2, |b| values::of(b, base)),
-        limits: values::limits(b, base),
+        limits: values::limits(b, base).into(),
         variants: b.few(6, 2, |b| facts::variant(b, base)).into(),
         configured: b.maybe(12, |b| {
             let value = b.maybe(2, |b| values::of(b, base));

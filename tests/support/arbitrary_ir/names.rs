@@ -2,7 +2,7 @@
 
 use lexibus_codegen::ir::{
     Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
-    FactOrigins, LocalText, Manual, ManualSection, Rule, Severity, Subject, SubjectKind, Texts,
+    FactOrigins, LocalText, Manual, ManualSection, OverlayOrigin, Rule, Severity, Subject, SubjectKind, Texts,
 };
 use lexibus_codegen::source::Origin;
 
@@ -252,7 +252,12 @@ pub fn texts(b: &mut Bytes<'_>) -> Texts {
 fn fact_origin(b: &mut Bytes<'_>) -> FactOrigin {
     match b.within(0..=4) {
         0 => b.pick(&[FactOrigin::Stated, FactOrigin::PrintedName]),
-        1 => FactOrigin::Overlay { file: name(b), line: b.within(0..=9), replaces: b.any(), why: name(b) },
+        1 => FactOrigin::Overlay(Box::new(OverlayOrigin {
+            file: name(b),
+            line: b.within(0..=9),
+            replaces: b.any(),
+            why: name(b),
+        })),
         2 => {
             FactOrigin::Rule(b.pick(&[Rule::UnstatedAccess, Rule::AnnouncedPdo, Rule::MappedObject, Rule::MissingKey]))
         }

@@ -131,7 +131,7 @@ pub fn values_of_enumeration(b: &mut Bytes<'_>) -> EnumValue {
         last: b.maybe(8, |b| value + b.within(0..=20)),
         zone: b.maybe(8, |b| b.pick(&[Zone::Reserved, Zone::Vendor])),
         names: names::texts(b),
-        when: b.maybe(8, condition),
+        when: b.maybe(8, condition).map(Box::new),
         availability: b.maybe(8, availability).map(Box::new),
         documentation: names::documentation(b),
         ..EnumValue::new(names::name(b), value)
@@ -169,7 +169,7 @@ fn bit_field(b: &mut Bytes<'_>, types: &[TypeDef], offset: u8, bits: u8) -> BitF
         offset,
         bits,
         meaning,
-        when: b.maybe(4, condition),
+        when: b.maybe(4, condition).map(Box::new),
         trigger: b.maybe(5, |b| b.pick(&triggers)),
         access: b.maybe(8, |b| b.pick(&[Access::ReadOnly, Access::ReadWrite, Access::WriteOnly])),
         availability: b.maybe(8, availability).map(Box::new),

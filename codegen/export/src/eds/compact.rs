@@ -41,7 +41,7 @@ fn is_count(item: &Item, count: u8) -> bool {
         && item.access == Access::ReadOnly
         && item.mappable == Mappable::default()
         && item.default == Some(Value::Int(i128::from(count)))
-        && item.limits == Limits::default()
+        && *item.limits == Limits::default()
         && item.flags == 0
         && item.configured.is_none()
         && has_no_other_facts(item)

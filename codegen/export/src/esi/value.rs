@@ -73,7 +73,7 @@ mod tests {
 
     fn of(ty: Type, low: Option<Value>, default: Option<Value>) -> (Vec<(&'static str, String)>, usize) {
         let mut item = Item::new(Binding::coe(0x2000, 0));
-        item.limits = Limits { low, ..Limits::default() };
+        item.limits = Limits { low, ..Limits::default() }.into();
         item.default = default;
         let (elements, notes) = elements(&item, ty);
         (elements, notes.len())

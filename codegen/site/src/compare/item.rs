@@ -13,7 +13,7 @@ use lexibus_codegen::facts;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, Behaviour, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
-    Quantity, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
+    Quantity, Rare, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
 };
 
 /// Compares all facts of an item.
@@ -37,7 +37,7 @@ pub(super) fn compare_named(
         access: judged("access", access_effects),
         mappable: mappable,
         default: |_: &_, _: &_, comparison: &mut Comparison<'_>| default(old, new, comparison),
-        limits: |one: &Limits, other: &Limits, comparison: &mut Comparison<'_>| {
+        limits: |one: &Rare<Limits>, other: &Rare<Limits>, comparison: &mut Comparison<'_>| {
             range([old, new], [one, other], access, comparison);
         },
         variants: list(variants(), |one: &ItemVariant, other: &ItemVariant, comparison: &mut Comparison<'_>| {

@@ -5,7 +5,9 @@ use super::comparison::{compare_fields, or_default, positioned, text, Comparison
 use super::names::identifier;
 use super::show::Show;
 use lexibus_codegen::facts::words::{fact_name, origin_name, PLAIN};
-use lexibus_codegen::ir::{Documentation, Doubt, Doubts, Extensions, FactOrigin, FactOrigins, Manual, ManualSection};
+use lexibus_codegen::ir::{
+    Documentation, Doubt, Doubts, Extensions, FactOrigin, FactOrigins, Manual, ManualSection, OverlayOrigin,
+};
 
 /// Compares two descriptions of an element.
 pub(super) fn documentation(
@@ -25,7 +27,8 @@ pub(super) fn documentation(
 /// Formats the origin of a fact without its position in the file.
 pub(super) fn origin(origin: &FactOrigin) -> String {
     match origin {
-        FactOrigin::Overlay { file, replaces, why, line: _ } => {
+        FactOrigin::Overlay(row) => {
+            let OverlayOrigin { file, replaces, why, line: _ } = &**row;
             let replacing = if *replaces { ", replacing the description" } else { "" };
             let why = if why.is_empty() { String::new() } else { format!(" ({why})") };
             format!("overlay {file}{replacing}{why}")

@@ -335,7 +335,7 @@ impl Fields<'_, '_> {
         link: &dyn Fn(&str) -> String,
     ) -> Vec<FieldModel> {
         let is_field = |entry: &&&BitFieldEntry| {
-            !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_ref() == condition
+            !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_deref() == condition
         };
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
         // One bit can have two fields with the same name and different meanings, one for each of two firmware versions.

@@ -43,7 +43,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         [] => {}
         [device] => {
             let paths = paths(&modules, &names, "modules");
-            print::model(&mut code, &Model::new(device, file, options, &paths));
+            print::model(&mut code, Model::new(device, file, options, &paths));
         }
         devices => {
             let paths = paths(&modules, &names, "super::modules");
@@ -51,7 +51,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
                 let mut model = Model::new(device, file, options, &paths);
                 definitions.share(&mut model, &name);
-                code.module(&title(&device.name, &name), &name, |code| print::model(code, &model));
+                code.module(&title(&device.name, &name), &name, |code| print::model(code, model));
             }
         }
     }
@@ -62,7 +62,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
             for ((_, module), name) in modules.iter().zip(&names) {
                 let mut model = Model::of_module(module, options);
                 definitions.share(&mut model, name);
-                code.module(&title(&module.name, name), name, |code| print::model(code, &model));
+                code.module(&title(&module.name, name), name, |code| print::model(code, model));
             }
         });
     }

@@ -104,7 +104,7 @@ pub(super) fn model(
     let ty = ItemType::of(context, item);
     let location = |outer: &str| locations.argument(addresses.buses(), outer);
     let on = location("").map(|_| addresses.buses().word()).unwrap_or_default();
-    let types = |outer: &str| std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect();
+    let types = |outer: &str| exact(std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect());
     let is_location_of_runtime = location(outer).is_some() && addresses.buses().path().is_some();
     let (constructor, does_call_name_runtime) = Arguments::of(item, original, &ty, outer)
         .constructor(&addresses, || locations.code(context, &addresses, outer));
@@ -112,9 +112,9 @@ pub(super) fn model(
         id: *id,
         constant: name.to_ascii_uppercase(),
         method: names::escaped(name),
-        docs: docs::item(entry, original, chapter, context, doc_module),
+        docs: exact(docs::item(entry, original, chapter, context, doc_module)),
         method_docs: if context.links.has_methods {
-            docs::method(entry, original, context, method_module)
+            exact(docs::method(entry, original, context, method_module))
         } else {
             Vec::new()
         },
@@ -131,6 +131,12 @@ pub(super) fn model(
         object: addresses.object_on(context.bus),
         mappable: None,
     }
+}
+
+/// Frees the unused room of a list. A large device has a list of each kind for each of its items.
+fn exact<T>(mut list: Vec<T>) -> Vec<T> {
+    list.shrink_to_fit();
+    list
 }
 
 /// Returns the heading of an item: its name and its address.

@@ -97,7 +97,7 @@ pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> 
 /// The text is the content of a module. The text can be a separate file or be included in `mod name { … }`.
 pub fn emit(device: &Device, file: &FileInfo, options: &RustOptions) -> String {
     let mut code = Code::new(header(file), &options.runtime);
-    print::model(&mut code, &Model::new(device, file, options, &ModulePaths::default()));
+    print::model(&mut code, Model::new(device, file, options, &ModulePaths::default()));
     code.finish()
 }
 

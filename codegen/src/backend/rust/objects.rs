@@ -1,6 +1,7 @@
 //! Objects and registers, ready to be printed. An object becomes a handle or a module of handles; a register becomes a
 //! handle.
 
+use super::code::Doc;
 use super::context::Context;
 use super::docs;
 use super::item::{self, ItemModel, ItemModule, Title};
@@ -44,6 +45,23 @@ impl ObjectModel {
     /// Returns whether the code of the items contains a path into the runtime crate.
     pub(super) fn names_runtime(&self) -> bool {
         self.items.iter().any(|item| item.names_runtime)
+    }
+
+    /// Drops the documentation of the device's method that returns the value of the object.
+    pub(super) fn drop_method_docs(&mut self) {
+        if !self.is_module {
+            self.items.iter_mut().for_each(|item| item.method_docs = Vec::new());
+        }
+    }
+
+    /// Drops the code and documentation of the handles. The names remain, because other parts of the output use them.
+    pub(super) fn drop_handles(&mut self) {
+        (self.docs, self.heading) = Default::default();
+        for item in &mut self.items {
+            (item.docs, item.method_docs, item.heading) = Default::default();
+            (item.arguments, item.arguments_at_top, item.arguments_in_objects) = Default::default();
+            item.constructor = Doc::default();
+        }
     }
 }
 

@@ -24,24 +24,31 @@ pub(super) mod views;
 
 use super::code::Code;
 use super::model::Model;
+use super::named::Types;
 
-/// Prints a device or a module of a modular device.
-pub(super) fn model(code: &mut Code, model: &Model) {
+/// Prints a device or a module of a modular device. Drops each part of the model after it was printed, because the model
+/// needs more memory than the text.
+pub(super) fn model(code: &mut Code, mut model: Model) {
     code.reserve(model.size_hint());
-    device::write(code, model);
-    accessors::write(code, model);
+    device::write(code, &model);
+    accessors::write(code, &mut model);
     given::models(code, &model.models);
     given::machine(code, model.given.as_ref());
     #[cfg(feature = "messages")]
-    messages::write(code, model);
-    types::write(code, model);
-    codes::write(code, model);
+    {
+        messages::write(code, &model);
+        model.protocol = None;
+    }
+    types::write(code, &model);
+    model.types = Types::default();
+    codes::write(code, &model);
+    model.code_tables = Vec::new();
     procedures::write(code, &model.procedures);
-    objects::write(code, model);
-    mapping::write(code, model);
-    pdos::write(code, model);
-    views::write(code, model);
-    image::write(code, model);
-    table::write(code, model);
-    configuration::write(code, model);
+    objects::write(code, &mut model);
+    mapping::write(code, &model);
+    pdos::write(code, &model);
+    views::write(code, &model);
+    image::write(code, &model);
+    table::write(code, &model);
+    configuration::write(code, &model);
 }

@@ -27,8 +27,8 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
         if let (Some(quantity), Some(scale)) = (&mut adapted.quantity, &variant.scale) {
             quantity.scale = Some(scale.clone());
         }
-        adapted.limits.low = variant.limits.low.clone().or(adapted.limits.low);
-        adapted.limits.high = variant.limits.high.clone().or(adapted.limits.high);
+        adapted.limits.low = variant.limits.low.clone().or(adapted.limits.low.take());
+        adapted.limits.high = variant.limits.high.clone().or(adapted.limits.high.take());
         if !variant.limits.allowed.is_empty() {
             adapted.limits.allowed.clone_from(&variant.limits.allowed);
         }
@@ -38,7 +38,7 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
 
 /// Returns the limits for writing: the widest range of all models and buses.
 pub(super) fn widest(item: &Item) -> Limits {
-    let mut limits = item.limits.clone();
+    let mut limits = Limits::clone(&item.limits);
     let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);
     limits.allowed.extend(writable.map(|value| (value.clone(), value.clone())));
     let is_beyond = |one: &Value, other: &Value, sign: f64| match (one.as_real(), other.as_real()) {

@@ -10,8 +10,10 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
         let Some((minimum, maximum)) = owner.basic(item.ty).integer_range() else { continue };
         let (given, [stated, missing], span) = match (&item.limits.low, &item.limits.high, item.limits.integers()) {
-            (Some(_), None, (low, _)) if low == Some(minimum) => (minimum, ["minimum", "maximum"], item.at.low),
-            (None, Some(_), (_, high)) if high == Some(maximum) => (maximum, ["maximum", "minimum"], item.at.high),
+            (Some(_), None, (low, _)) if low == Some(minimum) => (minimum, ["minimum", "maximum"], item.at.others.low),
+            (None, Some(_), (_, high)) if high == Some(maximum) => {
+                (maximum, ["maximum", "minimum"], item.at.others.high)
+            }
             _ => continue,
         };
         let message =

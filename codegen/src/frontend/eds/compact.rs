@@ -111,7 +111,7 @@ fn apply(reader: &mut Reader<'_, '_>, item: &mut Item, refinement: Refinement, e
         Refinement::Value => {
             let value = reader.typed(Some(entry), item.ty, Role::Value);
             configured(item).value = value;
-            item.at.configured = reader.doc.value_span(entry);
+            item.at.others.configured = reader.doc.value_span(entry);
             reader.take_comments(&mut item.extensions);
         }
         Refinement::Denotation => configured(item).denotation = Some(reader.doc.value(entry).into()),

@@ -11,7 +11,7 @@ use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
     Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Group, Item,
-    Limits, Mappable, ObjectCode, Rule, Srdo, Type, Value,
+    Limits, Mappable, ObjectCode, OtherSpans, Rule, Srdo, Type, Value,
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
@@ -228,10 +228,16 @@ impl<'a> Reader<'a, '_> {
             low: self.typed(raw.get(Key::LowLimit), item.ty, Role::Limit),
             high: self.typed(raw.get(Key::HighLimit), item.ty, Role::Limit),
             ..Limits::default()
-        };
+        }
+        .into();
         item.at.default = self.span_of(raw.get(Key::DefaultValue));
-        item.at.low = self.span_of(raw.get(Key::LowLimit));
-        item.at.high = self.span_of(raw.get(Key::HighLimit));
+        item.at.others = OtherSpans {
+            low: self.span_of(raw.get(Key::LowLimit)),
+            high: self.span_of(raw.get(Key::HighLimit)),
+            configured: self.span_of(raw.get(Key::ParameterValue)),
+            ..OtherSpans::default()
+        }
+        .into();
         item.flags = self.flags(raw);
         item.behaviour = self.srdo(raw).map(|srdo| Box::new(Behaviour { srdo: Some(srdo), ..Behaviour::default() }));
         self.configured(raw, &mut item);
@@ -254,7 +260,6 @@ impl<'a> Reader<'a, '_> {
             download_file: text(Key::DownloadFile).map(CompactString::from),
         };
         configured.value = self.typed(raw.get(Key::ParameterValue), item.ty, Role::Value);
-        item.at.configured = self.span_of(raw.get(Key::ParameterValue));
         if configured != Configured::default() {
             item.configured = Some(Box::new(configured));
         }

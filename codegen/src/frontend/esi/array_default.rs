@@ -35,7 +35,7 @@ pub(super) fn split<'a>(
                 *target(parts.entry(first + 1 + number).or_default()) = Some(value);
             }
         };
-        let RawInfo { default, more } = &mut sub.info;
+        let RawInfo { default, more, display: _ } = &mut sub.info;
         default.iter_mut().for_each(|whole| take(whole, |info| &mut info.default));
         for more in more.iter_mut() {
             more.min.iter_mut().for_each(|whole| take(whole, |info| &mut info.more().min));

@@ -23,7 +23,7 @@ pub(super) struct RawType<'a> {
     pub dimensions: Vec<Dimension>,
     pub fields: Vec<RawField<'a>>,
     pub values: Vec<EnumValue>,
-    pub comment: Names<'a>,
+    pub comment: Option<Box<Names<'a>>>,
     pub origin: Origin,
 }
 
@@ -45,7 +45,7 @@ pub(super) struct RawField<'a> {
     pub offset: Option<u32>,
     pub flags: Flags,
     pub info: RawInfo<'a>,
-    pub comment: Names<'a>,
+    pub comment: Option<Box<Names<'a>>>,
     pub origin: Origin,
     /// Number of text bytes that each item created from this sub-item copies.
     pub weight: usize,
@@ -61,7 +61,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
             "Index" => raw.code = reader.number(&tag, "data type number")?,
             "BaseType" => raw.base = reader.text(&tag)?,
             "BitSize" => raw.bits = reader.number(&tag, "size in bits")?,
-            "Comment" => reader.name(&tag, &mut raw.comment)?,
+            "Comment" => reader.name(&tag, raw.comment.get_or_insert_default())?,
             "ArrayInfo" => raw.dimensions.push(dimension(reader, &tag)?),
             "SubItem" => {
                 // The large struct is filled after it was added to the list, which avoids a copy.
@@ -77,6 +77,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
         }
     }
     raw.fields.shrink_to_fit();
+    raw.values.shrink_to_fit();
     // All data types share one list of extensions, so each key starts with the name of its data type.
     for extension in reader.extensions.iter_mut().skip(start) {
         extension.key = format_compact!("{}/{}", brief(&raw.name.text), extension.key);
@@ -106,13 +107,14 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
             "BitSize" => raw.bits = reader.number(&tag, "size in bits")?,
             "BitOffs" => raw.offset = reader.number(&tag, "bit offset")?,
             "Flags" => raw.flags = flags::read(reader, &tag)?,
-            "Comment" => reader.name(&tag, &mut raw.comment)?,
+            "Comment" => reader.name(&tag, raw.comment.get_or_insert_default())?,
             "Property" => info_value::property(reader, &tag)?,
             "Xml" => reader.keep(&tag)?,
             _ => raw.info.read(reader, &tag)?,
         }
     }
-    raw.weight = raw.name.text.len() + raw.comment.weight() + raw.info.weight() + raw.flags.weight();
+    let of_comment = raw.comment.as_deref().map_or(0, Names::weight);
+    raw.weight = raw.name.text.len() + of_comment + raw.info.weight() + raw.flags.weight();
     Ok(())
 }
 

@@ -13,8 +13,9 @@ use crate::text::brief;
 #[derive(Default)]
 pub(super) struct RawInfo<'a> {
     pub default: Option<RawValue<'a>>,
-    /// Limits, unit and display name, which few objects have.
+    /// Limits and unit, which few objects have.
     pub more: Option<Box<MoreInfo<'a>>>,
+    pub display: Option<Box<Names<'a>>>,
 }
 
 #[derive(Default)]
@@ -22,7 +23,6 @@ pub(super) struct MoreInfo<'a> {
     pub min: Option<RawValue<'a>>,
     pub max: Option<RawValue<'a>>,
     pub unit: Given<'a>,
-    pub display: Names<'a>,
 }
 
 /// Value as written in the file, and its notation.
@@ -46,9 +46,9 @@ impl<'a> RawInfo<'a> {
     /// Returns the number of text bytes that a copy of the default value, limits, unit and display name needs.
     pub fn weight(&self) -> usize {
         let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
-        let of_more =
-            |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len() + more.display.weight();
-        length(&self.default) + self.more.as_deref().map_or(0, of_more)
+        let of_more = |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len();
+        let of_display = self.display.as_deref().map_or(0, Names::weight);
+        length(&self.default) + self.more.as_deref().map_or(0, of_more) + of_display
     }
 
     /// Reads a child of an `Info` element, or of a data type's `SubItem` element.
@@ -61,7 +61,7 @@ impl<'a> RawInfo<'a> {
                 self.more().unit = reader.text(tag)?;
                 return Ok(());
             }
-            "DisplayName" => return reader.name(tag, &mut self.more().display),
+            "DisplayName" => return reader.name(tag, self.display.get_or_insert_default()),
             _ => return reader.unknown(tag),
         };
         let given = reader.text(tag)?;
@@ -85,7 +85,7 @@ impl<'a> RawInfo<'a> {
 
     /// Returns whether there is no default value, limit, unit or display name.
     pub fn is_empty(&self) -> bool {
-        self.default.is_none() && self.more.is_none()
+        self.default.is_none() && self.more.is_none() && self.display.is_none()
     }
 }
 

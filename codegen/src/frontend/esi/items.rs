@@ -11,7 +11,7 @@ use super::flags::Flags;
 use super::info_value::RawInfo;
 use super::number;
 use super::object::{RawObject, RawSub};
-use super::reader::Reader;
+use super::reader::{Names, Reader};
 use super::types::Types;
 use super::value::{self, Role};
 use crate::diagnostics::{codes, Diagnostic};
@@ -29,10 +29,15 @@ pub(super) fn build<'a>(
     subs: &mut [RawSub<'a>],
     units: &[(u32, CompactString)],
 ) -> Vec<Group> {
+    // The objects are removed from the end of the list, so that the list needs less memory the more groups exist.
     objects.sort_by_key(|object| object.index);
+    objects.reverse();
     let mut builder = Builder { types, units };
     let mut groups: Vec<Group> = Vec::with_capacity(objects.len());
-    for object in objects {
+    while let Some(object) = objects.pop() {
+        if objects.len() < objects.capacity() / 2 {
+            objects.shrink_to_fit();
+        }
         let Some(index) = object.index else {
             missing_index(reader, object.origin.span, "this object has no usable index");
             continue;
@@ -177,8 +182,10 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
         if let Some(more) = more {
             group.extensions.extend(more.unit.extension("Unit"));
+        }
+        if let Some(display) = raw.info.display.as_deref() {
             let mut names: Vec<_> = group.names.iter().cloned().collect();
-            names.extend(more.display.all().filter(|text| text.text != group.name));
+            names.extend(display.all().filter(|text| text.text != group.name));
             group.names = names.into();
         }
     }
@@ -195,7 +202,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         let field = entry.field;
         (item.ty, item.at.ty) = (entry.ty, field.ty.span);
         self.flags(item, &field.flags, &raw.flags, Some(entry.sub_index));
-        item.documentation = field.comment.documentation();
+        item.documentation = field.comment.as_deref().and_then(Names::documentation);
         match sub {
             Some(sub) => {
                 item.origin = sub.origin;
@@ -329,23 +336,22 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             item.at.default = raw.given.span;
         }
         let more = [raw.more.as_deref(), of_type.and_then(|info| info.more.as_deref())];
-        let mut more = more.into_iter().flatten().peekable();
-        if more.peek().is_none() {
-            return;
-        }
+        let more = more.into_iter().flatten();
         if let Some(raw) = more.clone().find_map(|more| more.min.as_ref()) {
             item.limits.low = value::convert(reader, raw, base, Role::Limit);
-            item.at.low = raw.given.span;
+            item.at.others.low = raw.given.span;
         }
         if let Some(raw) = more.clone().find_map(|more| more.max.as_ref()) {
             item.limits.high = value::convert(reader, raw, base, Role::Limit);
-            item.at.high = raw.given.span;
+            item.at.others.high = raw.given.span;
         }
-        if let Some(given) = more.clone().map(|more| &more.unit).find(|unit| !unit.is_empty()) {
+        if let Some(given) = more.map(|more| &more.unit).find(|unit| !unit.is_empty()) {
             let unit = self.unit(reader, given);
             item.quantity = Some(Box::new(Quantity { unit, ..Quantity::default() }));
         }
-        let display: Vec<_> = more.flat_map(|more| more.display.all()).filter(|text| text.text != item.name).collect();
+        let display = [raw.display.as_deref(), of_type.and_then(|info| info.display.as_deref())];
+        let display = display.into_iter().flatten().flat_map(Names::all);
+        let display: Vec<_> = display.filter(|text| text.text != item.name).collect();
         if !display.is_empty() {
             item.names = display.into();
         }

@@ -21,8 +21,9 @@ pub(super) fn lower<'a>(
     data: &mut ProcessData,
     other_files: &mut OtherFiles,
 ) -> (Vec<TypeDef>, Vec<Group>) {
-    let Dictionary { types: raw, objects, mut subs, units, .. } = dictionary;
-    let mut types = Types::new(reader, &raw);
+    let Dictionary { types: mut raw, objects, mut subs, units, .. } = dictionary;
+    let values = raw.iter_mut().map(|ty| std::mem::take(&mut ty.values)).collect();
+    let mut types = Types::new(reader, &raw, values);
     let has_files = other_files.files.iter().any(|file| file.target == Target::Dictionary);
     pdos.finish(data, |given, entry| {
         if has_files && entry.kind != PdoEntryKind::Padding && !given.is_empty() && !types.knows(&given.text) {

@@ -7,11 +7,11 @@ use compact_str::format_compact;
 use smallvec::SmallVec;
 
 use super::data_type::{Dimension, RawField, RawType};
-use super::reader::Reader;
+use super::reader::{Names, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::etg::type_name::{self, Basic, Spelling};
 use crate::frontend::xml::Given;
-use crate::ir::{BitFieldEntry, BitMeaning, CompactString, Field, Shape, Type, TypeDef, TypeId};
+use crate::ir::{BitFieldEntry, BitMeaning, CompactString, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::Span;
 use crate::text::brief;
@@ -20,6 +20,8 @@ use crate::text::brief;
 #[derive(Default)]
 pub(super) struct Types<'t, 'a> {
     raw: &'t [RawType<'a>],
+    /// Enumeration values of each data type that has not been lowered.
+    values: Vec<Vec<EnumValue>>,
     by_name: HashMap<&'t str, u32>,
     links: Links,
     /// IR type for each data type of the file. An alias of a basic type has the basic type itself.
@@ -119,8 +121,10 @@ impl Links {
 
 impl<'t, 'a> Types<'t, 'a> {
     /// Lowers all data types in `raw`.
-    pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>]) -> Self {
-        let mut types = Types { raw, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
+    ///
+    /// `values` contains the enumeration values of each data type.
+    pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>], values: Vec<Vec<EnumValue>>) -> Self {
+        let mut types = Types { raw, values, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
         for (at, ty) in raw.iter().enumerate() {
             types.note_name(reader, at, ty);
         }
@@ -129,7 +133,7 @@ impl<'t, 'a> Types<'t, 'a> {
         types.meaning = vec![opaque; raw.len()];
         let empty = |ty: &RawType<'_>| TypeDef {
             code: ty.code,
-            documentation: ty.comment.documentation(),
+            documentation: ty.comment.as_deref().and_then(Names::documentation),
             origin: ty.origin,
             ..TypeDef::new(ty.name.compact(), Shape::Alias(opaque), ty.bits)
         };
@@ -170,9 +174,10 @@ impl<'t, 'a> Types<'t, 'a> {
         if !ty.fields.is_empty() {
             return self.record(reader, at, ty);
         }
-        if !ty.values.is_empty() {
+        let values = self.values.get_mut(at).map(std::mem::take).unwrap_or_default();
+        if !values.is_empty() {
             let base = self.integer_base(reader, at, ty);
-            let shape = Shape::Enumeration { base, values: ty.values.clone(), closed: false };
+            let shape = Shape::Enumeration { base, values, closed: false };
             return (shape, ty.bits.or(base.bits()));
         }
         if !ty.dimensions.is_empty() {

@@ -4,7 +4,7 @@ use super::data_type::DataType;
 use super::location::Location;
 use super::reader::Reader;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Access, Behaviour, Binding, Item};
+use crate::ir::{Access, Behaviour, Binding, Item, OtherSpans};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
@@ -39,8 +39,8 @@ impl<'a> Reader<'a, '_> {
         }
         (item.ty, item.at.ty) = (ty, data_type.span);
         item.bindings = smallvec::smallvec![Binding::Record { index, bit_offset, bits }];
-        item.limits = self.allowed_values(&allowed, location.number());
-        (item.at.low, item.at.high) = (allowed.span, allowed.span);
+        item.limits = self.allowed_values(&allowed, location.number()).into();
+        item.at.others = OtherSpans { low: allowed.span, high: allowed.span, ..OtherSpans::default() }.into();
         self.default(tag, default, &location, item)?;
         if let Some(named) = self.named_values(values, ty) {
             item.ty = named;

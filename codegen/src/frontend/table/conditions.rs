@@ -25,13 +25,13 @@ pub(super) fn condition(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
     when: Option<&Conditions>,
-) -> Option<Condition> {
+) -> Option<Box<Condition>> {
     let given = when?;
     if let Some((second, _)) = given.0.get(1) {
         let message = "the condition of a bit or value depends on more than one item";
         reader.report(&codes::TABLE_VALUE, reader.span(second), message);
     }
-    conditions(reader, references, given).into_iter().next()
+    conditions(reader, references, given).into_iter().next().map(Box::new)
 }
 
 /// Reads conditions that compare the values of other items.

@@ -16,11 +16,11 @@ impl Rows {
         let mut row_limits = Limits::default();
         if let Some(low) = &row.min {
             row_limits.low = Some(value::value(reader, low, base));
-            (item.limits.low, item.at.low) = (row_limits.low.clone(), reader.span(low));
+            (item.limits.low, item.at.others.low) = (row_limits.low.clone(), reader.span(low));
         }
         if let Some(high) = &row.max {
             row_limits.high = Some(value::value(reader, high, base));
-            (item.limits.high, item.at.high) = (row_limits.high.clone(), reader.span(high));
+            (item.limits.high, item.at.others.high) = (row_limits.high.clone(), reader.span(high));
         }
         allowed(reader, item, row, base, &mut row_limits);
         match (&row.default, count) {

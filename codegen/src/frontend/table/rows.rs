@@ -423,7 +423,7 @@ impl Rows {
             item.names = reader.original(row.orig.as_deref());
         }
         if row.doc.is_some() {
-            item.at.documentation = item.origin.span;
+            item.at.others.documentation = item.origin.span;
         }
         if row.doc.is_some() || row.doc_from.is_some() || cite.is_some() {
             item.documentation = documentation(reader, row);

@@ -12,7 +12,7 @@ use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
 use crate::ir::{
     Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Item, Limits,
-    Mappable, ObjectCode, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
+    Mappable, ObjectCode, OtherSpans, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
 use crate::source::Span;
 
@@ -209,22 +209,23 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     /// Sets the limits of an item. The allowed values of the parameter determine the limits if the object has none.
     fn limits(&mut self, raw: &Raw<'a>, ty: Type, allowed: Option<&'p Allowed<'a>>, item: &mut Item) {
         let attribute = |key| raw.get(key);
-        (item.at.low, item.at.high) = (span_of(attribute(Key::LowLimit)), span_of(attribute(Key::HighLimit)));
-        item.limits.low = self.typed(attribute(Key::LowLimit), ty, Role::Limit);
-        item.limits.high = self.typed(attribute(Key::HighLimit), ty, Role::Limit);
+        self.range([attribute(Key::LowLimit), attribute(Key::HighLimit)], ty, item);
         let Some(allowed) = allowed else { return };
         if !item.limits.is_empty() {
             return keep_allowed(allowed, &mut item.extensions);
         }
         if let ([range], []) = (allowed.ranges.as_slice(), allowed.values.as_slice()) {
-            (item.at.low, item.at.high) = (span_of(range.low.non_empty()), span_of(range.high.non_empty()));
-            let low = self.typed(range.low.non_empty(), ty, Role::Limit);
-            item.limits =
-                Limits { low, high: self.typed(range.high.non_empty(), ty, Role::Limit), ..Limits::default() };
-            return;
+            return self.range([range.low.non_empty(), range.high.non_empty()], ty, item);
         }
-        item.limits = self.hull(allowed, ty);
+        item.limits = self.hull(allowed, ty).into();
         keep_allowed(allowed, &mut item.extensions);
+    }
+
+    /// Sets the minimum and the maximum of an item.
+    fn range(&mut self, [low, high]: [Option<&Given<'a>>; 2], ty: Type, item: &mut Item) {
+        item.at.others = OtherSpans { low: span_of(low), high: span_of(high), ..OtherSpans::default() }.into();
+        let low = self.typed(low, ty, Role::Limit);
+        item.limits = Limits { low, high: self.typed(high, ty, Role::Limit), ..Limits::default() }.into();
     }
 
     /// Returns the minimum and the maximum of all allowed ranges and values.
@@ -265,7 +266,9 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             denotation: denotation.filter(|text| !text.is_empty()),
             ..Configured::default()
         };
-        item.at.configured = span_of(actual);
+        if actual.is_some() {
+            item.at.others.configured = span_of(actual);
+        }
         if configured != Configured::default() {
             item.configured = Some(Box::new(configured));
         }

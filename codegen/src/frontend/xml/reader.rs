@@ -244,6 +244,13 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         if self.extensions.len() <= start {
             return Extensions::new();
         }
-        self.extensions.drain(start..).collect()
+        if start == 0 {
+            let mut extensions = std::mem::take(&mut self.extensions);
+            extensions.shrink_to_fit();
+            return extensions;
+        }
+        let mut extensions = Extensions::with_capacity(self.extensions.len() - start);
+        extensions.extend(self.extensions.drain(start..));
+        extensions
     }
 }

@@ -3,6 +3,9 @@
 use super::doc::{Doc, Piece};
 use super::layout::{self, newline, STEP};
 
+/// Number of bytes that are enough for the indentation and the line breaks of most lines.
+const LINE: usize = 128;
+
 /// Writes Rust code line by line.
 pub struct Code {
     out: String,
@@ -24,9 +27,12 @@ impl Code {
         self.out
     }
 
-    /// Reserves memory for additional bytes of code.
+    /// Reserves memory for additional bytes of code. The text of a large device is the largest allocation of the compiler,
+    /// so it grows by a quarter instead of doubling.
     pub fn reserve(&mut self, bytes: usize) {
-        self.out.reserve(bytes);
+        if self.out.capacity() - self.out.len() < bytes {
+            self.out.reserve_exact(bytes.max(self.out.len() / 4));
+        }
     }
 
     /// Writes a line that consists of these pieces.
@@ -34,6 +40,7 @@ impl Code {
         let mut line = std::mem::take(&mut self.line);
         line.clear();
         pieces.iter().for_each(|piece| piece.put(&mut line));
+        self.reserve(2 * line.text().len() + LINE);
         layout::write(&line, self.indent, &mut self.out);
         self.line = line;
     }
@@ -65,6 +72,7 @@ impl Code {
 
     /// Writes a doc comment of one line.
     pub fn doc(&mut self, text: &str) {
+        self.reserve(text.len() + LINE);
         newline(&mut self.out, self.indent);
         self.out.extend(["///", if text.is_empty() { "" } else { " " }, text]);
     }

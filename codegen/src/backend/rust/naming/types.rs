@@ -245,7 +245,7 @@ fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<Vie
     let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
     let mut views: Vec<View> = Vec::new();
     for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
-        let Some(condition) = &field.when else { continue };
+        let Some(condition) = field.when.as_deref() else { continue };
         if !views.iter().any(|view| view.condition == *condition) {
             let (condition, words) = (condition.clone(), words(scope, handles, condition));
             views.push(View { name: String::new(), condition, words });

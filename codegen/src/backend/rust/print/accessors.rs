@@ -9,7 +9,8 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::walk::WalkModel;
 
-pub(super) fn write(code: &mut Code, model: &Model) {
+/// Drops the documentation of the methods after it was printed.
+pub(super) fn write(code: &mut Code, model: &mut Model) {
     if !model.has_accessors {
         return;
     }
@@ -55,8 +56,8 @@ fn structure(code: &mut Code, model: &Model) {
     code.close("}");
 }
 
-fn methods(code: &mut Code, model: &Model) {
-    let (name, state) = (&model.device_name, selected(model));
+fn methods(code: &mut Code, model: &mut Model) {
+    let (state, name) = (selected(model), &model.device_name);
     open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
     if !model.selects() {
         code.doc("Creates a driver that talks to the device through `client`.");
@@ -93,11 +94,14 @@ fn methods(code: &mut Code, model: &Model) {
     if let Some(cia402) = &model.cia402 {
         super::cia402::objects(code, name, cia402);
     }
-    for objects in model.objects.chunk_by(|one, other| one.area == other.area) {
+    for objects in model.objects.chunk_by_mut(|one, other| one.area == other.area) {
         code.docs(objects.first().map(|object| docs::sentence(&docs::escape(&object.area))).as_slice());
         code.lines(method_allow(objects.iter().map(|object| object.name.as_str())));
         open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
-        objects.iter().for_each(|object| accessor(code, object));
+        for object in objects {
+            accessor(code, object);
+            object.drop_method_docs();
+        }
         code.close("}");
     }
 }

@@ -8,21 +8,25 @@ use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::reexport::Section;
 use crate::backend::rust::window_model::WindowModel;
 
-pub(super) fn write(code: &mut Code, model: &Model) {
+/// Drops the code and documentation of each handle after it was printed.
+pub(super) fn write(code: &mut Code, model: &mut Model) {
     windows(code, &model.windows);
     if model.objects.is_empty() {
         return;
     }
     let heading = format!("A handle for every {}.", model.handles[0]);
+    let mut objects = std::mem::take(&mut model.objects);
     section::write(code, model, Section::Objects, &heading, Some(true), |code| {
         locations(code, model);
         handle_types(code, model);
-        model
-            .objects
-            .iter()
-            .filter(|object| !object.is_reexported)
-            .for_each(|object| self::object(code, model, object));
+        for object in &mut objects {
+            if !object.is_reexported {
+                self::object(code, model, object);
+            }
+            object.drop_handles();
+        }
     });
+    model.objects = objects;
 }
 
 fn windows(code: &mut Code, windows: &[WindowModel]) {

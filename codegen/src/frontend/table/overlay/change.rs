@@ -15,7 +15,7 @@ use crate::diagnostics::codes;
 use crate::ir::object_names::in_range;
 use crate::ir::{
     CompactString, Documentation, Extension, Extensions, Fact, FactOrigin, Group, GroupKind, Item, ObjectBuses,
-    ObjectCode, Type, TypeDef, TypeId,
+    ObjectCode, OverlayOrigin, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -233,7 +233,7 @@ impl RowPatcher<'_> {
         };
         let same_type = item.ty == before.ty || (shape(item.ty).is_some() && shape(item.ty) == shape(before.ty));
         let mut moved = item.clone();
-        (moved.ty, moved.at) = (before.ty, before.at);
+        (moved.ty, moved.at) = (before.ty, before.at.clone());
         same_type && moved == *before
     }
 
@@ -376,7 +376,8 @@ pub(super) struct Change {
 impl Change {
     /// Returns the origin of a changed fact. `replaces` is true if the description states another fact.
     pub fn origin(&self, replaces: bool) -> FactOrigin {
-        FactOrigin::Overlay { file: self.file.clone(), line: self.line, replaces, why: self.why.clone() }
+        let row = OverlayOrigin { file: self.file.clone(), line: self.line, replaces, why: self.why.clone() };
+        FactOrigin::Overlay(Box::new(row))
     }
 
     /// Records the origins of the facts of an item that a row changed. `is_type` is true if the row has a type. An assumed access
