@@ -150,7 +150,7 @@ fn objects_are_added_and_removed() {
     let added = item(&compilation, 0x2005, 0);
     assert_eq!((added.name.as_str(), added.ty, added.access), ("Temperature", Type::Integer(16), Access::ReadOnly));
     assert_eq!(words(added), "Added by an overlay: as the manual has it.");
-    let is_of_overlay = |origin| matches!(origin, Some(FactOrigin::Overlay(row)) if !row.replaces);
+    let is_of_overlay = |origin: Option<&FactOrigin>| matches!(origin, Some(FactOrigin::Overlay(row)) if !row.replaces);
     assert!([Fact::Name, Fact::Type, Fact::Access].iter().all(|fact| is_of_overlay(added.origins.get(*fact))));
     assert!(is_of_overlay(device.object(0x2005).expect("the object").origins.get(Fact::Name)));
     assert_eq!(item(&compilation, 0x2010, 5).name, "D");
