@@ -1,12 +1,13 @@
 //! Operations of drives with the profile CiA 402 (CiA 402-2 and -3, IEC 61800-7-201). The operations are a change of
-//! the mode with confirmation, homing, moves with handshake, velocities, and a watch over cyclic set-points.
+//! the mode with confirmation, homing, moves with handshake, velocities, quick stop, halt, and a watch over cyclic
+//! set-points.
 //!
 //! The method `cia402` of a generated device returns a [`Drive`]. The compiler generates the method for each device that
 //! has the controlword, the statusword, and the requested and active mode of operation. The further methods of the drive
 //! exist if the device has their objects, see [`Positioning`], [`Velocity`] and [`Homing`]. The method `axis` of a device
 //! with several axes comes first: `device.axis(2).cia402()`.
 //!
-//! - No operation enables a drive. Before an operation, lead the drive to "Operation enabled" with the generated method
+//! - No operation enables a drive. Before an operation other than `quick_stop`, lead the drive to "Operation enabled" with the generated method
 //!   `walk`. An operation of a drive in another state returns [`MotionError::NotEnabled`] or [`MotionError::Fault`] and
 //!   writes nothing. If the drive leaves the state during the operation, the operation returns the same errors, and
 //!   doesn't write the controlword any more.
@@ -60,6 +61,7 @@ mod homing;
 mod integer;
 mod objects;
 mod state;
+mod stop;
 mod target;
 
 pub use cyclic::{Cycle, CycleError, Cyclic, Inputs};

@@ -17,6 +17,11 @@ impl<F: FnMut() -> Duration> Clock for F {
     }
 }
 
+/// Returns the time since `start`, or `None` without a clock.
+pub(crate) fn elapsed(start: Option<Duration>, now: Option<Duration>) -> Option<Duration> {
+    start.zip(now).map(|(start, now)| now.saturating_sub(start))
+}
+
 /// Timer of an async client. A function that returns a future is a timer if the future ends after the given time, such
 /// as `tokio::time::sleep` or `embassy_time::Timer::after`.
 #[allow(async_fn_in_trait)]

@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use crate::clock::{Clock, DefaultClock};
+use crate::clock::{elapsed, Clock, DefaultClock};
 
 /// Maximum pause between two polls of a device.
 const PAUSE: Duration = Duration::from_millis(5);
@@ -22,7 +22,7 @@ impl Remaining {
 
     /// Returns the next pause, or `None` after the deadline.
     pub(crate) fn pause(&mut self) -> Option<Duration> {
-        let elapsed = self.start.zip(DefaultClock.now()).map(|(start, now)| now.saturating_sub(start));
+        let elapsed = elapsed(self.start, DefaultClock.now());
         let rest = self.deadline.saturating_sub(elapsed.unwrap_or_default().max(self.waited));
         let pause = rest.min(PAUSE);
         self.waited += pause;

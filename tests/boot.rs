@@ -149,7 +149,7 @@ fn date(node: &mut Node<CanNode>) -> [Vec<u8>; 2] {
 fn a_node_is_configured_once() {
     for is_async in [false, true] {
         let mut node = node();
-        let first = Booted { device_type: 0x0002_0192, is_configured: true, is_stored: true };
+        let first = Booted { device_type: 0x0002_0192, is_configured: true, is_stored: true, was_operational: false };
         assert_eq!(boot(&mut node, &BOOT, is_async), Ok(first));
         assert_eq!(node.port().state(), NmtState::Operational);
         assert_eq!((bytes(&mut node, SPEED), bytes(&mut node, HEARTBEAT)), (vec![0xDC, 5], vec![100, 0]));
@@ -179,7 +179,8 @@ fn without_store_the_date_is_not_written() {
     let plan = Boot::new(ErrorControl::Heartbeat(SECOND)).configuration(CONFIGURATION).configuration_date(DATE);
     for is_async in [false, true] {
         let mut node = node();
-        let configured = Booted { device_type: 0x0002_0192, is_configured: true, is_stored: false };
+        let configured =
+            Booted { device_type: 0x0002_0192, is_configured: true, is_stored: false, was_operational: false };
         for _ in 0..2 {
             assert_eq!(boot(&mut node, &plan, is_async), Ok(configured));
             assert_eq!(date(&mut node), [[0; 4]; 2]);
@@ -381,5 +382,47 @@ fn a_node_that_does_not_start() {
         let mut node = Node::new(Buffered::<_, 32>::new(Stubborn(CanNode::new(device(SIMPLE)))), NODE);
         let error = boot(&mut node, &Boot::new(guarding), is_async).expect_err("not started");
         assert_eq!(error, BootError::NotOperational { actual: Some(NmtState::PreOperational) });
+    }
+}
+
+#[test]
+fn a_running_node_keeps_running() {
+    let plan = BOOT.keep_running();
+    for is_async in [false, true] {
+        let mut node = node();
+        // The node has no heartbeat before its first configuration, and is not operational after it was restarted.
+        let silent = boot(&mut node, &plan, is_async);
+        assert_eq!(silent, Err(BootError::NoHeartbeat));
+        assert_eq!(silent.map_err(|error| error.status()), Err(Some('E')));
+        node.port().device().set_initial_bytes(HEARTBEAT, &100_u16.to_le_bytes()).expect("an object");
+        node.nmt(NmtCommand::ResetNode).expect("a bus");
+        let first = boot(&mut node, &plan, is_async).expect("a node in Pre-operational is booted");
+        assert_eq!((first.is_configured, first.was_operational, first.status()), (true, false, None));
+        // A restart would reset this value.
+        node.port().device().set_bytes(SPEED, &77_u16.to_le_bytes()).expect("an object");
+        let again = boot(&mut node, &plan, is_async).expect("a running node");
+        let expected =
+            Booted { device_type: 0x0002_0192, is_configured: false, is_stored: false, was_operational: true };
+        assert_eq!((again, again.status()), (expected, Some('L')));
+        assert_eq!((bytes(&mut node, SPEED), node.port().state()), (vec![77, 0], NmtState::Operational));
+        // Another device is an error, and isn't stopped.
+        let other = boot(&mut node, &plan.serial_number(1), is_async);
+        assert_eq!(other, Err(BootError::SerialNumber { expected: 1, actual: 99 }));
+        assert_eq!(node.port().state(), NmtState::Operational);
+    }
+}
+
+#[test]
+fn a_running_node_with_guarding() {
+    let control = ErrorControl::Guarding { guard_time: Duration::from_millis(100), life_time_factor: 3 };
+    for is_async in [false, true] {
+        let mut node = simple();
+        let plan = Boot::new(control).keep_running();
+        let first = boot(&mut node, &plan, is_async).expect("a node");
+        let again = boot(&mut node, &plan, is_async).expect("a node");
+        assert_eq!((first.was_operational, again.was_operational), (false, true));
+        // Without error control, the node is booted again.
+        let blind = boot(&mut node, &Boot::new(ErrorControl::None).keep_running(), is_async).expect("a node");
+        assert!(!blind.was_operational);
     }
 }

@@ -512,8 +512,7 @@ fn velocities() {
     let mut rig = Rig::enabled(3);
     assert_eq!(rig.motion().set_velocity(-700), Ok(()));
     assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
-    let velocity: Item<i32, Ro, OnCanOpen> = Item::object(0x606C, 0, "");
-    assert_eq!(rig.drive.device().get(velocity), Ok(-700));
+    assert_eq!(rig.drive.device().get(VELOCITY), Ok(-700));
     assert_eq!(rig.writes, [(0x60FF, -700)]);
     rig.set = 1 << 13;
     assert_eq!(rig.motion().wait_reached(DEADLINE), Err(MotionError::Slippage));
@@ -522,6 +521,87 @@ fn velocities() {
     // In the cyclic modes, bit 10 doesn't mean "target reached".
     let wrong = Err(MotionError::WrongMode { active: Mode::CyclicSynchronousVelocity });
     assert_eq!(rig.motion().wait_reached(DEADLINE), wrong);
+}
+
+const VELOCITY: Item<i32, Ro, OnCanOpen> = Item::object(0x606C, 0, "");
+
+/// Returns a drive that moves at 700 units per second, which it loses in 70 ms.
+fn moving() -> Rig {
+    let mut rig = Rig::enabled(3);
+    rig.motion().set_velocity(700).unwrap();
+    rig.motion().wait_reached(DEADLINE).unwrap();
+    rig.writes.clear();
+    rig.time = 0;
+    rig
+}
+
+#[test]
+fn a_quick_stop() {
+    let mut rig = moving();
+    let state = rig.motion().quick_stop(DEADLINE).unwrap();
+    assert!(matches!(state, State::QuickStopActive | State::SwitchOnDisabled), "{state:?}");
+    assert_eq!((rig.drive.device().get(VELOCITY), rig.controls()), (Ok(0), vec![0x02]));
+    // The command works in every state, and the other bits stay as they are.
+    let mut rig = moving();
+    rig.write(0x6040, &0x0306_u16.to_le_bytes());
+    rig.writes.clear();
+    assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::SwitchOnDisabled));
+    assert_eq!(rig.controls(), [0x0302]);
+    // A drive whose statusword doesn't show the standstill.
+    let mut rig = moving();
+    rig.cleared = 0x0460;
+    rig.set = 0x0017;
+    let late = rig.motion().quick_stop(ms(200));
+    assert!(matches!(late, Err(MotionError::Deadline { status }) if status & 0x6F == 0x17 & 0x6F), "{late:?}");
+    assert!(rig.time >= 195, "{}", rig.time);
+}
+
+#[test]
+fn a_quick_stop_of_a_drive_with_a_fault() {
+    let mut rig = moving().at(3, |rig| rig.fail(0x7305));
+    let failed = rig.motion().quick_stop(DEADLINE);
+    assert!(matches!(failed, Err(MotionError::Fault { code: Some(0x7305), .. })), "{failed:?}");
+}
+
+#[test]
+fn a_quick_stop_without_the_controlword() {
+    let mut rig = moving();
+    // The read of the controlword fails, and the command is sent nevertheless.
+    rig.drive.device().fail_next(AbortCode::DEVICE_STATE);
+    assert!(rig.motion().quick_stop(DEADLINE).is_ok());
+    assert_eq!(rig.controls(), [0x02]);
+}
+
+#[test]
+fn halt_and_resume() {
+    let mut rig = moving();
+    assert_eq!(rig.motion().halt(DEADLINE), Ok(()));
+    assert_eq!((rig.drive.device().get(VELOCITY), rig.controls()), (Ok(0), vec![0x010F]));
+    // Bit 10 was 1 before, so the method waits until the drive must have seen the bit.
+    assert!(rig.time >= 65, "{}", rig.time);
+    assert_eq!(rig.motion().set_velocity(5), Err(MotionError::Halted));
+    assert_eq!(rig.motion().resume(), Ok(()));
+    assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
+    assert_eq!(rig.drive.device().get(VELOCITY), Ok(700));
+    // Halt isn't possible if the operation isn't enabled, and the bit stays set after the deadline.
+    rig.cleared = 1 << 10;
+    assert!(matches!(rig.motion().halt(ms(100)), Err(MotionError::Deadline { .. })));
+    assert_eq!(rig.control(), 0x010F);
+    rig.write(0x6040, &[6, 0]);
+    rig.writes.clear();
+    assert!(matches!(rig.motion().halt(DEADLINE), Err(MotionError::NotEnabled { .. })));
+    assert!(matches!(rig.motion().resume(), Err(MotionError::NotEnabled { .. })));
+    assert_eq!(rig.writes, []);
+}
+
+#[tokio::test]
+async fn stops_without_blocking() {
+    let mut rig = moving();
+    assert_eq!(rig.motion().halt_async(DEADLINE).await, Ok(()));
+    assert_eq!(rig.motion().resume_async().await, Ok(()));
+    assert_eq!(rig.motion().wait_reached_async(DEADLINE).await, Ok(()));
+    assert!(rig.motion().quick_stop_async(DEADLINE).await.is_ok());
+    assert_eq!(rig.drive.device().get(VELOCITY), Ok(0));
 }
 
 #[test]

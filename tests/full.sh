@@ -57,16 +57,19 @@ part_features() {
     done
     return $failed
 }
-# Checks crates outside the workspace, which need a C++ compiler or the newest Rust.
+# Checks crates outside the workspace, which need a C++ compiler or the newest Rust, and tests the CANopen client with `zencan-node`.
 part_outside() {
     local crate failed=0
-    for crate in codegen/fuzz benches/packing benches/peers; do
+    for crate in codegen/fuzz benches/packing benches/peers tests/zencan; do
         echo "crate: $crate"
         if ! { command -v c++ >/dev/null && cargo fetch --quiet --manifest-path "$crate/Cargo.toml"; }; then
             echo "skipped: its dependencies cannot be fetched, or there is no C++ compiler"
             continue
         fi
         cargo check --quiet --all-targets --manifest-path "$crate/Cargo.toml" --target-dir "$target/apart" || failed=1
+        if [[ $crate == tests/* ]]; then
+            cargo test --quiet --manifest-path "$crate/Cargo.toml" --target-dir "$target/apart" || failed=1
+        fi
         # Detect outdated lock files, which Cargo rewrites.
         git diff --exit-code -- "$crate/Cargo.lock" || failed=1
     done

@@ -26,25 +26,43 @@ const fn ms(time: u64) -> Duration {
 }
 
 /// Objects that the demo drive lacks.
-const MORE: [Entry; 17] = [
+const MORE: [Entry; 31] = [
     entry(0x603F, DataType::Unsigned16),
+    entry(0x6042, DataType::Integer16),
+    entry(0x6043, DataType::Integer16),
+    entry(0x6044, DataType::Integer16),
+    sub_entry(0x6046, 1, DataType::Unsigned32),
+    sub_entry(0x6046, 2, DataType::Unsigned32),
+    sub_entry(0x6048, 1, DataType::Unsigned32),
+    sub_entry(0x6048, 2, DataType::Unsigned16),
+    sub_entry(0x6049, 1, DataType::Unsigned32),
+    sub_entry(0x6049, 2, DataType::Unsigned16),
     entry(0x605A, DataType::Integer16),
     entry(0x605D, DataType::Integer16),
     entry(0x605E, DataType::Integer16),
     entry(0x6065, DataType::Unsigned32),
     entry(0x606C, DataType::Integer32),
     entry(0x6071, DataType::Integer16),
+    entry(0x6072, DataType::Unsigned16),
     entry(0x6077, DataType::Integer16),
     entry(0x607C, DataType::Integer32),
     entry(0x607F, DataType::Unsigned32),
     entry(0x6084, DataType::Unsigned32),
     entry(0x6085, DataType::Unsigned32),
     entry(0x6098, DataType::Integer8),
+    entry(0x6087, DataType::Unsigned32),
+    sub_entry(0x60C1, 1, DataType::Integer32),
+    sub_entry(0x60C2, 1, DataType::Unsigned8),
+    sub_entry(0x60C2, 2, DataType::Integer8),
     entry(0x60F2, DataType::Unsigned16),
     entry(0x60F4, DataType::Integer32),
     entry(0x60FF, DataType::Integer32),
     entry(0x6502, DataType::Unsigned32),
 ];
+
+const fn sub_entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
+    Entry { object: Some(Object::new(index, sub_index)), ..entry(index, data_type) }
+}
 
 fn drive() -> Device {
     let mut entries = demo_drive::ENTRIES.to_vec();
@@ -66,7 +84,11 @@ fn enabled(mode: i64) -> Device {
 
 /// Writes an object as a client does.
 fn write(device: &mut Device, index: u16, value: i64) {
-    let object = Object::new(index, 0);
+    write_sub(device, (index, 0), value);
+}
+
+fn write_sub(device: &mut Device, (index, sub_index): (u16, u8), value: i64) {
+    let object = Object::new(index, sub_index);
     let length = device.bytes(object).unwrap().len();
     device.client::<CanOpen>().write(object, &value.to_le_bytes()[..length]).unwrap();
 }
@@ -422,15 +444,115 @@ fn cyclic_velocity_and_torque() {
 }
 
 #[test]
+fn velocity_of_frequency_converters() {
+    let mut device = enabled(2);
+    write(&mut device, 0x6042, 1000);
+    device.step(ms(100));
+    // Without the ramp bits of the controlword, the axis stands still.
+    assert_eq!((number(&device, 0x6044), number(&device, 0x6064)), (0, 0));
+    // Accelerations of 5,000 and decelerations of 10,000 units per second squared.
+    for (object, value) in [((0x6048, 1), 5000), ((0x6048, 2), 1), ((0x6049, 1), 20_000), ((0x6049, 2), 2)] {
+        write_sub(&mut device, object, value);
+    }
+    write(&mut device, 0x6040, 0x7F);
+    assert_eq!(until(&mut device, |device| number(device, 0x6044) == 1000), 200);
+    // The bits of the mode are reserved.
+    assert_eq!(bits(&device), [false; 3]);
+    write(&mut device, 0x6042, -300);
+    assert_eq!(until(&mut device, |device| number(device, 0x6044) == -300), 160);
+    // Without "unlock ramp", the axis keeps its velocity.
+    write(&mut device, 0x6042, 0);
+    write(&mut device, 0x6040, 0x5F);
+    device.step(ms(100));
+    assert_eq!((number(&device, 0x6044), number(&device, 0x6043)), (-300, -300));
+    // Without "reference ramp", the axis stops. Halt also stops it.
+    write(&mut device, 0x6042, 400);
+    write(&mut device, 0x6040, 0x3F);
+    assert_eq!(until(&mut device, |device| number(device, 0x6044) == 0), 30);
+    write(&mut device, 0x6040, 0x7F);
+    device.step(ms(200));
+    // The limits of the amount.
+    write_sub(&mut device, (0x6046, 1), 100);
+    write_sub(&mut device, (0x6046, 2), 350);
+    device.step(ms(100));
+    assert_eq!((number(&device, 0x6044), bit(&device, 11)), (350, true));
+    write(&mut device, 0x6042, -20);
+    device.step(ms(200));
+    assert_eq!((number(&device, 0x6044), bit(&device, 11)), (-100, true));
+    write(&mut device, 0x6040, 0x17F);
+    device.step(ms(200));
+    assert_eq!((number(&device, 0x6044), bit(&device, 10)), (0, true));
+}
+
+#[test]
+fn profile_torque() {
+    let mut device = enabled(4);
+    assert!(bit(&device, 10), "the target torque is 0");
+    write(&mut device, 0x6087, 2000);
+    write(&mut device, 0x6071, 500);
+    device.step(ms(100));
+    let torque = number(&device, 0x6077);
+    assert!((195..=205).contains(&torque) && !bit(&device, 10), "{torque}");
+    assert_eq!(until(&mut device, |device| bit(device, 10)), 150);
+    assert!(number(&device, 0x606C) > 100);
+    // The friction limits the velocity, as in the mode "cyclic synchronous torque".
+    device.step(Duration::from_secs(60));
+    assert_eq!((number(&device, 0x606C), number(&device, 0x6077)), (5000, 500));
+    write(&mut device, 0x6072, 300);
+    device.step(ms(200));
+    assert_eq!((number(&device, 0x6077), bit(&device, 10), bit(&device, 11)), (300, false, true));
+    write(&mut device, 0x6040, 0x10F);
+    let time = until(&mut device, |device| number(device, 0x606C) == 0);
+    assert!(bit(&device, 10) && time > 100, "{time}");
+    write(&mut device, 0x6072, 1000);
+    write(&mut device, 0x6040, 0x0F);
+    device.step(ms(10));
+    assert!(number(&device, 0x6077) < 100, "the torque starts at 0 after halt");
+}
+
+#[test]
+fn interpolated_position() {
+    let mut device = enabled(7);
+    // A period of 10 ms.
+    write_sub(&mut device, (0x60C2, 1), 10);
+    write_sub(&mut device, (0x60C2, 2), -3);
+    write_sub(&mut device, (0x60C1, 1), 50);
+    device.step(ms(50));
+    assert_eq!((number(&device, 0x6064), bits(&device)), (0, [false; 3]), "interpolation isn't enabled");
+    write(&mut device, 0x6040, 0x1F);
+    for record in [50, 100, 130] {
+        write_sub(&mut device, (0x60C1, 1), record);
+        device.step(ms(10));
+        assert_eq!((number(&device, 0x6064), bit(&device, 12)), (record, true));
+    }
+    assert_eq!(number(&device, 0x606C), 3000);
+    device.step(ms(1));
+    assert_eq!(bits(&device), [true, true, false]);
+    write_sub(&mut device, (0x60C1, 1), 1130);
+    device.step(ms(5));
+    write(&mut device, 0x6040, 0x0F);
+    assert!(until(&mut device, |device| number(device, 0x606C) == 0) > 0, "the axis stops on a ramp");
+    assert!(!bit(&device, 12) && number(&device, 0x6064) > 600);
+}
+
+#[test]
+fn torque_with_commutation_angle() {
+    let mut device = enabled(11);
+    write(&mut device, 0x6071, 500);
+    device.step(Duration::from_secs(60));
+    assert_eq!((number(&device, 0x606C), number(&device, 0x6077), bits(&device)), (5000, 500, [false, true, false]));
+}
+
+#[test]
 fn the_mode_follows_in_the_next_step() {
     let mut device = enabled(1);
     write(&mut device, 0x6060, 3);
     assert_eq!(number(&device, 0x6061), 1);
     device.step(ms(1));
     assert_eq!(number(&device, 0x6061), 3);
-    // The drive supports neither mode 2 nor modes that 0x6502 excludes.
-    write(&mut device, 0x6502, 0b101);
-    for mode in [2, 8, -5] {
+    // The drive supports neither the reserved mode 5, nor modes that 0x6502 excludes, nor modes of the manufacturer.
+    write(&mut device, 0x6502, 0b1_0101);
+    for mode in [5, 8, -5] {
         write(&mut device, 0x6060, mode);
         device.step(ms(2));
         assert_eq!(number(&device, 0x6061), 3, "mode {mode}");

@@ -10,6 +10,8 @@ pub(super) const RELATIVE: u16 = 1 << 6;
 pub(super) const OF_STATE: u16 = 0x8F;
 /// Controlword: the bits 0 to 3 and 7 of the command "enable operation".
 pub(super) const ENABLE_OPERATION: u16 = 0x0F;
+/// Controlword: the bits 0 to 3 and 7 of the command "quick stop".
+pub(super) const QUICK_STOP: u16 = 0x02;
 /// Controlword: "halt".
 pub(super) const HALT: u16 = 1 << 8;
 /// Controlword: the bits whose meaning depends on the mode.

@@ -121,7 +121,7 @@ macro_rules! operations {
             }
 
             /// Reads the statusword. Returns an error if the operation isn't enabled.
-            $($async)? fn $enabled(&mut self) -> Result<u16, MotionError<C::Error>> {
+            pub(super) $($async)? fn $enabled(&mut self) -> Result<u16, MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
                 match State::of_status(status) {
                     Some(State::OperationEnabled) => Ok(status),
@@ -146,7 +146,7 @@ macro_rules! operations {
                 }
             }
 
-            $($async)? fn $control(&mut self) -> Result<u16, MotionError<C::Error>> {
+            pub(super) $($async)? fn $control(&mut self) -> Result<u16, MotionError<C::Error>> {
                 Ok(O::controlword().$read(self.client)$(.$await)?? as u16)
             }
 
@@ -166,12 +166,12 @@ macro_rules! operations {
                 Ok(())
             }
 
-            $($async)? fn $command(&mut self, control: u16) -> Result<(), MotionError<C::Error>> {
+            pub(super) $($async)? fn $command(&mut self, control: u16) -> Result<(), MotionError<C::Error>> {
                 Ok(O::controlword().$write(self.client, control.into())$(.$await)??)
             }
 
             /// Waits until the next poll. Returns true after the deadline.
-            $($async)? fn $is_late(&mut self, remaining: &mut Remaining) -> Result<bool, MotionError<C::Error>> {
+            pub(super) $($async)? fn $is_late(&mut self, remaining: &mut Remaining) -> Result<bool, MotionError<C::Error>> {
                 let Some(pause) = remaining.pause() else { return Ok(true) };
                 self.client.wait(pause)$(.$await)??;
                 Ok(false)
@@ -419,7 +419,7 @@ fn keeps_state(state: Option<State>, control: u16) -> bool {
 }
 
 /// Returns the controlword if it enables the operation.
-fn enables<E>(control: u16) -> Result<u16, MotionError<E>> {
+pub(super) fn enables<E>(control: u16) -> Result<u16, MotionError<E>> {
     match control & OF_STATE {
         ENABLE_OPERATION => Ok(control),
         _ => Err(MotionError::OtherSource { control }),

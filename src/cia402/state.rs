@@ -93,11 +93,13 @@ pub enum Mode {
     CyclicSynchronousVelocity,
     /// 10: cyclic synchronous torque (CST).
     CyclicSynchronousTorque,
+    /// 11: cyclic synchronous torque with commutation angle (CSTCA).
+    CyclicSynchronousTorqueWithAngle,
     /// A mode of the manufacturer (negative), or a reserved mode.
     Other(i8),
 }
 
-const MODES: [(Mode, i8, &str); 10] = [
+const MODES: [(Mode, i8, &str); 11] = [
     (Mode::NoMode, 0, "no mode"),
     (Mode::ProfilePosition, 1, "profile position"),
     (Mode::Velocity, 2, "velocity"),
@@ -108,6 +110,7 @@ const MODES: [(Mode, i8, &str); 10] = [
     (Mode::CyclicSynchronousPosition, 8, "cyclic synchronous position"),
     (Mode::CyclicSynchronousVelocity, 9, "cyclic synchronous velocity"),
     (Mode::CyclicSynchronousTorque, 10, "cyclic synchronous torque"),
+    (Mode::CyclicSynchronousTorqueWithAngle, 11, "cyclic synchronous torque with commutation angle"),
 ];
 
 impl Enumeration for Mode {

@@ -36,6 +36,8 @@ pub(super) struct Drive {
     motion: Motion,
     set_points: SetPoints,
     homing: Homing,
+    /// Demanded torque of the mode "profile torque", in 0.1 % of the rated torque.
+    torque: f64,
     /// True if the cause of the fault persists, so that the fault cannot be reset.
     has_cause: bool,
     /// Actual position (0x6064) that the drive has written.
@@ -54,6 +56,7 @@ impl Drive {
             motion: Motion::default(),
             set_points: SetPoints::default(),
             homing: Homing::default(),
+            torque: 0.0,
             has_cause: false,
             published: None,
         };
@@ -135,8 +138,9 @@ impl Drive {
         self.abandon();
     }
 
-    /// Discards the set-points and aborts homing.
+    /// Discards the set-points and the torque, and aborts homing.
     fn abandon(&mut self) {
+        self.torque = 0.0;
         self.set_points = SetPoints::default();
         self.homing.abort();
         self.motion.hold();

@@ -41,6 +41,20 @@ pub struct Booted {
     pub is_configured: bool,
     /// Whether the node has stored the configuration and its date.
     pub is_stored: bool,
+    /// Whether the node was already in Operational, and was [kept running](Boot::keep_running).
+    pub was_operational: bool,
+}
+
+impl Booted {
+    /// Returns the error status L of CiA 302-2 if the node was initially in Operational, otherwise `None`.
+    #[must_use]
+    pub const fn status(&self) -> Option<char> {
+        if self.was_operational {
+            Some('L')
+        } else {
+            None
+        }
+    }
 }
 
 /// Returns the number in an object, or an error if the value doesn't have 4 bytes.
@@ -74,12 +88,13 @@ const fn other_identity<E>(sub_index: u8, expected: u32, actual: u32) -> BootErr
 macro_rules! boot {
     (
         $Port:ident $Client:ident $send_step:ident: $boot:ident $nmt:ident $wait_for:ident $guard:ident $number:ident $version:ident $check:ident
-        $date:ident $configure:ident $write:ident $store:ident $discard_states:ident $run:ident $($async:ident $await:ident)?
+        $date:ident $configure:ident $write:ident $store:ident $discard_states:ident $run:ident $state:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
             /// Boots the node as the NMT master (CiA 302-2). The steps have this order:
             ///
-            /// 1. Restart, if it is [requested](Boot::reset).
+            /// 1. Restart, if it is [requested](Boot::reset). With [`Boot::keep_running`], a node that is already in
+            ///    Operational is only checked, and then keeps running.
             /// 2. Check of the device type, the identity and the versions.
             /// 3. [Configuration](Boot::configuration), unless the node already has it. With [`Boot::store`], the node
             ///    stores the configuration, and then its date.
@@ -89,12 +104,18 @@ macro_rules! boot {
             /// configuration.
             ///
             /// After an error, the node is not in Operational, unless the error is [`BootError::NotOperational`] or
-            /// [`BootError::Guarding`].
+            /// [`BootError::Guarding`], or the node is to be [kept running](Boot::keep_running).
             ///
             /// # Errors
             ///
             /// Returns the error of the step that failed. [`BootError::status`] returns the error status of CiA 302-2.
             pub $($async)? fn $boot(&mut self, boot: &Boot) -> Result<Booted, BootError<P::Error>> {
+                if boot.keeps_running {
+                    let device_type = self.$check(&boot.checks)$(.$await)??;
+                    if self.$state(boot.error_control)$(.$await)?? == NmtState::Operational {
+                        return Ok(Booted { device_type, is_configured: false, is_stored: false, was_operational: true });
+                    }
+                }
                 if let Some(patience) = boot.reset {
                     self.$nmt(NmtCommand::ResetNode)$(.$await)?.map_err(BootError::Command)?;
                     match self.$wait_for(NmtState::BootUp, patience)$(.$await)? {
@@ -118,7 +139,27 @@ macro_rules! boot {
                 self.$discard_states()$(.$await)?.map_err(BootError::Command)?;
                 self.$nmt(NmtCommand::Start)$(.$await)?.map_err(BootError::Command)?;
                 self.$run(boot.error_control)$(.$await)??;
-                Ok(Booted { device_type, is_configured, is_stored })
+                Ok(Booted { device_type, is_configured, is_stored, was_operational: false })
+            }
+
+            /// Returns the state of a node that may be running. Without error control, the state is unknown, and the node
+            /// is booted.
+            $($async)? fn $state(&mut self, error_control: ErrorControl) -> Result<NmtState, BootError<P::Error>> {
+                match error_control {
+                    ErrorControl::None => Ok(NmtState::PreOperational),
+                    ErrorControl::Heartbeat(patience) => {
+                        self.$discard_states()$(.$await)?.map_err(BootError::Command)?;
+                        let id = self.id();
+                        let is_heartbeat = &mut |frame: &CanFrame| state_of(frame, id).is_some();
+                        let frame = self.port().receive(patience, is_heartbeat)$(.$await)?;
+                        let frame = frame.map_err(|error| BootError::Command(Error::Client(error)))?;
+                        frame.and_then(|frame| state_of(&frame, id)).ok_or(BootError::NoHeartbeat)
+                    }
+                    ErrorControl::Guarding { guard_time, life_time_factor } => {
+                        let mut guarding = Guarding::new(guard_time, life_time_factor);
+                        self.$guard(&mut guarding)$(.$await)?.map_err(BootError::Guarding)
+                    }
+                }
             }
 
             $($async)? fn $number(&mut self, object: Object) -> Result<u32, BootError<P::Error>> {
@@ -235,10 +276,10 @@ macro_rules! boot {
 
 boot! {
     CanPort Client send: boot nmt wait_for guard boot_number boot_version boot_check boot_date boot_configure boot_write boot_store
-    discard_states boot_run
+    discard_states boot_run boot_state
 }
 boot! {
     AsyncCanPort AsyncClient send_async: boot_async nmt_async wait_for_async guard_async boot_number_async boot_version_async
-    boot_check_async boot_date_async boot_configure_async boot_write_async boot_store_async discard_states_async boot_run_async
+    boot_check_async boot_date_async boot_configure_async boot_write_async boot_store_async discard_states_async boot_run_async boot_state_async
     async await
 }

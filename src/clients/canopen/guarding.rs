@@ -8,6 +8,7 @@ use super::frame::CanFrame;
 use super::nmt::{NmtState, ERROR_CONTROL};
 use super::node::Node;
 use super::port::{AsyncCanPort, CanPort, BACKLOG};
+use crate::clock::elapsed;
 use crate::node_id::NodeId;
 
 /// Bit of an answer that alternates.
@@ -88,7 +89,7 @@ impl Guarding {
 
     /// Processes the error of a cycle without a valid answer. Returns `NodeLost` if the life time has passed.
     fn fail<E>(&self, error: GuardError<E>, now: Option<Duration>) -> GuardError<E> {
-        let silence = self.answered.zip(now).map(|(answered, now)| now.saturating_sub(answered));
+        let silence = elapsed(self.answered, now);
         let is_over = silence.is_some_and(|silence| silence >= self.life_time());
         if is_over || self.missed >= self.life_time_factor {
             GuardError::NodeLost

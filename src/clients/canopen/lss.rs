@@ -9,6 +9,7 @@ use core::time::Duration;
 use super::frame::CanFrame;
 use super::node::TIMEOUT;
 use super::port::{AsyncCanPort, CanPort, BACKLOG};
+use crate::clock::elapsed;
 use crate::lss::{
     BitRate, IdentityPart, LssAddress, LssError, LssState, Message, Service, Transaction, ANSWERS, REQUESTS,
 };
@@ -68,8 +69,8 @@ const WINDOW: Duration = Duration::from_millis(20);
 ///
 /// # Late answers
 ///
-/// After a timeout, and after an async call that was dropped, the next request waits for the late answer, for at most
-/// one timeout, and discards it.
+/// After a timeout, and after an async call that was dropped, the next request first waits for one timeout, and discards
+/// the answers of all slaves that arrive in this time.
 #[derive(Clone, Debug)]
 pub struct LssMaster<P> {
     port: P,
@@ -131,7 +132,7 @@ macro_rules! master {
     (
         $Port:ident: $switch_global:ident $switch_selective:ident $configure_node_id:ident $configure_bit_rate:ident $configure_bit_timing:ident
         $activate_bit_timing:ident $store:ident $inquire:ident $inquire_address:ident $inquire_node_id:ident
-        $send:ident $receive:ident $settle:ident $run:ident $remove_node_id:ident $request:ident
+        $send:ident $receive:ident $collect:ident $settle:ident $run:ident $remove_node_id:ident $request:ident
         $withdraw:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> LssMaster<P> {
@@ -299,6 +300,24 @@ macro_rules! master {
                 Ok(frame.as_ref().and_then(answer))
             }
 
+            /// Passes the messages of slaves that `wanted` accepts to `handle`, for as long as `time`. Returns whether there are
+            /// any. Without a clock, each message restarts the time.
+            $($async)? fn $collect(
+                &mut self,
+                time: Duration,
+                wanted: &dyn Fn(&Message) -> bool,
+                handle: &mut dyn FnMut(&Message),
+            ) -> Result<bool, LssError<P::Error>> {
+                let (start, mut patience, mut is_answered) = (self.port.now(), time, false);
+                for _ in 0..BACKLOG {
+                    let Some(message) = self.$receive(patience, wanted)$(.$await)?? else { break };
+                    is_answered = true;
+                    handle(&message);
+                    patience = time.saturating_sub(elapsed(start, self.port.now()).unwrap_or_default());
+                }
+                Ok(is_answered)
+            }
+
             /// Removes the pending node-ID of all slaves in Configuration, and waits for their answers. That no slave answers
             /// is not an error, because there may be none.
             $($async)? fn $withdraw(&mut self) -> Result<(), LssError<P::Error>> {
@@ -307,34 +326,20 @@ macro_rules! master {
                 }
                 self.is_doubtful = false;
                 self.owed = Service::ConfigureNodeId(None).answer();
-                let start = self.port.now();
-                let mut patience = self.timeout;
-                for _ in 0..BACKLOG {
-                    if self.$receive(patience, &|_| true)$(.$await)??.is_none() {
-                        break;
-                    }
-                    let elapsed = start.zip(self.port.now()).map(|(start, now)| now.saturating_sub(start));
-                    patience = self.timeout.saturating_sub(elapsed.unwrap_or_default());
-                }
+                self.$collect(self.timeout, &|_| true, &mut |_| ())$(.$await)??;
                 self.owed = None;
                 Ok(())
             }
 
-            /// Removes node-IDs that were not confirmed, waits for the answer to an earlier request that timed out or was
-            /// dropped, and discards all answers that have arrived.
+            /// Removes node-IDs that were not confirmed, waits for the answers of all slaves to an earlier request that timed out
+            /// or was dropped, and discards all answers that have arrived.
             $($async)? fn $settle(&mut self) -> Result<(), LssError<P::Error>> {
                 if self.is_doubtful {
                     self.$withdraw()$(.$await)??;
                 }
-                if let Some(owed) = self.owed {
-                    self.$receive(self.timeout, &|message| message[0] == owed)$(.$await)??;
-                    self.owed = None;
-                }
-                for _ in 0..BACKLOG {
-                    if self.$receive(Duration::ZERO, &|_| true)$(.$await)??.is_none() {
-                        break;
-                    }
-                }
+                let time = if self.owed.is_some() { self.timeout } else { Duration::ZERO };
+                self.$collect(time, &|_| true, &mut |_| ())$(.$await)??;
+                self.owed = None;
                 Ok(())
             }
 
@@ -378,10 +383,10 @@ macro_rules! master {
 master! {
     CanPort: switch_global switch_selective configure_node_id configure_bit_rate configure_bit_timing
     activate_bit_timing store inquire inquire_address inquire_node_id
-    send receive settle run remove_node_id request withdraw
+    send receive collect settle run remove_node_id request withdraw
 }
 master! {
     AsyncCanPort: switch_global_async switch_selective_async configure_node_id_async configure_bit_rate_async configure_bit_timing_async
     activate_bit_timing_async store_async inquire_async inquire_address_async inquire_node_id_async
-    send_async receive_async settle_async run_async remove_node_id_async request_async withdraw_async async await
+    send_async receive_async collect_async settle_async run_async remove_node_id_async request_async withdraw_async async await
 }

@@ -30,7 +30,8 @@ const MOST_WAKERS: usize = 16;
 /// with the COB-IDs that [`NetworkPort::with_pdo`], [`NetworkPort::with_emergency`] and [`NetworkPort::with_sdo`] add. A
 /// frame that arrives while another handle uses the interface is kept, if its node has a handle. The handle
 /// [`services`](Self::services) receives LSS answers, SYNC and TIME. All other frames are for the handle that uses the
-/// interface, and are lost if it doesn't expect them. The network keeps up to `N` frames:
+/// interface, and are lost if it doesn't expect them; [`unclaimed`](Self::unclaimed) counts them. The network keeps up to
+/// `N` frames:
 ///
 /// - Of each PDO, only the newest is kept. Of each node, only the newest heartbeat and the newest boot-up message are kept.
 /// - If there is no room for an emergency message or a reply, the oldest PDO, heartbeat or boot-up message is discarded. If
@@ -73,6 +74,8 @@ pub struct Network<P, const N: usize> {
     time: Cell<Option<Duration>>,
     /// Number of times that a handle has returned the interface.
     turn: Cell<u32>,
+    /// Number of frames without a handle that were lost.
+    unclaimed: Cell<usize>,
     kept: RefCell<Kept<N>>,
     /// Numbers of handles of each node-ID. The first number is that of the services.
     handles: [Cell<u16>; 128],
@@ -115,6 +118,7 @@ impl<P, const N: usize> Network<P, N> {
             port: Cell::new(Some(port)),
             time: Cell::new(None),
             turn: Cell::new(0),
+            unclaimed: Cell::new(0),
             kept: RefCell::new(Kept::new()),
             handles: [const { Cell::new(0) }; 128],
             wakers: RefCell::new([const { None }; MOST_WAKERS]),
@@ -157,6 +161,13 @@ impl<P, const N: usize> Network<P, N> {
         self.kept.try_borrow().map_or(0, |kept| kept.lost_emergencies)
     }
 
+    /// Returns the number of frames that were lost because no handle is for them and the handle that used the interface
+    /// didn't expect them: frames of nodes without a handle, PDOs with a COB-ID that was not [added](NetworkPort::with_pdo),
+    /// requests of other masters, and remote frames.
+    pub fn unclaimed(&self) -> usize {
+        self.unclaimed.get()
+    }
+
     /// Returns the interface and drops the network. Returns `None` if an async handle was leaked while it used the
     /// interface.
     pub fn into_inner(self) -> Option<P> {
@@ -168,7 +179,11 @@ impl<P, const N: usize> Network<P, N> {
     fn dispatch(&self, handle: Owner, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
         let owner = self.kept.try_borrow().ok().and_then(|kept| kept.owner(frame));
         let owner = owner.filter(|(owner, _)| self.handles(*owner).is_some_and(|count| count.get() > 0));
-        let Some((owner, kind)) = owner else { return wanted(frame) };
+        let Some((owner, kind)) = owner else {
+            let is_wanted = wanted(frame);
+            self.unclaimed.set(self.unclaimed.get().saturating_add(usize::from(!is_wanted)));
+            return is_wanted;
+        };
         if owner == handle && wanted(frame) {
             return true;
         }

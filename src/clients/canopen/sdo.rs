@@ -8,6 +8,7 @@ use super::port::{AsyncCanPort, CanPort, BACKLOG};
 use crate::abort::AbortCode;
 use crate::bus::{CanOpen, Object};
 use crate::client::{AsyncClient, Client};
+use crate::clock::elapsed;
 use crate::error::Error;
 use crate::sdo::{abort, Channel, Expected, Message, Transfer};
 
@@ -101,7 +102,7 @@ macro_rules! transfers {
                     if frame.is_none() || !late.is_stream() {
                         break;
                     }
-                    let elapsed = start.zip(self.port().now()).map(|(start, now)| now.saturating_sub(start));
+                    let elapsed = elapsed(start, self.port().now());
                     patience = patience.saturating_sub(elapsed.unwrap_or_default());
                 }
                 Ok(())

@@ -13,9 +13,9 @@ impl Device {
     /// Returns the device after power-on, with the behavior of CiA 402 for each axis that has a controlword (0x6040)
     /// and a statusword (0x6041).
     ///
-    /// The drive has the state machine, the modes 1 (profile position), 3 (profile velocity), 6 (homing) and 8 to 10
-    /// (cyclic synchronous position, velocity and torque), halt, quick stop and [faults](Self::fail). The axis moves on
-    /// ramps. The drive accesses all objects by index, so it works on every bus and with process data. Objects that the
+    /// The drive has the state machine, halt, quick stop, [faults](Self::fail), and the modes 1 (profile position), 2
+    /// (velocity), 3 (profile velocity), 4 (profile torque), 6 (homing), 7 (interpolated position), and 8 to 11 (cyclic
+    /// synchronous position, velocity, torque, and torque with commutation angle). The axis moves on ramps. The drive accesses all objects by index, so it works on every bus and with process data. Objects that the
     /// table lacks are ignored, and default values apply.
     ///
     /// The drive executes the controlword at once. Everything else happens when the simulated time advances
@@ -49,7 +49,9 @@ impl Device {
     ///
     /// Velocities are in position units per second, and accelerations in position units per second squared, even if the
     /// device description declares other units. Homing takes 100 ms, and the current position becomes the home
-    /// position. The drive doesn't simulate gears, polarity, switches, other modes, and the loss of the connection.
+    /// position. In the mode 7, the drive moves to the newest data record (0x60C1:01) within the interpolation period, and
+    /// has no buffer. The mode 11 ignores the commutation angle. The drive doesn't simulate gears, polarity, switches,
+    /// other modes, and the loss of the connection.
     #[must_use]
     pub fn with_cia402(mut self) -> Self {
         self.has_cia402 = true;

@@ -1,19 +1,28 @@
 //! Modes of operation of a simulated drive.
 
+use super::super::clock::STEP;
 use super::motion::Motion;
 use super::objects::{Objects, Profile};
 use super::state::Stop;
 use super::{Drive, HALT};
 
 pub(super) const PROFILE_POSITION: i64 = 1;
+pub(super) const VELOCITY: i64 = 2;
 pub(super) const PROFILE_VELOCITY: i64 = 3;
+pub(super) const PROFILE_TORQUE: i64 = 4;
 pub(super) const HOMING: i64 = 6;
+pub(super) const INTERPOLATED_POSITION: i64 = 7;
 pub(super) const CYCLIC_POSITION: i64 = 8;
 pub(super) const CYCLIC_VELOCITY: i64 = 9;
 pub(super) const CYCLIC_TORQUE: i64 = 10;
+pub(super) const CYCLIC_TORQUE_WITH_ANGLE: i64 = 11;
 
-/// Bit of the controlword that starts a motion: "new set-point" or "homing start".
-const START: u16 = 1 << 4;
+/// Bit of the controlword that starts a motion: "new set-point", "homing start", or "enable interpolation".
+pub(super) const START: u16 = 1 << 4;
+/// Bits "enable ramp", "unlock ramp" and "reference ramp" of the controlword in the mode "velocity".
+const ENABLE_RAMP: u16 = 1 << 4;
+const UNLOCK_RAMP: u16 = 1 << 5;
+const REFERENCE_RAMP: u16 = 1 << 6;
 /// Maximum interpolation period in steps.
 const MAX_PERIOD: f64 = 10_000.0;
 
@@ -22,7 +31,7 @@ pub(super) fn is_supported(mode: i64, objects: &Objects<'_>) -> bool {
     let is_listed = |modes: i64| modes == 0 || modes >> (mode - 1) & 1 == 1;
     match mode {
         0 => true,
-        PROFILE_POSITION | PROFILE_VELOCITY | HOMING | CYCLIC_POSITION..=CYCLIC_TORQUE => {
+        PROFILE_POSITION..=PROFILE_TORQUE | HOMING..=CYCLIC_TORQUE_WITH_ANGLE => {
             objects.number(0x6502).map_or(true, is_listed)
         }
         _ => false,
@@ -68,18 +77,57 @@ impl Drive {
         let motion = &mut self.motion;
         if self.control & HALT != 0 {
             self.homing.abort();
+            self.torque = 0.0;
             return Stop::of_option(objects.option(0x605D)).slow_down(motion, objects);
         }
         match self.mode {
             PROFILE_POSITION => self.set_points.step(motion, objects),
+            VELOCITY => velocity(motion, self.control, objects),
             PROFILE_VELOCITY => profile_velocity(motion, objects),
+            PROFILE_TORQUE => {
+                self.torque = ramped_torque(self.torque, motion, objects);
+                drive_with(self.torque, motion, objects);
+            }
             HOMING => self.homing.step(motion, objects),
+            INTERPOLATED_POSITION if self.control & START != 0 => interpolated_position(motion, objects),
             CYCLIC_POSITION => cyclic_position(motion, objects),
             CYCLIC_VELOCITY => cyclic_velocity(motion, objects),
-            CYCLIC_TORQUE => cyclic_torque(motion, objects),
+            CYCLIC_TORQUE | CYCLIC_TORQUE_WITH_ANGLE => cyclic_torque(motion, objects),
             _ => Stop::Ramp.slow_down(motion, objects),
         }
     }
+}
+
+/// Returns an acceleration of the mode "velocity": the change of the speed (sub-index 1) in a time in seconds (sub-index
+/// 2), or `default` if the axis doesn't have the object.
+fn ramp(index: u16, default: f64, objects: &Objects<'_>) -> f64 {
+    match (objects.sub_number(index, 1), objects.sub_number(index, 2)) {
+        // A time of 0 is an infinite acceleration.
+        (Some(speed), Some(time)) if speed > 0 => speed as f64 / time as f64,
+        _ => default,
+    }
+}
+
+/// Moves the axis in the mode "velocity" (CiA 402-2 19). Without the bit "enable ramp", the axis stops. Without "unlock
+/// ramp", it keeps its velocity. Without "reference ramp", the ramp leads to velocity 0.
+fn velocity(motion: &mut Motion, control: u16, objects: &Objects<'_>) {
+    let profile = Profile::read(objects);
+    let is_enabled = control & ENABLE_RAMP != 0;
+    let wanted = match control & REFERENCE_RAMP {
+        _ if is_enabled && control & UNLOCK_RAMP == 0 => motion.velocity,
+        0 => 0.0,
+        _ if is_enabled => vl_target(motion, objects),
+        _ => 0.0,
+    };
+    motion.run(wanted, ramp(0x6048, profile.acceleration, objects), ramp(0x6049, profile.deceleration, objects));
+}
+
+/// Returns the target velocity (0x6042) with an amount between the limits (0x6046).
+fn vl_target(motion: &mut Motion, objects: &Objects<'_>) -> f64 {
+    let target = objects.real(0x6042);
+    let low = objects.sub_number(0x6046, 1).unwrap_or(0) as f64;
+    let high = objects.sub_number(0x6046, 2).filter(|most| *most > 0).map_or(f64::INFINITY, |most| most as f64);
+    motion.limited(target.abs(), low.min(high), high.min(objects.max_velocity())).copysign(target)
 }
 
 fn profile_velocity(motion: &mut Motion, objects: &Objects<'_>) {
@@ -88,10 +136,24 @@ fn profile_velocity(motion: &mut Motion, objects: &Objects<'_>) {
     motion.run(velocity, profile.acceleration, profile.deceleration);
 }
 
-fn cyclic_position(motion: &mut Motion, objects: &Objects<'_>) {
-    let wanted = objects.real(0x607A) + objects.real(0x60B0);
+/// Moves the axis to a position at the end of the interpolation period.
+fn interpolate(wanted: f64, motion: &mut Motion, objects: &Objects<'_>) {
     let target = objects.position_limits().map_or(wanted, |(low, high)| motion.limited(wanted, low, high));
     motion.follow(target, period(objects), objects.max_velocity());
+}
+
+/// Moves the axis to the position in the interpolation data record (0x60C1:01).
+fn interpolated_position(motion: &mut Motion, objects: &Objects<'_>) {
+    interpolate(data_record(objects), motion, objects);
+}
+
+/// Returns the position in the interpolation data record.
+pub(super) fn data_record(objects: &Objects<'_>) -> f64 {
+    objects.sub_number(0x60C1, 1).unwrap_or(0) as f64
+}
+
+fn cyclic_position(motion: &mut Motion, objects: &Objects<'_>) {
+    interpolate(objects.real(0x607A) + objects.real(0x60B0), motion, objects);
 }
 
 fn cyclic_velocity(motion: &mut Motion, objects: &Objects<'_>) {
@@ -101,8 +163,26 @@ fn cyclic_velocity(motion: &mut Motion, objects: &Objects<'_>) {
 }
 
 fn cyclic_torque(motion: &mut Motion, objects: &Objects<'_>) {
+    let torque = limited_torque(objects.real(0x6071) + objects.real(0x60B2), motion, objects);
+    drive_with(torque, motion, objects);
+}
+
+/// Returns a torque that is limited by the maximum torque (0x6072).
+fn limited_torque(torque: f64, motion: &mut Motion, objects: &Objects<'_>) -> f64 {
     let most = objects.positive(0x6072).unwrap_or(f64::INFINITY);
-    let torque = motion.limited(objects.real(0x6071) + objects.real(0x60B2), -most, most);
+    motion.limited(torque, -most, most)
+}
+
+/// Returns the torque after one step on the ramp of the torque slope (0x6087) to the target torque (0x6071). Without a
+/// slope, the torque changes at once.
+fn ramped_torque(torque: f64, motion: &mut Motion, objects: &Objects<'_>) -> f64 {
+    let target = limited_torque(objects.real(0x6071), motion, objects);
+    let most = objects.positive(0x6087).map_or(f64::INFINITY, |slope| slope * STEP.as_secs_f64());
+    torque + (target - torque).clamp(-most, most)
+}
+
+/// Moves the axis for one step with a torque in 0.1 % of the rated torque.
+fn drive_with(torque: f64, motion: &mut Motion, objects: &Objects<'_>) {
     let end = torque / 1000.0 * top_velocity(objects);
     // The friction slows the acceleration down, so the velocity approaches its end value exponentially.
     let rate = Profile::read(objects).acceleration / top_velocity(objects);

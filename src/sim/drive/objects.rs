@@ -15,7 +15,7 @@ const ACCELERATION: f64 = 100_000.0;
 /// Initial values of objects without an initial value in the device description. For these objects, the value 0 would
 /// have an unwanted meaning: stop reactions, homing method, and supported modes of operation.
 const DEFAULTS: [(u16, i64); 6] =
-    [(0x605A, 2), (0x605C, 1), (0x605D, 1), (0x605E, 2), (0x6098, 37), (0x6502, 0b11_1010_0101)];
+    [(0x605A, 2), (0x605C, 1), (0x605D, 1), (0x605E, 2), (0x6098, 37), (0x6502, 0b111_1110_1111)];
 
 /// The objects of an axis.
 pub(super) struct Objects<'d> {

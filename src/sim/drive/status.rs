@@ -1,7 +1,10 @@
 //! Statusword and actual values of a simulated drive.
 
 use super::homing::Homing;
-use super::modes::{self, CYCLIC_POSITION, CYCLIC_TORQUE, CYCLIC_VELOCITY, HOMING, PROFILE_POSITION, PROFILE_VELOCITY};
+use super::modes::{
+    self, CYCLIC_POSITION, CYCLIC_TORQUE_WITH_ANGLE, HOMING, INTERPOLATED_POSITION, PROFILE_POSITION, PROFILE_TORQUE,
+    PROFILE_VELOCITY, START, VELOCITY,
+};
 use super::objects::Objects;
 use super::state::State;
 use super::{Drive, HALT};
@@ -22,6 +25,7 @@ impl Drive {
         objects.put(0x60F4, (motion.demand - motion.position).round() as i64);
         objects.put(0x606B, motion.velocity.round() as i64);
         objects.put(0x606C, motion.velocity.round() as i64);
+        [0x6043, 0x6044].into_iter().for_each(|index| objects.put(index, motion.velocity.round() as i64));
         let torque = modes::torque(motion, objects).round() as i64;
         [0x6074, 0x6077, 0x6078].into_iter().for_each(|index| objects.put(index, torque));
         self.published = objects.number(0x6064);
@@ -53,19 +57,22 @@ impl Drive {
         match self.mode {
             PROFILE_POSITION => self.set_points.is_reached() && is_still,
             PROFILE_VELOCITY => (self.motion.velocity - objects.real(0x60FF)).abs() <= objects.real(0x606D),
+            PROFILE_TORQUE => self.torque == objects.real(0x6071),
             HOMING => is_still && !self.homing.is_running(),
-            CYCLIC_POSITION..=CYCLIC_TORQUE => false,
+            INTERPOLATED_POSITION => is_still && self.motion.position == modes::data_record(objects),
+            VELOCITY | CYCLIC_POSITION..=CYCLIC_TORQUE_WITH_ANGLE => false,
             _ => is_still,
         }
     }
 
-    /// Returns bit 12: set-point acknowledge, speed zero, homing attained, or follows command value.
+    /// Returns bit 12: set-point acknowledge, speed zero, homing attained, interpolation active, or follows command value.
     fn is_confirmed(&self, objects: &Objects<'_>) -> bool {
         match self.mode {
             PROFILE_POSITION => self.set_points.is_acknowledged(),
             PROFILE_VELOCITY => self.motion.velocity.abs() <= objects.real(0x606F),
             HOMING => self.homing == Homing::Attained,
-            CYCLIC_POSITION | CYCLIC_VELOCITY | CYCLIC_TORQUE => self.control & HALT == 0,
+            INTERPOLATED_POSITION => self.control & (HALT | START) == START,
+            CYCLIC_POSITION..=CYCLIC_TORQUE_WITH_ANGLE => self.control & HALT == 0,
             _ => false,
         }
     }

@@ -1,21 +1,15 @@
 //! Tests the SDO server of the simulated node with the client of the Python library `canopen`: block transfers, and
 //! segmented transfers for comparison.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
-use std::thread::{self, JoinHandle};
-use std::time::Duration;
-
-use lexibus::clients::canopen::{CanFrame, CanPort};
 use lexibus::sim::{CanNode, Device};
 use lexibus::{AbortCode, AccessRights, Bound, DataType, Entry, Flags, Object, RawInitial};
 use serde_json::{json, Value};
 
+use super::served::{Loses, Served};
 use super::types::hex;
 use super::{node_id, NODE};
 use crate::pty::Pty;
 use crate::python::{python, Script};
-use crate::slcan::Slcan;
 
 /// Object of type DOMAIN that can be read and written.
 const FIRMWARE: Object = Object::new(0x2002, 0);
@@ -36,66 +30,14 @@ const fn domain(object: Object, access: AccessRights) -> Entry {
         unit: "",
     }
 }
-/// Time to wait for a frame before the thread checks whether the test has ended.
-const POLL: Duration = Duration::from_millis(20);
-
-/// Selects the frames that the line loses, by their number among the frames with this identifier.
-type Loses = fn(id: u32, number: usize) -> bool;
-
-/// The simulated node on a serial line, in a thread.
-struct Served {
-    node: Arc<Mutex<CanNode>>,
-    is_ended: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Served {
-    fn start(line: Pty, loses: Loses) -> Self {
-        let entries = [domain(FIRMWARE, AccessRights::ReadWrite), domain(IDENTITY, AccessRights::ReadOnly)];
-        let node = Arc::new(Mutex::new(CanNode::new(Device::new(&entries).with_node_id(node_id()))));
-        let is_ended = Arc::new(AtomicBool::new(false));
-        let (served, ended) = (node.clone(), is_ended.clone());
-        let thread = thread::spawn(move || {
-            let (mut line, mut requests, mut replies) = (Slcan::new(line), 0, 0);
-            let mut is_lost = |frame: &CanFrame| {
-                let count = if frame.id() == 0x600 + u32::from(NODE) { &mut requests } else { &mut replies };
-                *count += 1;
-                loses(frame.id(), *count)
-            };
-            while !ended.load(Ordering::Relaxed) {
-                let request = line.receive(POLL, &mut |_| true).expect("a line");
-                let mut node = served.lock().expect("no panic");
-                if let Some(request) = request.filter(|request| !is_lost(request)) {
-                    node.handle(&request);
-                }
-                while let Some(reply) = node.next_frame() {
-                    if !is_lost(&reply) {
-                        assert!(line.send(&reply, Duration::from_secs(10)).expect("a line"), "the line is full");
-                    }
-                }
-            }
-        });
-        Self { node, is_ended, thread: Some(thread) }
-    }
-
-    fn value(&self) -> Vec<u8> {
-        self.node.lock().expect("no panic").device().bytes(FIRMWARE).expect("an object").to_vec()
-    }
-}
-
-impl Drop for Served {
-    fn drop(&mut self) {
-        self.is_ended.store(true, Ordering::Relaxed);
-        let result = self.thread.take().map_or(Ok(()), JoinHandle::join);
-        assert!(result.is_ok() || thread::panicking(), "the thread of the node has panicked");
-    }
-}
 
 fn start(loses: Loses) -> Option<(Script, Served)> {
     let python = python()?;
     let line = Pty::open();
     let (script, _) = Script::start(python, "canopen_client.py", &[line.path(), &NODE.to_string()]);
-    Some((script, Served::start(line, loses)))
+    let entries = [domain(FIRMWARE, AccessRights::ReadWrite), domain(IDENTITY, AccessRights::ReadOnly)];
+    let node = CanNode::new(Device::new(&entries).with_node_id(node_id()));
+    Some((script, Served::start(line, node, loses)))
 }
 
 fn value(length: usize) -> Vec<u8> {
@@ -109,7 +51,8 @@ fn round_trip(script: &mut Script, served: &Served, length: usize, block: bool, 
     let write =
         json!({ "do": "download", "index": index, "sub": sub, "data": hex(&value), "block": block, "crc": crc });
     assert_eq!(script.ask(write), Value::Null, "{length}");
-    assert!(served.value() == value, "{length} bytes are written");
+    let is_written = served.node.lock().expect("no panic").device().bytes(FIRMWARE) == Ok(&value[..]);
+    assert!(is_written, "{length} bytes are written");
     let read = json!({ "do": "upload", "index": index, "sub": sub, "block": block, "crc": crc });
     assert_eq!(script.ask(read), hex(&value), "{length}");
 }

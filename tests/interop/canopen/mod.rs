@@ -7,7 +7,9 @@ mod lss;
 mod network;
 mod not_blocking;
 mod pdo;
+mod profile;
 mod refusals;
+mod served;
 mod types;
 
 use std::path::{Path, PathBuf};

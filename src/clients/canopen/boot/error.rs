@@ -49,6 +49,12 @@ impl fmt::Display for VersionText {
 
 /// Reason why the boot of a node failed. `E` is the error type of the CAN interface. The letters are the error statuses
 /// of CiA 302-2.
+///
+/// The letter L is no error: [`Booted::status`](super::Booted::status) returns it. Three letters don't occur:
+///
+/// - A (the node isn't in the network list 0x1F81): the program has no such list, because it boots each node by itself.
+/// - G and I (program download not configured, or failed): the master doesn't download programs. H stands for a node that
+///   needs another program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BootError<E> {
@@ -56,6 +62,8 @@ pub enum BootError<E> {
     Command(Error<E>),
     /// The node did not send its boot-up message after the restart.
     NoBootUp,
+    /// E: a node that is to be [kept running](super::Boot::keep_running) sent no heartbeat.
+    NoHeartbeat,
     /// An object could not be read: B (0x1000), D, M, N or O (0x1018), H (0x100A), J (0x1020).
     Access {
         /// The object.
@@ -126,7 +134,7 @@ pub enum BootError<E> {
         /// The state in the last heartbeat or guarding answer, or `None` if none arrived.
         actual: Option<NmtState>,
     },
-    /// F: node guarding failed after the start of the node.
+    /// F: node guarding failed after the start of the node, or of a node that is to be kept running.
     Guarding(GuardError<E>),
 }
 
@@ -152,6 +160,7 @@ impl<E> BootError<E> {
             Self::SerialNumber { .. } => 'O',
             Self::SoftwareVersion { .. } => 'H',
             Self::Configuration(_) | Self::Store { .. } => 'J',
+            Self::NoHeartbeat => 'E',
             Self::NotOperational { .. } => 'K',
             Self::Guarding(_) => 'F',
             Self::Command(_) | Self::NoBootUp | Self::HardwareVersion { .. } => return None,
@@ -167,6 +176,7 @@ impl<E: fmt::Display> fmt::Display for BootError<E> {
         match self {
             Self::Command(error) => error.fmt(f),
             Self::NoBootUp => f.write_str("the node did not send its boot-up message after the restart"),
+            Self::NoHeartbeat => f.write_str("the node sent no heartbeat"),
             Self::Access { object, error } => write!(f, "cannot read {object}: {error}"),
             Self::DeviceType { expected, actual } => number(f, "device type (0x1000)", expected, actual),
             Self::VendorId { expected, actual } => number(f, "vendor-ID (0x1018:01)", expected, actual),

@@ -51,6 +51,7 @@ pub struct Boot {
     date: Option<TimeOfDay>,
     pub(super) is_stored: bool,
     pub(super) reset: Option<Duration>,
+    pub(super) keeps_running: bool,
     pub(super) error_control: ErrorControl,
 }
 
@@ -69,13 +70,27 @@ impl Boot {
     #[must_use]
     pub const fn new(error_control: ErrorControl) -> Self {
         let checks = Checks { device_type: 0, identity: [0; 4], hardware_version: None, software_version: None };
-        Self { checks, configuration: None, date: None, is_stored: false, reset: None, error_control }
+        let reset = None;
+        Self { checks, configuration: None, date: None, is_stored: false, reset, keeps_running: false, error_control }
     }
 
     /// Restarts the node first (NMT command "reset node"), and waits for its boot-up message for at most `patience`.
     #[must_use]
     pub const fn reset(mut self, patience: Duration) -> Self {
         self.reset = Some(patience);
+        self
+    }
+
+    /// Keeps a node running that is already in Operational, as bit 4 of the object 0x1F81 of a CANopen manager does (CiA
+    /// 302-2): the master checks the device type, the identity and the versions, and then waits for a heartbeat or asks
+    /// with node guarding once. A node in Operational is neither restarted nor configured, and
+    /// [`Booted::was_operational`](super::Booted::was_operational) is true. A node in another state is booted as without
+    /// this option.
+    ///
+    /// Without [error control](ErrorControl::None), the state of the node is unknown, and the option has no effect.
+    #[must_use]
+    pub const fn keep_running(mut self) -> Self {
+        self.keeps_running = true;
         self
     }
 

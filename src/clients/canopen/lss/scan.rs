@@ -1,13 +1,13 @@
 //! Search for slaves that have no node-ID.
 
-use super::super::port::{AsyncCanPort, CanPort, BACKLOG};
+use super::super::port::{AsyncCanPort, CanPort};
 use super::LssMaster;
 use crate::lss::{is_identified, FastScan, LssAddress, LssError, LssState, Service};
 
 macro_rules! scan {
     (
         $Port:ident: $has_unconfigured:ident $fast_scan:ident $step:ident $await_start:ident
-        $switch_global:ident $inquire_address:ident $send:ident $receive:ident $run:ident $($async:ident $await:ident)?
+        $switch_global:ident $inquire_address:ident $send:ident $receive:ident $collect:ident $run:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> LssMaster<P> {
             /// Returns whether there are slaves in Waiting that have no node-ID. [`fast_scan`](Self::fast_scan) finds
@@ -66,18 +66,7 @@ macro_rules! scan {
 
             /// Collects the answers to a fastscan request for the duration of the window. Returns whether there are any.
             $($async)? fn $step(&mut self, scan: &mut FastScan) -> Result<bool, LssError<P::Error>> {
-                let start = self.port.now();
-                let mut patience = self.window;
-                let mut is_answered = false;
-                for _ in 0..BACKLOG {
-                    let answer = self.$receive(patience, &|message| is_identified(message))$(.$await)??;
-                    let Some(message) = answer else { break };
-                    is_answered = true;
-                    scan.handle(&message);
-                    let elapsed = start.zip(self.port.now()).map(|(start, now)| now.saturating_sub(start));
-                    patience = self.window.saturating_sub(elapsed.unwrap_or_default());
-                }
-                Ok(is_answered)
+                self.$collect(self.window, &|message| is_identified(message), &mut |message| scan.handle(message))$(.$await)?
             }
 
             /// Waits for an answer to the start of a scan that is later than the window, for the rest of the timeout.
@@ -92,9 +81,9 @@ macro_rules! scan {
 
 scan! {
     CanPort: has_unconfigured fast_scan step await_start
-    switch_global inquire_address send receive run
+    switch_global inquire_address send receive collect run
 }
 scan! {
     AsyncCanPort: has_unconfigured_async fast_scan_async step_async await_start_async
-    switch_global_async inquire_address_async send_async receive_async run_async async await
+    switch_global_async inquire_address_async send_async receive_async collect_async run_async async await
 }

@@ -1,12 +1,13 @@
 //! Handles of a network as CAN ports.
 
 use core::future::poll_fn;
-use core::task::Poll;
+use core::task::{Poll, Waker};
 use core::time::Duration;
 
 use super::super::frame::CanFrame;
 use super::super::port::{AsyncCanPort, CanPort, MOST_WAITING};
 use super::{Network, NetworkPort};
+use crate::clock::elapsed;
 
 /// Longest time for which an async handle uses the interface before the other handles get the interface.
 const SLICE: Duration = Duration::from_millis(1);
@@ -19,18 +20,19 @@ struct Used<'n, P, const N: usize> {
 
 impl<P, const N: usize> Drop for Used<'_, P, N> {
     fn drop(&mut self) {
-        if let Some(port) = self.port.take() {
-            self.network.port.set(Some(port));
-            self.network.turn.set(self.network.turn.get().wrapping_add(1));
-            self.network.wake();
-        }
+        self.put_back();
     }
 }
 
 impl<P, const N: usize> Used<'_, P, N> {
     /// Returns the interface to the network. Returns whether other handles wait for it.
     fn release(mut self) -> bool {
-        self.network.port.set(self.port.take());
+        self.put_back()
+    }
+
+    fn put_back(&mut self) -> bool {
+        let Some(port) = self.port.take() else { return false };
+        self.network.port.set(Some(port));
         self.network.turn.set(self.network.turn.get().wrapping_add(1));
         self.network.wake()
     }
@@ -55,36 +57,27 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
 
     /// Waits until another handle has received a frame or returned the interface.
     async fn pause(&self) {
-        let mut is_noted = false;
-        let noted = poll_fn(|context| {
-            if is_noted {
-                return Poll::Ready(());
-            }
-            is_noted = true;
-            self.network.note(context.waker());
-            Poll::Pending
-        });
-        noted.await;
+        once_pending(|waker| self.network.note(waker)).await;
     }
 
     /// Lets the other handles run.
     async fn give_way(&self) {
-        let mut has_run = false;
-        let others = poll_fn(|context| {
-            if has_run {
-                return Poll::Ready(());
-            }
-            has_run = true;
-            context.waker().wake_by_ref();
-            Poll::Pending
-        });
-        others.await;
+        once_pending(Waker::wake_by_ref).await;
     }
 }
 
-/// Returns the time since `start`, or `waited` without a clock.
-fn elapsed(start: Option<Duration>, now: Option<Duration>, waited: Duration) -> Duration {
-    start.zip(now).map_or(waited, |(start, now)| now.saturating_sub(start))
+/// Is pending at the first poll, at which `first` decides when the waker is called.
+async fn once_pending(first: impl Fn(&Waker)) {
+    let mut was_polled = false;
+    let once = poll_fn(|context| {
+        if was_polled {
+            return Poll::Ready(());
+        }
+        was_polled = true;
+        first(context.waker());
+        Poll::Pending
+    });
+    once.await;
 }
 
 /// The interface is always free, because only one handle is called at a time.
@@ -128,7 +121,7 @@ impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
         let (start, mut waited, turn) = (AsyncCanPort::now(self), Duration::ZERO, self.network.turn.get());
         loop {
-            let left = patience.saturating_sub(elapsed(start, AsyncCanPort::now(self), waited));
+            let left = patience.saturating_sub(elapsed(start, AsyncCanPort::now(self)).unwrap_or(waited));
             let mut used = self.using(P::now);
             let Some(port) = used.as_mut().and_then(|used| used.port.as_mut()) else {
                 if left.is_zero() && self.network.turn.get() != turn {
@@ -160,7 +153,7 @@ impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
             if let Some(frame) = network.take(owner, wanted) {
                 return Ok(Some(frame));
             }
-            let left = patience.saturating_sub(elapsed(start, AsyncCanPort::now(self), waited));
+            let left = patience.saturating_sub(elapsed(start, AsyncCanPort::now(self)).unwrap_or(waited));
             let slice = left.min(SLICE);
             let mut used = self.using(P::now);
             let Some(port) = used.as_mut().and_then(|used| used.port.as_mut()) else {

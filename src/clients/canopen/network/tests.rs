@@ -93,6 +93,8 @@ fn frames_of_other_nodes_are_kept() {
     let codes: Vec<_> = core::iter::from_fn(|| two.emergency(Duration::ZERO).unwrap()).map(|it| it.code).collect();
     assert_eq!(codes, [0x1000, 0x1005, 0x100A, 0x100F]);
     assert_eq!((network.lost(), network.lost_emergencies()), (0, 0));
+    // The PDOs of node 3 are for no handle.
+    assert_eq!(network.unclaimed(), 20);
 }
 
 #[test]
