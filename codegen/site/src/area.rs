@@ -175,11 +175,8 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
     };
     let number = hex16(index);
     if let ([(id, item)], false) = (items, code.has_subs()) {
-        let mut row = rows.row(*id, item, number, false);
-        if row.name.is_empty() {
-            row.name = group.name.to_string();
-        }
-        return Section::plain(vec![row]);
+        let row = rows.row(*id, item, number, false);
+        return Section::plain(vec![Row { name: item::entry_name(item, group), ..row }]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
     facts.extend(PLAIN.group_origins(group));

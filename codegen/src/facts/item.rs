@@ -3,17 +3,19 @@
 use super::physical::{shown_unit, Physical};
 use super::types;
 use super::words::PLAIN;
-use crate::ir::{Group, Item, Limits, Mappable, Quantity, Scale, Type, TypeDef, Value};
+use crate::ir::{Group, Item, Limits, Mappable, ObjectCode, Quantity, Scale, Type, TypeDef, Value};
 
-/// Returns the name of an entry of an object that has sub-indices. Many files name their entries `SubIndex 001`, or not at all. Such
-/// an entry has the name of its object and its sub-index: `RxPDO 1 mapping, sub-index 1`. Sub-index 0 contains the number of entries
-/// (CiA 301).
+/// Returns the name of an item. Many files name the entries of an object `SubIndex 001`, or not at all. Such an entry has the name of its
+/// object and its sub-index: `RxPDO 1 mapping, sub-index 1`. Sub-index 0 contains the number of entries (CiA 301). The value of an object
+/// without sub-indices has the name of the object.
 pub fn entry_name(item: &Item, group: &Group) -> String {
+    let has_subs = group.object_code().is_some_and(ObjectCode::has_subs);
     match item.object() {
-        Some((_, 0)) if is_placeholder(&item.name) => "Number of entries".to_owned(),
-        Some((_, sub_index)) if is_placeholder(&item.name) && !group.name.is_empty() => {
+        Some((_, 0)) if has_subs && is_placeholder(&item.name) => "Number of entries".to_owned(),
+        Some((_, sub_index)) if has_subs && is_placeholder(&item.name) && !group.name.is_empty() => {
             format!("{}, sub-index {sub_index}", group.name)
         }
+        Some(_) if !has_subs && is_placeholder(&item.name) && !group.name.is_empty() => group.name.to_string(),
         _ => item.name.to_string(),
     }
 }
@@ -132,7 +134,7 @@ pub fn integer(number: i128, is_unsigned: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Binding, ObjectCode};
+    use crate::ir::Binding;
 
     #[test]
     fn names_that_state_only_a_sub_index() {
@@ -155,5 +157,7 @@ mod tests {
         assert_eq!(entry_name(&entry(2, ""), &mapping), "TxPDO 1 mapping, sub-index 2");
         assert_eq!(entry_name(&entry(2, "Speed"), &mapping), "Speed");
         assert_eq!(entry_name(&entry(2, "SubIndex 002"), &object("")), "SubIndex 002");
+        let value = Group { name: "Speed".into(), ..Group::object(0x1A00, ObjectCode::Var) };
+        assert_eq!(entry_name(&entry(0, ""), &value), "Speed");
     }
 }
