@@ -94,14 +94,14 @@ export class Window {
     return this.page;
   }
 
-  // Types a text into the search field and returns the results. Waits until results or the message `Nothing found.` are shown.
+  // Types a text into the search field and returns the results. Waits until results of the whole index or the message `Nothing found.` are shown.
   async search(text) {
     const { page } = this;
     await page.keyboard.press("Escape");
     await page.keyboard.press("/");
     await page.keyboard.press("ControlOrMeta+A");
     await page.keyboard.type(text);
-    await page.waitForFunction(() => document.querySelector("#found li") || document.querySelector(".search [role=status]").textContent);
+    await page.waitForFunction(() => isLoaded && document.querySelector("#found li") || document.querySelector(".search [role=status]").textContent);
     return page.locator("#found li").allTextContents();
   }
 

@@ -15,7 +15,7 @@ await withBrowser(async (browser) => {
     const page = await window.go(place);
     assert.deepEqual(window.complaints, [], place);
     const isList = await page.locator("#devices").count() > 0;
-    const loaded = window.requests.map((url) => url.split("/").pop()).filter((file) => !isList || file !== "search.js").sort();
+    const loaded = window.requests.map((url) => url.split("/").pop()).filter((file) => !isList || !/^search(-first)?\.js$/.test(file)).sort();
     assert.deepEqual(loaded, [place.split("/").pop(), "site.css", "site.js"].sort(), place);
     const seen = await page.evaluate(() => ({
       headings: document.querySelectorAll("h1").length,

@@ -49,6 +49,7 @@ await withBrowser(async (browser) => {
   lists.clean();
   const window = await Window.open(browser, site);
   await loadsWhenIdle(window);
+  await firstPart(window);
   await finds(window, FOUND);
   await units(window);
   await arrows(window);
@@ -93,6 +94,30 @@ async function loadsWhenIdle(window) {
   assert.equal((await window.search("KP_VEL")).length, 1);
   assert.equal(window.requests.length, requests);
   await page.keyboard.press("Escape");
+}
+
+// Checks that the first part of the index answers before the whole index is loaded, and that the selected result stays selected then.
+async function firstPart(window) {
+  let release;
+  const held = new Promise((resolve) => { release = resolve; });
+  await window.context.route(/search\.js$/, async (route) => { await held; await route.continue(); });
+  const page = await window.go("index.html");
+  await page.keyboard.press("/");
+  await page.keyboard.type("target");
+  await page.waitForSelector("#found li");
+  const shown = await page.locator("#found li").allTextContents();
+  assert.ok(shown.some((text) => /target/i.test(text)), shown.join("\n"));
+  assert.ok(!await page.evaluate(() => isLoaded));
+  await page.keyboard.press("ArrowDown");
+  const selected = () => page.locator("#found [aria-selected=true]").getAttribute("href");
+  const before = await selected();
+  release();
+  await page.waitForFunction(() => isLoaded);
+  const after = await page.locator("#found a").evaluateAll((links) => links.map((link) => link.getAttribute("href")));
+  assert.ok(after.length >= shown.length, `${after.length} results of the whole index, ${shown.length} before`);
+  if (after.includes(before)) assert.equal(await selected(), before);
+  await page.keyboard.press("Escape");
+  await window.context.unroute(/search\.js$/);
 }
 
 // Checks that the filter of a long list also finds devices on the other pages of the list.

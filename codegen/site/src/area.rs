@@ -9,7 +9,7 @@ use super::shared::{self, SharedDoubt};
 use super::split::{self, Fill};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::number::hex16;
-use lexibus_codegen::facts::{address, area};
+use lexibus_codegen::facts::{address, area, item};
 use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, Type, TypeDef};
 
 /// Maximum number of items on a page.
@@ -30,6 +30,11 @@ impl Area {
     /// Returns the number of items on the page.
     pub fn count(&self) -> usize {
         self.sections.iter().map(|section| section.rows.len()).sum()
+    }
+
+    /// Returns whether a row has requests with a node-ID or unit.
+    pub fn has_requests(&self) -> bool {
+        self.sections.iter().flat_map(|section| &section.rows).any(|row| !row.fixed_requests.is_empty())
     }
 }
 
@@ -170,11 +175,8 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
     };
     let number = hex16(index);
     if let ([(id, item)], false) = (items, code.has_subs()) {
-        let mut row = rows.row(*id, item, number, false);
-        if row.name.is_empty() {
-            row.name = group.name.to_string();
-        }
-        return Section::plain(vec![row]);
+        let row = rows.row(*id, item, number, false);
+        return Section::plain(vec![Row { name: item::entry_name(item, group), ..row }]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
     facts.extend(PLAIN.group_origins(group));
@@ -183,7 +185,11 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| address::object(index, sub));
     let mut diagnostics = rows.known.diagnostics.of_group(group);
     let doubts = entry::doubts(&group.doubts, rows.known.manual);
-    let mut rows: Vec<Row> = items.iter().map(|&(id, item)| rows.row(id, item, sub(item), false)).collect();
+    let mut row = |id: ItemId, item: &Item| {
+        let row = rows.row(id, item, sub(item), false);
+        Row { name: item::entry_name(item, group), ..row }
+    };
+    let mut rows: Vec<Row> = items.iter().map(|&(id, item)| row(id, item)).collect();
     shared::diagnostics(&mut rows, &mut diagnostics);
     Section {
         anchor: Some(anchor),

@@ -12,10 +12,16 @@ use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
 /// A code table on a page.
 #[derive(Debug)]
 pub(super) struct Codes {
+    /// Position of the table in the device.
+    pub position: usize,
+    /// Set if the first rows of the table are on a page before.
+    pub is_continued: bool,
     pub anchor: String,
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<Doubt>,
+    /// Links to elements that the description of the table mentions.
+    pub relations: Vec<Relation>,
     pub columns: Vec<String>,
     pub rows: Vec<Code>,
 }
@@ -23,13 +29,15 @@ pub(super) struct Codes {
 /// A row of a code table on a page.
 #[derive(Debug)]
 pub(super) struct Code {
+    /// Position of the row in the table.
+    pub position: usize,
     pub anchor: String,
     pub number: String,
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: String,
     pub cells: Vec<String>,
-    /// Links to the items that report the code.
+    /// Links to the elements that report the code, or that its description mentions.
     pub relations: Vec<Relation>,
 }
 
@@ -42,7 +50,8 @@ impl Section for Codes {
 
     fn continued(&self) -> Self {
         let (anchor, title, columns) = (self.anchor.clone(), self.title.clone(), self.columns.clone());
-        Codes { anchor, title, columns, facts: Vec::new(), doubts: Vec::new(), rows: Vec::new() }
+        let (facts, doubts, relations, rows) = Default::default();
+        Codes { position: self.position, is_continued: true, anchor, title, facts, doubts, relations, columns, rows }
     }
 
     fn texts(row: &Code) -> impl Iterator<Item = &str> {
@@ -54,8 +63,8 @@ impl Section for Codes {
 
 pub(super) fn tables(device: &Device, manual: &Manual) -> Vec<Codes> {
     let mut names = Names::default();
-    let with = device.code_tables.iter().filter(|table| !table.rows.is_empty());
-    with.map(|table| self::table(table, device, manual, &mut names)).collect()
+    let with = device.code_tables.iter().enumerate().filter(|(_, table)| !table.rows.is_empty());
+    with.map(|(position, table)| Codes { position, ..self::table(table, device, manual, &mut names) }).collect()
 }
 
 fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names) -> Codes {
@@ -67,13 +76,14 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
     }
     facts.extend(PLAIN.manual_entry(manual, "", table.documentation.as_deref(), &[]));
     facts.extend(PLAIN.defined_by(table.stated_by.as_deref(), table.documentation.as_deref()));
-    let rows = table.rows.iter().map(|row| {
+    let rows = table.rows.iter().enumerate().map(|(position, row)| {
         let mut facts = PLAIN.description(row.documentation.as_deref());
         facts.extend(row.availability.as_ref().map(|availability| PLAIN.availability(availability)));
         facts.extend(PLAIN.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
         facts.extend(PLAIN.defined_by(row.stated_by.as_deref(), row.documentation.as_deref()));
         let number = code::text(row);
         Code {
+            position,
             anchor: names.anchor(&format!("{}-{number}", table.name)),
             number,
             name: row.name.to_string(),
@@ -86,5 +96,6 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
     let rows = rows.collect();
     let columns = table.columns.iter().map(|column| capital(column)).collect();
     let doubts = entry::about(&device.doubts, SubjectKind::Codes, &table.name, manual);
-    Codes { anchor, title: table.name.to_string(), facts, doubts, columns, rows }
+    let title = table.name.to_string();
+    Codes { position: 0, is_continued: false, anchor, title, facts, doubts, relations: Vec::new(), columns, rows }
 }

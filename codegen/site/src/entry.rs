@@ -6,7 +6,7 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
 use super::link::{self, Relation};
-use super::requests;
+use super::requests::{self, Request};
 use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
@@ -53,8 +53,8 @@ pub(super) struct Row {
     pub writable: String,
     /// Addresses for requests, for the script of the page.
     pub requests: String,
-    /// Titles and bytes of the requests that read the item, for pages without a script.
-    pub reads: Vec<(&'static str, String)>,
+    /// Requests that read and write the item, for pages without a script.
+    pub fixed_requests: Vec<Request>,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
     /// Anchor and name of the row on this page that shows the bits or values of the same type.
@@ -105,7 +105,7 @@ impl Row {
         (!parts.is_empty()).then(|| parts.join(" "))
     }
 
-    /// Returns whether there are facts to show below the row.
+    /// Returns whether there are facts or requests to show below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
             || !self.translations.is_empty()
@@ -118,6 +118,7 @@ impl Row {
             || self.bits.is_some()
             || !self.labels.is_empty()
             || self.same_as.is_some()
+            || !self.requests.is_empty()
     }
 }
 
@@ -168,7 +169,8 @@ impl Rows<'_> {
             None => {
                 (drawn, labels) = bits::of_type(self.types, item.ty);
                 if drawn.is_some() || !labels.is_empty() {
-                    let name = if item.name.is_empty() { number.clone() } else { item.name.to_string() };
+                    let has_name = !item::is_placeholder(&item.name);
+                    let name = if has_name { item.name.to_string() } else { number.clone() };
                     self.shown.push((item.ty, anchor.clone(), name));
                 }
             }
@@ -210,7 +212,7 @@ impl Rows<'_> {
             scale: tools::scale(item),
             writable: tools::range(item),
             requests: tools::addresses(item, self.known.modbus),
-            reads: requests::reads(item, self.known.modbus),
+            fixed_requests: requests::requests(item, self.types, self.known.modbus),
             bits: drawn,
             labels,
             same_as,

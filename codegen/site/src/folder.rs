@@ -5,30 +5,30 @@ use std::rc::Rc;
 
 use super::addresses::Addresses;
 use super::anchor::Names;
-use super::area::{self, Area};
-use super::assumptions::{AmbiguitySources, Ranked};
+use super::area;
 use super::builder;
-use super::codes::{self, Codes};
+use super::codes;
 use super::diagnostics::{self, ShownDiagnostics};
-use super::entry::{Known, Row};
+use super::entry::Known;
 use super::html;
+use super::indexing;
+use super::languages::{languages, languages_of_modules};
 use super::links::Links;
 use super::machines;
 use super::modules::Modules;
-use super::overview::{self, Contents, Overview};
+use super::overview::{self, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, ROOT};
+use super::parts::Parts;
 use super::process::{self, About, ProcessPart};
-use super::protocol::{self, Protocol};
-use super::references::{self, Targets};
+use super::protocol;
 use super::revisions::{Changes, Previous};
-use super::search::{Entry, Index};
-use super::slots::{self, ModuleLinks, Slots};
+use super::search::{self, Entry, Index};
+use super::slots::{self, ModuleLinks};
 use super::split;
 use super::Page;
 use lexibus_codegen::backend::rust;
-use lexibus_codegen::facts::referrers::Referrers;
 use lexibus_codegen::facts::{self, pdo, words};
-use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Manual, Texts};
+use lexibus_codegen::ir::{Catalog, Device, Manual};
 
 /// The writer of a catalog's pages.
 pub(super) struct Folder<'a> {
@@ -62,63 +62,6 @@ struct Common<'m> {
     list: Option<(String, String)>,
     /// Links to the pages that the devices share.
     shared: Rc<Links>,
-}
-
-/// The contents of a device's pages, and the file names of these pages.
-struct Parts {
-    overview: Overview,
-    areas: Vec<Area>,
-    data: ProcessPart,
-    process: Option<String>,
-    protocol: Option<(String, Protocol)>,
-    behaviour: Option<(String, machines::Behaviour)>,
-    /// File, title and tables of each page of codes.
-    codes: Vec<(String, String, Vec<Codes>)>,
-}
-
-impl Parts {
-    /// Returns the ambiguities of a device whose first page is `first`, sorted by severity.
-    fn assumptions<'p>(&'p self, first: &'p str) -> Vec<Ranked<'p>> {
-        let sources = AmbiguitySources {
-            overview: (first, &self.overview.doubts),
-            areas: &self.areas,
-            process: self.process.as_deref().map(|file| (file, self.data.frames.as_slice())),
-            protocol: self.protocol.as_ref().map(|(file, protocol)| (file.as_str(), protocol)),
-            behaviour: self.behaviour.as_ref().map(|(file, behaviour)| (file.as_str(), behaviour)),
-            codes: &self.codes,
-        };
-        sources.ranked()
-    }
-}
-
-/// Returns the file and the content of an optional page.
-fn page<T>(page: &Option<(String, T)>) -> Option<(&str, &T)> {
-    page.as_ref().map(|(file, content)| (file.as_str(), content))
-}
-
-impl Parts {
-    /// Adds the links between the elements.
-    fn link(&mut self, device: &Device) {
-        let pages = references::Pages {
-            areas: &self.areas,
-            frames: (self.process.as_deref(), &self.data.frames),
-            behaviour: page(&self.behaviour),
-            protocol: page(&self.protocol),
-        };
-        let (targets, referrers) = (Targets::new(device, &pages), Referrers::new(device));
-        for row in self.areas.iter_mut().flat_map(|area| &mut area.sections).flat_map(|section| &mut section.rows) {
-            row.relations = targets.relations(row.id, &referrers);
-        }
-        for entry in self.data.frames.iter_mut().flat_map(|frame| &mut frame.entries) {
-            entry.target = targets.item(entry.item).map(|link| link.target.clone()).unwrap_or_default();
-        }
-        if let Some((_, behaviour)) = &mut self.behaviour {
-            targets.link(behaviour);
-        }
-        for (_, _, tables) in &mut self.codes {
-            targets.link_codes(tables);
-        }
-    }
 }
 
 impl<'a> Folder<'a> {
@@ -211,7 +154,7 @@ impl<'a> Folder<'a> {
     /// Adds a page to the index, with an entry for the page itself.
     fn index_page(&mut self, file: &str, kind: &'static str, title: &str, words: &str) {
         self.index.page(file, kind);
-        self.index.entry(&Entry { words, ..index_entry("", "", title) });
+        self.index.entry(&Entry { words, ..indexing::entry("", "", title) });
     }
 
     fn page(&mut self, frame: &Frameset, file: &str, content: Content<'_>) {
@@ -268,17 +211,17 @@ impl<'a> Folder<'a> {
             });
         }
         let links = ModuleLinks { modules: common.modules, path: &common.path };
-        let contents = contents(&parts, slots::slots(catalog, device, links));
+        let contents = parts.contents(slots::slots(catalog, device, links));
         self.page(&frame, &first, Content::Overview(&parts.overview, &contents));
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
         let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
         self.index.device(&listed.title, &listed.words(), listed.distinction(), &self.open);
-        self.index_page(&first, "device", &listed.title, &listed.words());
+        self.index_page(&first, search::DEVICE, &listed.title, &listed.words());
         for area in &parts.areas {
             self.page(&frame, &area.file, Content::Area(area));
             self.index_page(&area.file, "", &area.title, "");
-            index_area(&mut self.index, area);
+            indexing::area(&mut self.index, area);
         }
         self.further(device, &parts, &frame);
         for (file, title) in assumptions.into_iter().chain(changes) {
@@ -337,44 +280,22 @@ impl<'a> Folder<'a> {
             let sync_managers = process::sync_managers(&device.process_data);
             self.page(frame, file, Content::Process(&parts.data, &sync_managers));
             self.index_page(file, "PDO", "Process data", "");
-            for frame in &parts.data.frames {
-                self.index.entry(&index_entry(&frame.anchor, &frame.anchor, &frame.title));
-            }
+            indexing::frames(&mut self.index, &parts.data.frames);
         }
         if let Some((file, protocol)) = &parts.protocol {
             self.page(frame, file, Content::Protocol(protocol));
             self.index_page(file, "", "Messages", "");
-            for message in &protocol.messages {
-                let words = message.facts.first().map_or("", String::as_str);
-                let entry = index_entry(&message.anchor, "message", &message.name);
-                self.index.entry(&Entry { names: &message.names, words, ..entry });
-            }
+            indexing::messages(&mut self.index, protocol);
         }
         if let Some((file, behaviour)) = &parts.behaviour {
             self.page(frame, file, Content::Machines(behaviour));
             self.index_page(file, "", "States and procedures", "");
-            for machine in &behaviour.machines {
-                for state in &machine.states {
-                    let words = format!("{} {}", state.identifier, state.facts);
-                    let entry = index_entry(&state.anchor, "state", &state.name);
-                    self.index.entry(&Entry { names: &state.names, words: &words, ..entry });
-                }
-            }
-            for sequence in &behaviour.sequences {
-                // The anchor is the identifier of the procedure.
-                let words = format!("{} {}", sequence.anchor, sequence.facts.first().map_or("", String::as_str));
-                self.index
-                    .entry(&Entry { words: &words, ..index_entry(&sequence.anchor, "procedure", &sequence.name) });
-            }
+            indexing::behaviour(&mut self.index, behaviour);
         }
         for (file, title, tables) in &parts.codes {
             self.page(frame, file, Content::Codes(tables));
             self.index_page(file, "code", title, "");
-            for (table, row) in tables.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row))) {
-                let entry = index_entry(&row.anchor, &row.number, &row.name);
-                let words = format!("{} {} {}", table.title, row.cells.join(" "), row.facts);
-                self.index.entry(&Entry { names: &row.names, words: &words, ..entry });
-            }
+            indexing::codes(&mut self.index, tables);
         }
     }
 
@@ -390,16 +311,7 @@ impl<'a> Folder<'a> {
         for ((file, title), modules) in modules.pages() {
             self.page(frame, file, Content::Modules(modules));
             self.index_page(file, "module", title, "");
-            for module in modules {
-                let words = module.facts.first().map_or("", String::as_str);
-                for number in module.lookups() {
-                    let entry = index_entry(&module.anchor, number, &module.name);
-                    self.index.entry(&Entry { names: &module.names, words, ..entry });
-                }
-                for (_, section) in &module.sections {
-                    index_rows(&mut self.index, &section.rows);
-                }
-            }
+            modules.iter().for_each(|module| indexing::module(&mut self.index, module));
         }
     }
 }
@@ -413,105 +325,9 @@ impl Common<'_> {
     }
 }
 
-fn contents(parts: &Parts, slots: Slots) -> Contents {
-    let of_frame =
-        |(file, frame): (&String, &process::Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());
-    Contents {
-        areas: parts.areas.iter().map(|area| (area.file.clone(), area.title.clone(), area.count())).collect(),
-        frames: parts
-            .process
-            .iter()
-            .flat_map(|file| parts.data.frames.iter().map(move |frame| (file, frame)))
-            .map(of_frame)
-            .collect(),
-        slots,
-    }
-}
-
-fn index_entry<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
-    Entry { anchor, number, name, names: &[], unit: "", words: "" }
-}
-
-fn index_area(index: &mut Index, area: &Area) {
-    for section in &area.sections {
-        if let Some(anchor) = &section.anchor {
-            index.entry(&Entry { names: &section.names, ..index_entry(anchor, &section.number, &section.name) });
-        }
-        index_rows(index, &section.rows);
-    }
-}
-
-fn index_rows(index: &mut Index, rows: &[Row]) {
-    for row in rows {
-        let words = row.description.as_str();
-        for number in row.lookups() {
-            let entry = index_entry(&row.anchor, number, &row.name);
-            index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
-        }
-        index_parts(index, row);
-    }
-}
-
-/// Adds the bit fields and named values of a row. Their numbers, such as `bit 4`, are relative to the row, whose entry precedes them.
-fn index_parts(index: &mut Index, row: &Row) {
-    let mut part = |number: &str, name: &str, names: &[(String, String)]| {
-        if !name.is_empty() {
-            index.entry(&Entry { names, ..index_entry(number, number, name) });
-        }
-    };
-    for field in row.bits.iter().flat_map(|bits| &bits.fields) {
-        part(&format!("bit {}", field.bits), &field.name, &field.names);
-    }
-    for label in &row.labels {
-        part(&format!("value {}", label.number), &label.name, &label.names);
-    }
-}
-
 fn title(device: &Device) -> String {
     match facts::device::title(device) {
         "" => "Device".to_owned(),
         title => title.to_owned(),
-    }
-}
-
-/// Returns the languages of names and descriptions in these devices and in the modules. All devices share the module
-/// pages.
-fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
-    let mut all = Languages(modules.clone());
-    for device in devices {
-        all.add(&device.names, device.documentation.as_deref());
-        device.messages.iter().for_each(|message| all.add(&message.names, message.documentation.as_deref()));
-        all.add_groups(&device.groups);
-    }
-    all.0.into_iter().map(str::to_owned).collect()
-}
-
-fn languages_of_modules(catalog: &Catalog) -> BTreeSet<&str> {
-    let mut all = Languages::default();
-    for module in &catalog.modules {
-        all.add(&module.names, module.documentation.as_deref());
-        all.add_groups(&module.groups);
-    }
-    for submodule in &catalog.submodules {
-        all.add(&submodule.names, submodule.documentation.as_deref());
-        all.add_groups(&submodule.records);
-    }
-    all.0
-}
-
-#[derive(Default)]
-struct Languages<'c>(BTreeSet<&'c str>);
-
-impl<'c> Languages<'c> {
-    fn add(&mut self, names: &'c Texts, documentation: Option<&'c Documentation>) {
-        let translations = documentation.into_iter().flat_map(|documentation| documentation.translations.iter());
-        self.0.extend(names.iter().chain(translations).map(|text| text.language.as_str()));
-    }
-
-    fn add_groups(&mut self, groups: &'c [Group]) {
-        for group in groups {
-            self.add(&group.names, group.documentation.as_deref());
-            group.items.iter().for_each(|item| self.add(&item.names, item.documentation.as_deref()));
-        }
     }
 }

@@ -17,6 +17,7 @@ use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
+use super::search::Index;
 use super::Page;
 
 /// The style sheet of the pages.
@@ -32,6 +33,7 @@ const SCRIPT: &str = concat!(
     include_str!("../templates/script/decoder.js"),
     include_str!("../templates/script/builder.js"),
     include_str!("../templates/script/machines.js"),
+    include_str!("../templates/script/index.js"),
     include_str!("../templates/script/search.js"),
     include_str!("../templates/script/start.js"),
 );
@@ -193,14 +195,17 @@ impl Pages for Html {
         Some(written(&LatestPage { title, target }))
     }
 
-    fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page> {
-        vec![Page::new("search.js", search())]
+    fn of_catalog(&self, index: &Index) -> Vec<Page> {
+        vec![Page::new("search.js", index.script())]
     }
 
-    fn of_site(&self, _: &[ListedCatalog], _: &[(String, String)], search: Option<&dyn Fn() -> String>) -> Vec<Page> {
+    fn of_site(&self, _: &[ListedCatalog], _: &[(String, String)], index: Option<&Index>) -> Vec<Page> {
         let files = [("site.css", STYLE), ("site.js", SCRIPT), ("latest.js", LATEST)];
         let mut pages: Vec<Page> = files.iter().map(|(path, text)| Page::new(path, (*text).to_owned())).collect();
-        pages.extend(search.map(|search| Page::new("search.js", search())));
+        if let Some(index) = index {
+            pages.push(Page::new("search-first.js", index.first_script()));
+            pages.push(Page::new("search.js", index.script()));
+        }
         pages
     }
 }

@@ -28,6 +28,7 @@ mod assumptions;
 mod bits;
 mod builder;
 mod cell;
+mod code_references;
 mod codes;
 pub mod compare;
 mod diagnostics;
@@ -36,6 +37,8 @@ mod entry;
 mod folder;
 mod format;
 mod html;
+mod indexing;
+mod languages;
 mod latest;
 mod link;
 mod links;
@@ -45,6 +48,7 @@ mod markdown;
 mod modules;
 mod overview;
 mod pages;
+mod parts;
 mod process;
 mod protocol;
 mod references;
@@ -85,7 +89,7 @@ const GENERATOR: &str = "<meta name=\"generator\" content=\"lexibus docs\">";
 
 /// The first characters of generated files other than HTML pages.
 const BEGINNINGS: [&str; 4] =
-    ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex("];
+    ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex"];
 
 impl Page {
     /// Returns whether this page may replace a file that contains `text`. The page may replace the file if Lexibus generated the
@@ -151,7 +155,7 @@ impl Site {
         let mut folder = Folder::new(format, &self.addresses, name, &diagnostics);
         folder.catalog(catalog);
         let Folder { home, mut pages, index, listed, changes, .. } = folder;
-        let shared = format.of_catalog(&|| index.script()).into_iter();
+        let shared = format.of_catalog(&index).into_iter();
         pages.extend(shared.map(|page| Page { path: format!("{home}/{}", page.path), ..page }));
         pages.extend(self.revisions.add(name, catalog, changes, &self.addresses, format));
         self.index.add(&index);
@@ -187,8 +191,7 @@ impl Site {
         let is_part = lists.len() > 1;
         let parts = lists.iter().filter(|_| is_part).map(|list| (list.file.clone(), list.title.clone()));
         let shared = Rc::new(Links::new(parts.chain(self.comparisons.iter().cloned()).collect(), 0..0));
-        let script = || self.index.script();
-        let search: Option<&dyn Fn() -> String> = if index.is_empty() { Some(&script) } else { None };
+        let index_of_site = index.is_empty().then_some(&self.index);
         let page = |list: &ListPage| {
             let (title, index, shared) = (list.title.clone(), index.clone(), shared.clone());
             let frame = Frameset { title, root: ".", index, shared, ..Frameset::default() };
@@ -196,7 +199,7 @@ impl Site {
             Page { path: list.file.clone(), text: format.page(&frame, &list.file, content) }
         };
         let mut pages: Vec<Page> = lists.iter().map(page).collect();
-        pages.extend(format.of_site(&self.catalogs, &self.comparisons, search));
+        pages.extend(format.of_site(&self.catalogs, &self.comparisons, index_of_site));
         pages.extend(latest::pages(&devices, format));
         pages
     }

@@ -19,6 +19,7 @@ use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
+use super::search::Index;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
@@ -135,16 +136,11 @@ impl Pages for Markdown {
         None
     }
 
-    fn of_catalog(&self, _: &dyn Fn() -> String) -> Vec<Page> {
+    fn of_catalog(&self, _: &Index) -> Vec<Page> {
         Vec::new()
     }
 
-    fn of_site(
-        &self,
-        catalogs: &[ListedCatalog],
-        comparisons: &[(String, String)],
-        _: Option<&dyn Fn() -> String>,
-    ) -> Vec<Page> {
+    fn of_site(&self, catalogs: &[ListedCatalog], comparisons: &[(String, String)], _: Option<&Index>) -> Vec<Page> {
         vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs, comparisons }))]
     }
 }

@@ -6,12 +6,12 @@ use std::ops::Range;
 use super::anchor::Names;
 use super::area::Section;
 use super::diagnostics::ShownDiagnostics;
-use super::entry::{Calls, Known, Rows};
+use super::entry::{Calls, Known, Row, Rows};
 use super::process::{self, About, Frame};
 use super::split;
 use super::words;
-use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::facts::{address, item};
 use lexibus_codegen::ir::{
     Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
 };
@@ -207,6 +207,6 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     let number = |item: &lexibus_codegen::ir::Item| {
         address::addresses(item, &[]).first().map_or_else(String::new, |address| address.number.clone())
     };
-    let items = group.items_at(0).map(|(id, item)| rows.row(id, item, number(item), false)).collect();
-    (title, Section::plain(items))
+    let row = |(id, item)| Row { name: item::entry_name(item, group), ..rows.row(id, item, number(item), false) };
+    (title, Section::plain(group.items_at(0).map(row).collect()))
 }

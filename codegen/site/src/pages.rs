@@ -15,6 +15,7 @@ use super::overview::{Contents, Overview};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
+use super::search::Index;
 use super::Page;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::hex32;
@@ -224,13 +225,8 @@ pub(super) trait Pages {
     fn redirection(&self, title: &str, target: &str) -> Option<String>;
 
     /// Returns the files that the pages of one catalog share.
-    fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
-    /// Returns the files that all pages share. `comparisons` are the paths and titles of comparisons. `search` returns the search index of all catalogs if there are several
-    /// catalogs.
-    fn of_site(
-        &self,
-        catalogs: &[ListedCatalog],
-        comparisons: &[PageLink],
-        search: Option<&dyn Fn() -> String>,
-    ) -> Vec<Page>;
+    fn of_catalog(&self, index: &Index) -> Vec<Page>;
+    /// Returns the files that all pages share. `comparisons` are the paths and titles of comparisons. `index` is the search index of
+    /// all catalogs if there are several catalogs.
+    fn of_site(&self, catalogs: &[ListedCatalog], comparisons: &[PageLink], index: Option<&Index>) -> Vec<Page>;
 }

@@ -3,22 +3,27 @@
 use std::collections::HashMap;
 
 use super::area::Area;
-use super::codes::Codes;
 use super::link::{Link, Relation};
-use super::machines::Behaviour;
+use super::machines::{Behaviour, Machine};
 use super::process::Frame;
 use super::protocol::Protocol;
+use lexibus_codegen::facts::mentions::Mention;
+use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::referrers::{Referrer, Referrers};
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeDef, TypeId};
 
 /// Links to the elements of a device.
 pub(super) struct Targets<'d> {
-    device: &'d Device,
+    pub(super) device: &'d Device,
     items: HashMap<ItemId, Link>,
+    /// The objects with several entries, by their indices as shown.
+    objects: HashMap<String, Link>,
     pdos: Vec<Link>,
     images: HashMap<&'d str, Link>,
     machines: Vec<Link>,
+    /// The states of each state machine.
+    states: Vec<Vec<Link>>,
     procedures: Vec<Link>,
     messages: Vec<Link>,
 }
@@ -37,9 +42,15 @@ impl<'d> Targets<'d> {
             title: title.to_owned(),
             target: format!("{file}#{anchor}"),
         };
-        let mut items = HashMap::new();
-        for area in pages.areas {
-            for row in area.sections.iter().flat_map(|section| &section.rows) {
+        let (mut items, mut objects) = (HashMap::new(), HashMap::new());
+        for (area, section) in
+            pages.areas.iter().flat_map(|area| area.sections.iter().map(move |section| (area, section)))
+        {
+            if let Some(anchor) = &section.anchor {
+                let title = format!("{} {}", section.number, section.name);
+                objects.insert(section.number.clone(), link(&area.file, anchor, &title));
+            }
+            for row in &section.rows {
                 let title = format!("{} {}", row.number, row.name);
                 items.insert(row.id, link(&area.file, &row.anchor, title.trim()));
             }
@@ -48,9 +59,13 @@ impl<'d> Targets<'d> {
         let frames = || frames.iter().filter_map(|frame| Some(link(file?, &frame.anchor, &frame.title)));
         // The frames of the PDOs precede those of the process images.
         let (pdos, images) = (device.process_data.pdos.len(), &device.process_data.images);
-        let (machines, procedures) = match pages.behaviour {
+        let states = |file: &str, machine: &Machine| {
+            machine.states.iter().map(|state| link(file, &state.anchor, &format!("state {}", state.name))).collect()
+        };
+        let (machines, states, procedures) = match pages.behaviour {
             Some((file, behaviour)) => (
                 behaviour.machines.iter().map(|machine| link(file, &machine.anchor, &machine.title)).collect(),
+                behaviour.machines.iter().map(|machine| states(file, machine)).collect(),
                 behaviour.sequences.iter().map(|sequence| link(file, &sequence.anchor, &sequence.name)).collect(),
             ),
             None => Default::default(),
@@ -61,9 +76,11 @@ impl<'d> Targets<'d> {
         Targets {
             device,
             items,
+            objects,
             pdos: frames().take(pdos).collect(),
             images: images.iter().map(|image| image.name.as_str()).zip(frames().skip(pdos)).collect(),
             machines,
+            states,
             procedures,
             messages,
         }
@@ -72,6 +89,16 @@ impl<'d> Targets<'d> {
     /// Returns the link to an item, if a page shows it.
     pub fn item(&self, id: Option<ItemId>) -> Option<&Link> {
         self.items.get(&id?)
+    }
+
+    /// Returns the link to an element that a text mentions.
+    pub fn mentioned(&self, mention: Mention) -> Option<&Link> {
+        match mention {
+            Mention::Item(id) => self.item(Some(id)),
+            Mention::Object(index, first) => self.objects.get(&hex16(index)).or_else(|| self.item(Some(first))),
+            Mention::Message(message) => self.messages.get(message),
+            Mention::State(machine, state) => self.states.get(machine)?.get(state),
+        }
     }
 
     /// Adds the links to the items of the state machines and procedures.
@@ -83,25 +110,6 @@ impl<'d> Targets<'d> {
         for (procedure, shown) in self.device.procedures.iter().zip(&mut behaviour.sequences) {
             for (step, shown) in procedure.steps.iter().zip(&mut shown.steps) {
                 shown.item = step.item().and_then(|item| self.item(item.id)).cloned();
-            }
-        }
-    }
-
-    /// Adds links from codes to the items that have a value with the same number and name.
-    pub fn link_codes(&self, tables: &mut [Codes]) {
-        let types = Owner::of_types(&self.device.types);
-        let items = (0..).zip(&self.device.groups).flat_map(|(position, group)| group.items_at(position));
-        let mut reporting: HashMap<_, Vec<Link>> = HashMap::new();
-        for (link, item) in items.filter_map(|(id, item)| Some((self.item(Some(id))?, item))) {
-            for value in types.enumeration(item.ty).map_or(&[][..], |(values, _)| values) {
-                reporting.entry((value.value, value.last, &value.name)).or_default().push(link.clone());
-            }
-        }
-        let declared = self.device.code_tables.iter().filter(|table| !table.rows.is_empty());
-        for (table, shown) in declared.zip(tables) {
-            for (row, shown) in table.rows.iter().zip(&mut shown.rows) {
-                let links = reporting.get(&(row.code, row.last, &row.name)).cloned().unwrap_or_default();
-                shown.relations = Relation::new("Value of", links).into_iter().collect();
             }
         }
     }

@@ -1,56 +1,317 @@
-//! Requests that read an item, as bytes, for pages without a script.
+//! Requests that read and write an item: bytes on each bus and lines of Python, for pages without a script. The script `requests.js`
+//! shows the same requests for a value, a node-ID and a unit that the reader chooses.
 
 use super::tools;
-use lexibus_codegen::facts::number::bytes;
-use lexibus_codegen::facts::register;
-use lexibus_codegen::ir::{Binding, Item, ModbusTable};
+use lexibus_codegen::facts::number::hex16;
+use lexibus_codegen::facts::{encoding, register, types};
+use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Type, TypeDef};
 
 /// The node-ID and Modbus unit of the requests.
 const NODE: u8 = 1;
 
-/// Returns the titles and bytes of the requests that read an item. The node-ID or the unit is 1.
-pub(super) fn reads(item: &Item, tables: &[ModbusTable]) -> Vec<(&'static str, String)> {
-    let request = |binding: &Binding| match binding {
-        Binding::Object { buses, index, sub_index } if buses.canopen && item.access.readable() => {
-            let data = bytes(&sdo_upload(*index, *sub_index));
-            Some(("SDO upload from node-ID 1 (COB-ID, data)", format!("{:03X}  {data}", 0x600 + u16::from(NODE))))
+/// A byte of a frame, or `None` for a byte that depends on the value.
+type Frame = Vec<Option<u8>>;
+
+/// A request: title and text.
+pub(super) type Request = (&'static str, String);
+
+/// Returns the requests of an item. The node-ID or the unit is 1. Write requests have the default value, or `xx` for its bytes if the
+/// item has no default value.
+pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> Vec<Request> {
+    let mut all = Vec::new();
+    for binding in &item.bindings {
+        match binding {
+            Binding::Object { buses, index, sub_index } => {
+                let bus = if buses.canopen { Bus::CanOpen } else { Bus::EtherCat };
+                let access = item.access_on(bus);
+                let object = Object { index: *index, sub_index: *sub_index };
+                let written = Written::of(item, types::basic(types, item.object_type()));
+                let written = written.filter(|_| access.writable());
+                if buses.canopen {
+                    object.canopen(access.readable(), written.as_ref(), &mut all);
+                }
+                if buses.coe {
+                    object.ethercat(access.readable(), written.as_ref(), &mut all);
+                }
+            }
+            Binding::Register(register) => {
+                let functions = register::functions(register, item, tables);
+                let written = Written::of(item, types::basic(types, item.type_on(Bus::Modbus)));
+                modbus(register, &functions, written.as_ref(), &mut all);
+            }
+            Binding::Record { index, bit_offset, bits } => {
+                let access = item.access_on(Bus::Profinet);
+                let text = record(*index, *bit_offset, *bits);
+                all.extend(access.readable().then(|| ("PROFINET record read", text.clone())));
+                all.extend(access.writable().then_some(("PROFINET record write", text)));
+            }
+            _ => {}
         }
-        Binding::Register(register) => {
-            let functions = register::functions(register, item, tables);
-            let function = functions.into_iter().find(|function| (1..=4).contains(function))?;
-            let frame = modbus_read(NODE, function, register.address, tools::count(register));
-            Some(("Modbus RTU read from unit 1", bytes(&frame)))
+    }
+    all
+}
+
+/// The value of a write request.
+struct Written {
+    /// The bytes, least significant byte first.
+    bytes: Frame,
+    ty: Type,
+}
+
+impl Written {
+    /// Returns nothing for items that are not numbers.
+    fn of(item: &Item, ty: Type) -> Option<Self> {
+        let is_number =
+            matches!(ty, Type::Boolean | Type::Integer(_) | Type::Unsigned(_) | Type::Real32 | Type::Real64);
+        let length = ty.bits().filter(|_| is_number)?.div_ceil(8) as usize;
+        let default = item.default.as_ref().filter(|value| encoding::fits(value, ty));
+        let bytes = match default.and_then(|value| encoding::bytes(value, ty)) {
+            Some(bytes) => known(&bytes),
+            None => vec![None; length],
+        };
+        Some(Written { bytes, ty })
+    }
+
+    /// Returns the bytes if the value is known.
+    fn known(&self) -> Option<Vec<u8>> {
+        self.bytes.iter().copied().collect()
+    }
+
+    /// Returns the byte that fills the registers of the item after the bytes of the value.
+    fn fill(&self, register: &RegisterBinding) -> Option<u8> {
+        match self.bytes.last() {
+            Some(None) if register.extended => None,
+            Some(Some(0x80..)) if register.extended => Some(0xFF),
+            _ => Some(0),
         }
-        _ => None,
+    }
+
+    /// Returns the Python expression of the bytes. An unknown value is the variable `value`.
+    fn python(&self) -> String {
+        match (self.known(), self.ty) {
+            (Some(bytes), _) => {
+                format!("bytes.fromhex(\"{}\")", bytes.iter().map(|byte| format!("{byte:02X}")).collect::<String>())
+            }
+            (None, Type::Real32) => "struct.pack(\"<f\", value)".to_owned(),
+            (None, Type::Real64) => "struct.pack(\"<d\", value)".to_owned(),
+            (None, ty) => {
+                let signed = if matches!(ty, Type::Integer(_)) { ", signed=True" } else { "" };
+                format!("value.to_bytes({}, \"little\"{signed})", self.bytes.len())
+            }
+        }
+    }
+}
+
+fn known(bytes: &[u8]) -> Frame {
+    bytes.iter().copied().map(Some).collect()
+}
+
+fn text(frame: &[Option<u8>]) -> String {
+    let byte = |byte: &Option<u8>| byte.map_or_else(|| "xx".to_owned(), |byte| format!("{byte:02X}"));
+    frame.iter().map(byte).collect::<Vec<_>>().join(" ")
+}
+
+struct Object {
+    index: u16,
+    sub_index: u8,
+}
+
+impl Object {
+    fn canopen(&self, is_readable: bool, written: Option<&Written>, all: &mut Vec<Request>) {
+        let frame = |data: &Frame| format!("{:03X}  {}", 0x600 + u16::from(NODE), text(data));
+        if is_readable {
+            all.push(("SDO upload (COB-ID, data)", frame(&self.upload())));
+            all.push(("canopen read", format!("node.sdo.upload({})", self.python())));
+        }
+        if let Some(written) = written {
+            let frames: Vec<String> = self.download(&written.bytes).iter().map(frame).collect();
+            all.push(("SDO download (COB-ID, data)", frames.join("; ")));
+            all.push(("canopen write", format!("node.sdo.download({}, {})", self.python(), written.python())));
+        }
+    }
+
+    fn ethercat(&self, is_readable: bool, written: Option<&Written>, all: &mut Vec<Request>) {
+        if is_readable {
+            all.push(("pysoem read", format!("slave.sdo_read({})", self.python())));
+        }
+        if let Some(written) = written {
+            all.push(("pysoem write", format!("slave.sdo_write({}, {})", self.python(), written.python())));
+        }
+    }
+
+    /// Returns the Python arguments for index and sub-index.
+    fn python(&self) -> String {
+        format!("{}, {}", hex16(self.index), self.sub_index)
+    }
+
+    /// Returns the frame with a command and data for the object.
+    fn frame(&self, command: u8, data: &[Option<u8>]) -> Frame {
+        let [low, high] = self.index.to_le_bytes();
+        let mut frame = known(&[command, low, high, self.sub_index]);
+        frame.extend(data);
+        frame.resize(8, Some(0));
+        frame
+    }
+
+    /// Returns the data of an SDO upload request (CiA 301, 7.2.4.3.5).
+    fn upload(&self) -> Frame {
+        self.frame(0x40, &[])
+    }
+
+    /// Returns the data of an SDO download (CiA 301, 7.2.4.3.3): an expedited transfer, or a segmented one if there are more than four
+    /// bytes. A number has at most eight bytes.
+    fn download(&self, bytes: &[Option<u8>]) -> Vec<Frame> {
+        let count = u8::try_from(bytes.len()).unwrap_or(u8::MAX);
+        if let Some(unused) = 4_u8.checked_sub(count) {
+            return vec![self.frame(0x23 | unused << 2, bytes)];
+        }
+        let mut frames = vec![self.frame(0x21, &[Some(count)])];
+        let segments = bytes.chunks(7).collect::<Vec<_>>();
+        for (at, segment) in segments.iter().enumerate() {
+            let unused = 7_u8.saturating_sub(u8::try_from(segment.len()).unwrap_or(7));
+            let toggle = if at % 2 == 1 { 0x10 } else { 0 };
+            let mut frame = known(&[toggle | unused << 1 | u8::from(at + 1 == segments.len())]);
+            frame.extend(*segment);
+            frame.resize(8, Some(0));
+            frames.push(frame);
+        }
+        frames
+    }
+}
+
+/// Adds the requests of a register, coil or discrete input (MODBUS Application Protocol V1.1b3, 6).
+fn modbus(register: &RegisterBinding, functions: &[u8], written: Option<&Written>, all: &mut Vec<Request>) {
+    let (address, count) = (register.address, tools::count(register));
+    let (read, method) = match register.space {
+        RegisterSpace::Coil => (1, "read_coils"),
+        RegisterSpace::DiscreteInput => (2, "read_discrete_inputs"),
+        RegisterSpace::Holding => (3, "read_holding_registers"),
+        RegisterSpace::Input => (4, "read_input_registers"),
     };
-    item.bindings.iter().filter_map(request).collect()
+    if functions.contains(&read) {
+        all.push(("Modbus RTU read", rtu(read, address, &known(&count.to_be_bytes()))));
+        all.push(("pymodbus read", format!("client.{method}({address}, count={count}, device_id={NODE})")));
+    }
+    let Some(written) = written.filter(|_| register.bit_offset.is_none()) else { return };
+    if register.space == RegisterSpace::Coil && functions.contains(&5) {
+        let value = written.bytes.first().copied().flatten();
+        let state = value.map(|value| if value == 0 { 0 } else { 0xFF });
+        let python = value.map_or("value", |value| if value == 0 { "False" } else { "True" });
+        all.push(("Modbus RTU write", rtu(5, address, &[state, Some(0)])));
+        all.push(("pymodbus write", format!("client.write_coil({address}, {python}, device_id={NODE})")));
+        return;
+    }
+    let words = words(register, written);
+    let data: Frame = words.iter().flatten().copied().collect();
+    let list: Vec<String> = words.iter().enumerate().map(|(at, word)| python_word(*word, at)).collect();
+    if count == 1 && functions.contains(&6) {
+        all.push(("Modbus RTU write", rtu(6, address, &data)));
+        let value = list.concat();
+        all.push(("pymodbus write", format!("client.write_register({address}, {value}, device_id={NODE})")));
+    } else if functions.contains(&16) {
+        let mut payload = known(&count.to_be_bytes());
+        payload.push(Some(u8::try_from(data.len()).unwrap_or(u8::MAX)));
+        payload.extend(data);
+        all.push(("Modbus RTU write", rtu(16, address, &payload)));
+        let list = list.join(", ");
+        all.push(("pymodbus write", format!("client.write_registers({address}, [{list}], device_id={NODE})")));
+    }
 }
 
-/// Returns the data of an SDO upload request (CiA 301, 7.2.4.3.5).
-fn sdo_upload(index: u16, sub_index: u8) -> [u8; 8] {
-    let [low, high] = index.to_le_bytes();
-    [0x40, low, high, sub_index, 0, 0, 0, 0]
+/// Returns the words of a value in the order of the registers. The bytes of a word are in the order of their transmission.
+fn words(register: &RegisterBinding, written: &Written) -> Vec<[Option<u8>; 2]> {
+    let (fill, bytes) = (written.fill(register), &written.bytes);
+    let byte = |at: usize| bytes.get(at).copied().unwrap_or(fill);
+    let low_first = (0..usize::from(tools::count(register))).map(|at| [byte(2 * at + 1), byte(2 * at)]);
+    let mut words: Vec<_> = low_first.collect();
+    if !register.low_word_first {
+        words.reverse();
+    }
+    if register.bytes_swapped {
+        words.iter_mut().for_each(|word| word.reverse());
+    }
+    words
 }
 
-/// Returns the frame of a Modbus RTU request that reads registers, coils or discrete inputs.
-fn modbus_read(unit: u8, function: u8, address: u16, count: u16) -> Vec<u8> {
-    let mut frame = vec![unit, function];
-    frame.extend(address.to_be_bytes());
-    frame.extend(count.to_be_bytes());
-    frame.extend(register::crc(&frame).to_le_bytes());
-    frame
+/// Returns a word in Python. An unknown word is a variable.
+fn python_word(word: [Option<u8>; 2], at: usize) -> String {
+    match word {
+        [Some(high), Some(low)] => hex16(u16::from_be_bytes([high, low])),
+        _ => format!("word{at}"),
+    }
+}
+
+/// Returns a Modbus RTU request with its CRC. The CRC is unknown if a byte is.
+fn rtu(function: u8, address: u16, data: &[Option<u8>]) -> String {
+    let mut frame = known(&[NODE, function]);
+    frame.extend(known(&address.to_be_bytes()));
+    frame.extend(data);
+    let crc = frame.iter().copied().collect::<Option<Vec<u8>>>().map(|bytes| register::crc(&bytes).to_le_bytes());
+    match crc {
+        Some(crc) => {
+            frame.extend(known(&crc));
+            text(&frame)
+        }
+        None => format!("{} CRC CRC", text(&frame)),
+    }
+}
+
+/// Returns the address of a value in a record. The slot of the submodule depends on the configuration.
+fn record(index: u16, bit_offset: u32, bits: u32) -> String {
+    let (last, length) = ((bit_offset + bits).saturating_sub(1), tools::record_length(bit_offset, bits));
+    format!(
+        "API 0, slot n, subslot 1, index {}, length {length}; the value is in bits {bit_offset} to {last}",
+        hex16(index)
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lexibus_codegen::ir::{Access, Value};
+
+    fn texts(item: &Item) -> Vec<String> {
+        requests(item, &[], &[]).into_iter().map(|(title, text)| format!("{title}: {text}")).collect()
+    }
+
+    fn item(binding: Binding, ty: Type, default: Option<i128>) -> Item {
+        Item { ty, access: Access::ReadWrite, default: default.map(Value::Int), ..Item::new(binding) }
+    }
 
     #[test]
     fn requests_have_the_bytes_of_the_browser_tests() {
-        // The example of the Modbus standard: reads 3 registers from address 107 of unit 17.
-        assert_eq!(bytes(&modbus_read(17, 3, 107, 3)), "11 03 00 6B 00 03 76 87");
-        // Register R80 of the Eco.
-        assert_eq!(bytes(&modbus_read(3, 3, 0x8050, 2)), "03 03 80 50 00 02 EC 38");
-        assert_eq!(bytes(&sdo_upload(0x6064, 0)), "40 64 60 00 00 00 00 00");
+        // The example of the Modbus standard: reads 3 registers from address 107.
+        assert_eq!(rtu(3, 107, &known(&3_u16.to_be_bytes())), "01 03 00 6B 00 03 74 17");
+        let object = Object { index: 0x6040, sub_index: 0 };
+        assert_eq!(
+            object.download(&known(&[0x0F, 0])).iter().map(|frame| text(frame)).collect::<Vec<_>>(),
+            ["2B 40 60 00 0F 00 00 00"]
+        );
+        let object = Object { index: 0x2010, sub_index: 1 };
+        let frames: Vec<String> =
+            object.download(&known(&[1, 2, 3, 4, 5, 6, 7, 8])).iter().map(|frame| text(frame)).collect();
+        assert_eq!(frames, ["21 10 20 01 08 00 00 00", "00 01 02 03 04 05 06 07", "1D 08 00 00 00 00 00 00"]);
+    }
+
+    #[test]
+    fn a_default_value_is_written() {
+        let object = item(Binding::canopen(0x6040, 0), Type::Unsigned(16), Some(15));
+        let expected = [
+            "SDO upload (COB-ID, data): 601  40 40 60 00 00 00 00 00",
+            "canopen read: node.sdo.upload(0x6040, 0)",
+            "SDO download (COB-ID, data): 601  2B 40 60 00 0F 00 00 00",
+            "canopen write: node.sdo.download(0x6040, 0, bytes.fromhex(\"0F00\"))",
+        ];
+        assert_eq!(texts(&object), expected);
+    }
+
+    #[test]
+    fn an_unknown_value_has_no_bytes() {
+        let object = item(Binding::canopen(0x607A, 0), Type::Integer(32), None);
+        let expected = [
+            "SDO download (COB-ID, data): 601  23 7A 60 00 xx xx xx xx",
+            "canopen write: node.sdo.download(0x607A, 0, value.to_bytes(4, \"little\", signed=True))",
+        ];
+        assert_eq!(texts(&object)[2..], expected);
     }
 }

@@ -1,8 +1,10 @@
 //! Creates the search index. The index is a script that a page loads when it is idle or when the reader starts a search. In a
 //! site with many devices, many entries are equal. The index stores each number, text, anchor and entry once, so it loads
-//! fast, and a search checks each entry once.
+//! fast, and a search checks each entry once. The index of a site has a small first part, which answers the first keystrokes
+//! while the browser loads the whole index.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::hash::Hash;
 
@@ -10,6 +12,12 @@ use super::words::one_line as line;
 
 /// Number of characters at the start of a description that are searchable.
 const WORDS: usize = 80;
+
+/// Kind of a page that describes a device. The first entry of such a page is the device.
+pub(super) const DEVICE: &str = "device";
+
+/// Number of entries in the first part of the index whose names or numbers begin with the same character.
+const FIRST: usize = 50;
 
 /// A search index.
 #[derive(Debug, Default)]
@@ -129,13 +137,79 @@ impl Index {
         }));
     }
 
+    /// Returns the first part of the index: all devices, and for each first character of a name or number the entries that most
+    /// pages have. Each entry is on the first of its pages.
+    fn first(&self) -> Index {
+        let mut chosen = self.chosen();
+        let mut first = Index::default();
+        for device in &self.devices {
+            first.devices.push(Device { pages: Vec::new(), ..device.clone() });
+            for page in &device.pages {
+                let (own, others) = page.entries.split_at(usize::from(page.kind == DEVICE).min(page.entries.len()));
+                let others = others.iter().filter(|entry| chosen.remove(entry));
+                let entries: Vec<usize> = own.iter().chain(others).map(|entry| first.copy(self, *entry)).collect();
+                if let (Some(device), false) = (first.devices.last_mut(), entries.is_empty()) {
+                    device.pages.push(Page { entries, ..page.clone() });
+                }
+            }
+        }
+        first
+    }
+
+    /// Returns the entries of the first part, apart from those of devices.
+    fn chosen(&self) -> HashSet<usize> {
+        let mut counts = vec![0_usize; self.entries.all.len()];
+        let pages = self.devices.iter().flat_map(|device| &device.pages);
+        for page in pages {
+            page.entries.iter().skip(usize::from(page.kind == DEVICE)).for_each(|entry| counts[*entry] += 1);
+        }
+        let mut by_count: Vec<usize> = (0..counts.len()).collect();
+        by_count.sort_by_key(|entry| Reverse(counts[*entry]));
+        let mut numbers_of: HashMap<char, usize> = HashMap::new();
+        let mut is_chosen = |entry: &usize| {
+            let [number, text, _] = self.entries.all[*entry];
+            let (number, text) = (self.numbers.all[number].as_str(), self.texts.all[text].as_str());
+            // The numbers of bits and values are relative to the entry before.
+            if number.is_empty() || is_part(number) {
+                return false;
+            }
+            // Readers type indices without `0x`, and the addresses of registers without a word.
+            let digits = number.trim_start_matches(|letter: char| !letter.is_ascii_digit()).trim_start_matches("0x");
+            let characters = [text, digits].map(|text| text.chars().next());
+            characters.into_iter().flatten().any(|first| {
+                let number = numbers_of.entry(first.to_ascii_lowercase()).or_default();
+                *number += 1;
+                *number <= FIRST
+            })
+        };
+        by_count.retain(|entry| is_chosen(entry));
+        by_count.into_iter().collect()
+    }
+
+    /// Adds an entry of another index. Returns its position.
+    fn copy(&mut self, other: &Index, entry: usize) -> usize {
+        let [number, text, anchor] = other.entries.all[entry];
+        let number = self.numbers.position(other.numbers.all[number].clone());
+        let text = self.texts.position(other.texts.all[text].clone());
+        self.entries.position([number, text, self.anchors.position(other.anchors.all[anchor].clone())])
+    }
+
     /// Returns the index as a script. All texts and numbers are in JSON strings, so the browser does not execute them. Lists of
     /// numbers are strings, too, because a browser reads a long string faster than a long array.
     pub fn script(&self) -> String {
+        format!("lexibusIndex{}", self.arguments())
+    }
+
+    /// Returns the first part of the index as a script.
+    pub fn first_script(&self) -> String {
+        format!("lexibusIndexFirst{}", self.first().arguments())
+    }
+
+    fn arguments(&self) -> String {
         let devices = self.devices_of_script().join(",\n");
         let lists = [self.numbers.all.join("\n"), self.texts.all.join("\n"), self.anchors.all.join("\n")];
         let lists = lists.map(|list| json(&list)).join(",\n");
-        format!("lexibusIndex([{devices}],\n{lists},\n\"{}\",\n\"{}\");\n", self.differences(), self.runs())
+        format!("([{devices}],\n{lists},\n\"{}\",\n\"{}\");\n", self.differences(), self.runs())
     }
 
     /// Returns each device: title, further words, folder, and the files and kinds of its pages.
@@ -180,6 +254,11 @@ impl Index {
         }
         separated(&numbers)
     }
+}
+
+/// Returns whether a number is that of a bit or value, which is a part of the entry before it.
+fn is_part(number: &str) -> bool {
+    ["bit ", "value "].iter().any(|kind| number.starts_with(kind))
 }
 
 fn json(text: &str) -> String {
@@ -233,5 +312,35 @@ mod tests {
         all.device("A", "Vendor", "0x00000002", "b");
         let expected = [r#"["A (0x00000001)","Vendor","a","#, r#"["A (0x00000002)","Vendor","b",]"#];
         assert!(expected.iter().all(|device| all.script().contains(device)), "{}", all.script());
+    }
+
+    #[test]
+    fn the_first_part_has_devices_and_frequent_entries() {
+        let mut all = Index::default();
+        let names: Vec<String> = (0..2 * FIRST + 10).map(|at| format!("Value {at}")).collect();
+        for device in ["A", "B"] {
+            all.device(device, "Vendor", "", device);
+            all.page("index.html", DEVICE);
+            all.entry(&Entry { number: "", ..entry("", device) });
+            all.page("items.html", "");
+            for name in &names {
+                all.entry(&Entry { number: "register 1", ..entry("value", name) });
+            }
+            all.entry(&Entry { number: "bit 1", ..entry("bit 1", "Part") });
+        }
+        all.page("more.html", "");
+        all.entry(&Entry { number: "register 1", ..entry("value", &names[2 * FIRST + 5]) });
+        let first = all.first();
+        assert_eq!(first.devices.len(), 2);
+        let pages: Vec<usize> =
+            first.devices.iter().flat_map(|device| &device.pages).map(|page| page.entries.len()).collect();
+        // Each device, and each entry on the first of its pages. All names begin with `V`, and all numbers have the digit 1.
+        assert_eq!(pages, [1, 2 * FIRST, 1]);
+        let texts = first.texts.all.join("\n");
+        assert!(texts.contains(&format!("Value {}\t", 2 * FIRST + 5)), "the entry on most pages: {texts}");
+        assert!(!texts.contains("Part"), "{texts}");
+        assert!(all
+            .first_script()
+            .starts_with("lexibusIndexFirst([[\"A\",\"Vendor\",\"A\",\"index.html\",\"device\","));
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn addresses(item: &Item, tables: &[ModbusTable]) -> String {
         }
         Binding::Register(register) => Some(registers(register, item, tables)),
         Binding::Record { index, bit_offset, bits } => {
-            Some(format!("r {index} {bit_offset} {bits} {}", (bit_offset + bits).div_ceil(8)))
+            Some(format!("r {index} {bit_offset} {bits} {}", record_length(*bit_offset, *bits)))
         }
         _ => None,
     };
@@ -56,6 +56,11 @@ pub(super) fn addresses(item: &Item, tables: &[ModbusTable]) -> String {
 pub(super) fn count(register: &RegisterBinding) -> u16 {
     let words = u16::from(register.words_per_address.max(1));
     register.count.div_ceil(words) * words
+}
+
+/// Returns the length of a record that ends with an item, in bytes.
+pub(super) fn record_length(bit_offset: u32, bits: u32) -> u32 {
+    (bit_offset + bits).div_ceil(8)
 }
 
 fn registers(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {

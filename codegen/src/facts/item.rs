@@ -1,9 +1,33 @@
-//! Default value, range, unit and PDO mapping of an item.
+//! Name, default value, range, unit and PDO mapping of an item.
 
 use super::physical::{shown_unit, Physical};
 use super::types;
 use super::words::PLAIN;
-use crate::ir::{Item, Limits, Mappable, Quantity, Scale, Type, TypeDef, Value};
+use crate::ir::{Group, Item, Limits, Mappable, ObjectCode, Quantity, Scale, Type, TypeDef, Value};
+
+/// Returns the name of an item. Many files name the entries of an object `SubIndex 001`, or not at all. Such an entry has the name of its
+/// object and its sub-index: `RxPDO 1 mapping, sub-index 1`. Sub-index 0 contains the number of entries (CiA 301). The value of an object
+/// without sub-indices has the name of the object.
+pub fn entry_name(item: &Item, group: &Group) -> String {
+    let has_subs = group.object_code().is_some_and(ObjectCode::has_subs);
+    match item.object() {
+        Some((_, 0)) if has_subs && is_placeholder(&item.name) => "Number of entries".to_owned(),
+        Some((_, sub_index)) if has_subs && is_placeholder(&item.name) && !group.name.is_empty() => {
+            format!("{}, sub-index {sub_index}", group.name)
+        }
+        Some(_) if !has_subs && is_placeholder(&item.name) && !group.name.is_empty() => group.name.to_string(),
+        _ => item.name.to_string(),
+    }
+}
+
+/// Returns whether a name states only a sub-index, such as `SubIndex 001`, or is empty.
+pub fn is_placeholder(name: &str) -> bool {
+    /// The words in lower case, without separators.
+    const WORDS: [&str; 3] = ["", "subindex", "subidx"];
+    let word: String = name.chars().filter(|letter| letter.is_alphabetic()).flat_map(char::to_lowercase).collect();
+    let is_separated = name.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_'));
+    is_separated && WORDS.contains(&word.as_str()) && (name.is_empty() || !word.is_empty())
+}
 
 /// Formats a value of an item. The physical value comes before the raw value. `types` are the types of the device or
 /// module that has the item.
@@ -104,5 +128,36 @@ pub fn integer(number: i128, is_unsigned: bool) -> String {
     match number {
         0x1_0000.. if is_unsigned => format!("0x{number:X}"),
         _ => number.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::Binding;
+
+    #[test]
+    fn names_that_state_only_a_sub_index() {
+        for name in ["", "SubIndex 001", "Sub-Index 1", "subindex_12", "SubIdx 3"] {
+            assert!(is_placeholder(name), "{name}");
+        }
+        for name in ["001", "Highest SubIndex supported", "SubIndex: 1", "Speed"] {
+            assert!(!is_placeholder(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn an_entry_without_a_name_has_the_name_of_its_object() {
+        let object = |name: &str| Group { name: name.into(), ..Group::object(0x1A00, ObjectCode::Record) };
+        let entry =
+            |sub_index, name: &str| Item { name: name.into(), ..Item::new(Binding::canopen(0x1A00, sub_index)) };
+        let mapping = object("TxPDO 1 mapping");
+        assert_eq!(entry_name(&entry(0, "SubIndex 000"), &mapping), "Number of entries");
+        assert_eq!(entry_name(&entry(2, "SubIndex 002"), &mapping), "TxPDO 1 mapping, sub-index 2");
+        assert_eq!(entry_name(&entry(2, ""), &mapping), "TxPDO 1 mapping, sub-index 2");
+        assert_eq!(entry_name(&entry(2, "Speed"), &mapping), "Speed");
+        assert_eq!(entry_name(&entry(2, "SubIndex 002"), &object("")), "SubIndex 002");
+        let value = Group { name: "Speed".into(), ..Group::object(0x1A00, ObjectCode::Var) };
+        assert_eq!(entry_name(&entry(0, ""), &value), "Speed");
     }
 }

@@ -30,6 +30,7 @@ pub mod device;
 pub mod encoding;
 pub mod item;
 pub mod markdown;
+pub mod mentions;
 pub mod number;
 pub mod pattern;
 pub mod pdo;

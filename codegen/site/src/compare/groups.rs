@@ -9,6 +9,7 @@ use super::names::{is_module, Identifiers};
 use super::pairing::{Key, Matching};
 use super::show::index;
 use lexibus_codegen::facts::address;
+use lexibus_codegen::facts::item::entry_name;
 use lexibus_codegen::facts::number::{bytes, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
 
@@ -117,7 +118,10 @@ impl Entry<'_> {
 
     /// Returns the address and name of an item, for reports.
     fn title(&self) -> String {
-        let name = if self.item.name.is_empty() { &self.group.name } else { &self.item.name };
+        let name = match entry_name(self.item, self.group) {
+            name if name.is_empty() => self.group.name.to_string(),
+            name => name,
+        };
         format!("{} {name}", self.position()).trim().to_owned()
     }
 }

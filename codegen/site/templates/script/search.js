@@ -1,66 +1,4 @@
 // The search.
-// The index of a site or of one device: devices with their titles, further words and pages, pages with their device and kind, numbers,
-// texts and anchors. An entry has a number, a text and an anchor; the entry of a whole page has no number. A text contains name, names
-// in other languages, unit and description. Equal entries of several pages are one entry with several places.
-let pages = [], titles = [], numbers = [], texts = [], anchors = [], isLoading = false, isLoaded = false;
-// For each entry, the positions of its number, text and anchor in these lists.
-let numberAt, textAt, anchorAt;
-// For each place, the positions of its page and entry. The places of a page are consecutive.
-let pageAt, entryAt;
-
-function lexibusIndex(devices, numberLines, textLines, anchorLines, differences, runs) {
-  for (const [device, [title, , folder, ...files]] of devices.entries()) {
-    for (let at = 0; at < files.length; at += 2) pages.push({ path: folder + "/" + files[at], kind: files[at + 1], device, title });
-  }
-  titles = devices.map(([title, words]) => plain(title + " " + words));
-  numbers = linesOf(numberLines).map(([text, plain]) => ({ text, plain, isPart: PART.test(text), ranges: undefined }));
-  texts = linesOf(textLines).map(([text, plain]) => ({ text, plain, nameEnd: plain.indexOf("\t") }));
-  anchors = anchorLines.split("\n");
-  readEntries(JSON.parse(`[${differences}]`));
-  readPlaces(JSON.parse(`[${runs}]`));
-  isLoaded = true;
-  lead();
-  if (document.activeElement === input) search();
-  if (deviceFilter?.value) deviceFilter.dispatchEvent(new Event("input"));
-  // The first search for a number determines the ranges of all numbers, which takes longer than the next searches.
-  whenIdle(() => pointsOf("0"));
-}
-
-// Reads the entries. Each of their three numbers is the difference from the entry before.
-function readEntries(differences) {
-  [numberAt, textAt, anchorAt] = [0, 1, 2].map((part) => {
-    const all = new Uint32Array(differences.length / 3);
-    for (let entry = 0, sum = 0; entry < all.length; entry++) all[entry] = sum += differences[3 * entry + part];
-    return all;
-  });
-}
-
-// Reads the places. Each page has the number of its runs, then two numbers per run: the difference of its first entry from the end of
-// the run before, and its length.
-function readPlaces(runs) {
-  // Calls `visit` with the page, first entry and length of each run.
-  const each = (visit) => {
-    for (let page = 0, at = 0, entry = 0; page < pages.length; page++) {
-      for (let count = runs[at++]; count > 0; count--, at += 2) {
-        visit(page, entry + runs[at], runs[at + 1]);
-        entry += runs[at] + runs[at + 1];
-      }
-    }
-  };
-  let length = 0, place = 0;
-  each((page, first, count) => { length += count; });
-  [pageAt, entryAt] = [new Uint32Array(length), new Uint32Array(length)];
-  each((page, first, count) => {
-    pageAt.fill(page, place, place + count);
-    for (let entry = first; entry < first + count; entry++) entryAt[place++] = entry;
-  });
-}
-
-// Returns each line with its plain text.
-function linesOf(lines) {
-  const plainLines = plain(lines).split("\n");
-  return lines.split("\n").map((line, at) => [line, plainLines[at]]);
-}
 
 // Numbers of bits and values, which are parts of an item.
 const PART = /^(bit|value) /;
@@ -80,17 +18,7 @@ const OBJECT = /^0x[0-9a-f]+(:[0-9a-f]+)?$/;
 const PRINTED = /^(?:[a-z_ ]+ )?(0x[0-9a-f]+|[0-9]+)(?:(?: to |–)(0x[0-9a-f]+|[0-9]+))?/;
 const WIRE = /\(wire (0x[0-9a-f]+|[0-9]+)(?:–(0x[0-9a-f]+|[0-9]+))?\)/;
 
-// The folder of the site, and the folder of the index.
-const site = root.dataset.root + "/", folder = site + (root.dataset.index || "");
 const input = byId("search"), found = byId("found");
-
-function load() {
-  if (isLoading) return;
-  isLoading = true;
-  const script = document.createElement("script");
-  script.src = folder + "search.js";
-  document.head.append(script);
-}
 
 // Returns the notations of a word: `6040h` and `6040` can mean `0x6040`, `2020:1` means `0x2020:01`.
 function notations(word) {
@@ -210,7 +138,7 @@ const MOST = 50;
 // numbers, then by points; equal places have the order of the index. Places are left out if only their device matches.
 function matches(query) {
   const wanted = plain(query).trim(), words = wanted.split(/\s+/).filter(Boolean).slice(0, MOST_WORDS), best = [];
-  if (!words.length || !isLoaded) return best;
+  if (!words.length || !pages.length) return best;
   const points = words.map(pointsOf), sums = sumsOf(points, wanted), isWithout = lacks(points.map(({ entries }) => entries));
   // For each device, the words that it does not have, as bits.
   const lacking = lacks(points.map(({ titles }) => titles));
@@ -315,19 +243,38 @@ function close() {
   input.setAttribute("aria-expanded", "false");
 }
 
+// Set if the reader pressed Enter before the whole index was read. The first part can lack the best result.
+let isEntered = false;
+
+// Opens the selected result as soon as the whole index is read.
+function enter() {
+  isEntered = !isLoaded;
+  const link = found.querySelectorAll("a")[selected];
+  if (link && isLoaded) { close(); location.href = link.href; }
+}
+
+// Repeats the search with a larger index. A result that the reader selected stays selected.
+function searchAgain() {
+  if (document.activeElement !== input) return;
+  const selectedBefore = selected, { href } = found.querySelectorAll("a")[selected] ?? {};
+  search();
+  if (href && selectedBefore > 0) select([...found.querySelectorAll("a")].findIndex((link) => link.href === href));
+  if (isEntered) enter();
+}
+
 // A search usually begins on a page with a list of devices, so such a page loads the index before the reader types.
-const whenIdle = (work) => window.requestIdleCallback ? requestIdleCallback(work, { timeout: 1000 }) : setTimeout(work, 200);
-if (deviceFilter) addEventListener("load", () => whenIdle(load));
+if (deviceFilter) {
+  loadFirst();
+  addEventListener("load", () => whenIdle(load));
+}
 input.addEventListener("focus", load);
-input.addEventListener("input", search);
+input.addEventListener("input", () => { isEntered = false; search(); });
 input.addEventListener("keydown", (event) => {
   if (event.key === "ArrowDown") select(selected + 1);
   else if (event.key === "ArrowUp") select(selected - 1);
   else if (event.key === "Escape") { close(); input.blur(); }
-  else if (event.key === "Enter") {
-    const link = found.querySelectorAll("a")[selected];
-    if (link) { close(); location.href = link.href; }
-  } else return;
+  else if (event.key === "Enter") enter();
+  else return;
   event.preventDefault();
 });
 found.addEventListener("click", close);

@@ -360,3 +360,30 @@ fn the_search_has_printed_and_wire_addresses() {
         assert!(index.text.contains(number), "{number}: {}", index.text);
     }
 }
+
+#[test]
+fn codes_have_links_to_what_reports_them_on_each_page() {
+    let doc = "Another cause. ".repeat(20);
+    let others: String =
+        (1..1500).map(|code| format!("{code} = {{ name = \"code {code}\", doc = \"{doc}\" }}\n")).collect();
+    let table = format!(
+        "lexibus = 1\n[device]\nname = \"Pump\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
+         [[chapters]]\ntitle = \"Control\"\n[chapters.registers]\nfault_code = {{ reg = 1, type = \"u16\", enum = \"Fault\" }}\n\
+         status_word = {{ reg = 2, type = \"u16\" }}\n[enums.Fault.values]\n2000 = \"dry\"\n\
+         [codes.first.rows]\n{others}[codes.faults]\ndoc = \"Bit 3 of status_word is set\"\n[codes.faults.rows]\n\
+         2000 = {{ name = \"dry\", doc = \"Clears with status_word\" }}\n"
+    );
+    let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.toml", table.into()))]);
+    let codes: Vec<_> = pages.iter().filter(|page| page.path.contains("/codes")).collect();
+    assert!(codes.len() > 2, "{} pages of codes", codes.len());
+    let linked: Vec<_> = codes.iter().filter(|page| page.text.contains("class=\"links\"")).collect();
+    let [last] = linked.as_slice() else { panic!("{} pages have links", linked.len()) };
+    let file = last.path.rsplit('/').next().expect("a file");
+    let (_, row) = last.text.split_once("id=\"faults-2000\"").expect("the code");
+    assert!(row.contains("<b>Value of</b> <a href=\"control.html#fault_code\">"), "{row}");
+    assert!(row.contains("<b>See</b> <a href=\"control.html#status_word\">"), "{row}");
+    let control = &pages.iter().find(|page| page.path.ends_with("/control.html")).expect("the registers").text;
+    assert!(control.contains(&format!("<b>Codes</b> <a href=\"{file}#faults\">faults</a>")), "{control}");
+    assert!(control.contains(&format!("<a href=\"{file}#faults-2000\">2000 dry</a>")), "{control}");
+    html_links(&pages);
+}

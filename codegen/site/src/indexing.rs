@@ -1,0 +1,99 @@
+//! Entries of the search index for the elements of each kind of page.
+
+use super::area::Area;
+use super::codes::Codes;
+use super::entry::Row;
+use super::machines::Behaviour;
+use super::modules::ModuleModel;
+use super::process::Frame;
+use super::protocol::Protocol;
+use super::search::{Entry, Index};
+
+/// Returns an entry without other names, unit and description.
+pub(super) fn entry<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
+    Entry { anchor, number, name, names: &[], unit: "", words: "" }
+}
+
+/// Adds the objects and items of a page.
+pub(super) fn area(index: &mut Index, area: &Area) {
+    for section in &area.sections {
+        if let Some(anchor) = &section.anchor {
+            index.entry(&Entry { names: &section.names, ..entry(anchor, &section.number, &section.name) });
+        }
+        rows(index, &section.rows);
+    }
+}
+
+/// Adds items with their bits and values.
+pub(super) fn rows(index: &mut Index, rows: &[Row]) {
+    for row in rows {
+        let words = row.description.as_str();
+        for number in row.lookups() {
+            let entry = self::entry(&row.anchor, number, &row.name);
+            index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
+        }
+        parts(index, row);
+    }
+}
+
+/// Adds the bit fields and named values of a row. Their numbers, such as `bit 4`, are relative to the row, whose entry precedes them.
+fn parts(index: &mut Index, row: &Row) {
+    let mut part = |number: &str, name: &str, names: &[(String, String)]| {
+        if !name.is_empty() {
+            index.entry(&Entry { names, ..entry(number, number, name) });
+        }
+    };
+    for field in row.bits.iter().flat_map(|bits| &bits.fields) {
+        part(&format!("bit {}", field.bits), &field.name, &field.names);
+    }
+    for label in &row.labels {
+        part(&format!("value {}", label.number), &label.name, &label.names);
+    }
+}
+
+/// Adds PDOs and process images.
+pub(super) fn frames(index: &mut Index, frames: &[Frame]) {
+    for frame in frames {
+        index.entry(&entry(&frame.anchor, &frame.anchor, &frame.title));
+    }
+}
+
+/// Adds messages.
+pub(super) fn messages(index: &mut Index, protocol: &Protocol) {
+    for message in &protocol.messages {
+        let words = message.facts.first().map_or("", String::as_str);
+        index.entry(&Entry { names: &message.names, words, ..entry(&message.anchor, "message", &message.name) });
+    }
+}
+
+/// Adds states and procedures.
+pub(super) fn behaviour(index: &mut Index, behaviour: &Behaviour) {
+    for state in behaviour.machines.iter().flat_map(|machine| &machine.states) {
+        let words = format!("{} {}", state.identifier, state.facts);
+        index.entry(&Entry { names: &state.names, words: &words, ..entry(&state.anchor, "state", &state.name) });
+    }
+    for sequence in &behaviour.sequences {
+        // The anchor is the identifier of the procedure.
+        let words = format!("{} {}", sequence.anchor, sequence.facts.first().map_or("", String::as_str));
+        index.entry(&Entry { words: &words, ..entry(&sequence.anchor, "procedure", &sequence.name) });
+    }
+}
+
+/// Adds codes.
+pub(super) fn codes(index: &mut Index, tables: &[Codes]) {
+    for (table, row) in tables.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row))) {
+        let words = format!("{} {} {}", table.title, row.cells.join(" "), row.facts);
+        index.entry(&Entry { names: &row.names, words: &words, ..entry(&row.anchor, &row.number, &row.name) });
+    }
+}
+
+/// Adds a module with its items.
+pub(super) fn module(index: &mut Index, module: &ModuleModel) {
+    let words = module.facts.first().map_or("", String::as_str);
+    for number in module.lookups() {
+        index.entry(&Entry { names: &module.names, words, ..entry(&module.anchor, number, &module.name) });
+    }
+    for (_, section) in &module.sections {
+        rows(index, &section.rows);
+    }
+}

@@ -1,0 +1,163 @@
+//! Items, messages and states that the texts of code tables mention.
+
+use std::collections::HashMap;
+
+use crate::ir::{CodeRow, CodeTable, Device, Documentation, ItemId};
+
+/// An element of a device that a text mentions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mention {
+    /// An item.
+    Item(ItemId),
+    /// The index of an object, with its first item.
+    Object(u16, ItemId),
+    /// The position of a message.
+    Message(usize),
+    /// The positions of a state machine and of its state.
+    State(usize, usize),
+}
+
+/// The names that texts can mention.
+#[derive(Debug, Default)]
+pub struct Mentions<'d> {
+    /// Items and messages with names that are no ordinary words.
+    identifiers: HashMap<&'d str, Vec<Mention>>,
+    /// Items and messages with names that begin with a capital, as sentences do.
+    capitalized: HashMap<&'d str, Vec<Mention>>,
+    objects: HashMap<u16, Mention>,
+    /// States, which texts mention in quotes.
+    states: HashMap<&'d str, Vec<Mention>>,
+}
+
+impl<'d> Mentions<'d> {
+    /// Collects the names of a device.
+    pub fn new(device: &'d Device) -> Self {
+        let mut mentions = Mentions::default();
+        for (position, group) in (0..).zip(&device.groups) {
+            for (id, item) in group.items_at(position) {
+                mentions.add(item.name.as_str(), Mention::Item(id));
+                if let Some((index, _)) = item.object() {
+                    mentions.objects.entry(index).or_insert(Mention::Object(index, id));
+                }
+            }
+        }
+        for (at, message) in device.messages.iter().enumerate() {
+            mentions.add(message.name.as_str(), Mention::Message(at));
+        }
+        for (machine, states) in device.machines.iter().map(|machine| &machine.states).enumerate() {
+            for (at, state) in states.iter().enumerate() {
+                mentions.states.entry(state.name.as_str()).or_default().push(Mention::State(machine, at));
+            }
+        }
+        mentions
+    }
+
+    fn add(&mut self, name: &'d str, mention: Mention) {
+        let is_word = words(name).eq([name]);
+        if is_word && is_identifier(name) {
+            self.identifiers.entry(name).or_default().push(mention);
+        } else if is_word && name.starts_with(char::is_uppercase) {
+            self.capitalized.entry(name).or_default().push(mention);
+        }
+    }
+
+    /// Returns the elements that the description of a code table mentions.
+    pub fn of_table(&self, table: &CodeTable) -> Vec<Mention> {
+        self.of_documentation(table.documentation.as_deref())
+    }
+
+    /// Returns the elements that a row of a code table mentions: in its description, in its cells, and in a column that lists objects.
+    pub fn of_row(&self, table: &CodeTable, row: &CodeRow) -> Vec<Mention> {
+        let mut all = self.of_documentation(row.documentation.as_deref());
+        for (at, column) in table.columns.iter().enumerate() {
+            let cell = super::code::cell(row, at);
+            all.extend(self.of_text(&cell));
+            if matches!(column.as_str(), "object" | "objects") {
+                all.extend(words(&cell).filter_map(|word| self.object(word)));
+            }
+        }
+        all
+    }
+
+    fn of_documentation(&self, documentation: Option<&Documentation>) -> Vec<Mention> {
+        documentation.map_or_else(Vec::new, |documentation| self.of_text(&documentation.text))
+    }
+
+    /// Returns the elements that a text mentions.
+    fn of_text(&self, text: &str) -> Vec<Mention> {
+        /// Words before the index of an object or a capitalized name. Other hexadecimal numbers can be codes.
+        const BEFORE: [&str; 4] = ["in", "of", "object", "objects"];
+        let mut all: Vec<Mention> =
+            words(text).filter_map(|word| self.identifiers.get(word)).flatten().copied().collect();
+        let pairs = words(text).zip(words(text).skip(1)).filter(|(before, _)| BEFORE.contains(before));
+        for (_, word) in pairs {
+            all.extend(self.object(word));
+            all.extend(self.capitalized.get(word).into_iter().flatten());
+        }
+        let quoted = text.split('"').skip(1).step_by(2);
+        all.extend(quoted.filter_map(|name| self.states.get(name)).flatten());
+        all
+    }
+
+    fn object(&self, word: &str) -> Option<Mention> {
+        let digits = word.strip_prefix("0x").filter(|digits| digits.len() == 4)?;
+        self.objects.get(&u16::from_str_radix(digits, 16).ok()?).copied()
+    }
+}
+
+/// Returns the words of a text. A word can contain `_` and `.`, but not end with `.`.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let is_separator = |letter: char| !(letter.is_alphanumeric() || matches!(letter, '_' | '.'));
+    text.split(is_separator)
+        .flat_map(|word| word.split(".."))
+        .map(|word| word.trim_matches('.'))
+        .filter(|word| !word.is_empty())
+}
+
+/// Returns whether a word is no ordinary word: `digital_inputs`, `DRV.OPMODE`, `CmdGetAlarm`, `c8`.
+fn is_identifier(word: &str) -> bool {
+    let has_digit = word.chars().any(|letter| letter.is_ascii_digit()) && word.chars().any(char::is_alphabetic);
+    word.contains(['_', '.']) || has_digit || word.chars().skip(1).any(char::is_uppercase)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, Group, Item, Message, ObjectCode, Pattern, SharedList, StateMachine};
+
+    #[test]
+    fn names_indices_and_states() {
+        let item = |index, name: &str| {
+            let mut group = Group::object(index, ObjectCode::Var);
+            group.items.push(Item { name: name.into(), ..Item::new(Binding::canopen(index, 0)) });
+            group
+        };
+        let groups =
+            ["digital_inputs", "Rhsts", "current", "c8"].iter().zip(0x2000..).map(|(name, index)| item(index, name));
+        let mut device = Device { groups: groups.collect(), ..Device::default() };
+        device.messages.push(Message { name: "CmdGetAlarm".into(), ..Message::default() });
+        let states = vec![Pattern { name: "alarm".into(), ..Pattern::default() }].into();
+        device.machines.push(StateMachine {
+            name: "motor".into(),
+            status_item: "digital_inputs".into(),
+            control_item: "digital_inputs".into(),
+            state_type: None,
+            states,
+            initial: None,
+            commands: SharedList::default(),
+            transitions: SharedList::default(),
+            outcomes: Vec::new(),
+            documentation: None,
+            stated_by: None,
+        });
+        let mentions = Mentions::new(&device);
+        let item = |group| Mention::Item(ItemId { group, item: 0 });
+        let object = Mention::Object(0x2001, ItemId { group: 1, item: 0 });
+        let of = |text| mentions.of_text(text);
+        assert_eq!(of("Bits 0 to 7 of Rhsts show the cause"), [item(1)]);
+        assert_eq!(of("Rhsts, current and 0x2001"), []);
+        assert_eq!(of("A bit in digital_inputs for each value of c8."), [item(0), item(3)]);
+        assert_eq!(of("error codes in 0x2001, object 0x3000"), [object]);
+        assert_eq!(of("CmdGetAlarm leaves \"alarm\", not alarm"), [Mention::Message(0), Mention::State(0, 0)]);
+    }
+}
