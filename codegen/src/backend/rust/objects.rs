@@ -35,6 +35,14 @@ pub(super) struct ObjectModel {
 }
 
 impl ObjectModel {
+    /// Returns the path of the constant of an item.
+    pub(super) fn path(&self, item: &ItemModel) -> String {
+        match self.is_module {
+            true => format!("objects::{}::{}", self.name, item.constant),
+            false => format!("objects::{}", item.constant),
+        }
+    }
+
     /// Returns whether any of the items can be mapped into PDOs.
     pub(super) fn has_mappable(&self) -> bool {
         self.items.iter().any(|item| item.mappable.is_some())
