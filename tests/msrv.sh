@@ -12,8 +12,8 @@ folder=${CARGO_TARGET_DIR:-$PWD/target}/msrv
 
 # Minimum version, and the features that need it. The feature `macros` compiles the compiler, whose version is 1.88.
 requirements=(
-    "1.81.0 none std canopen socketcan socketcan-tokio modbus serial serde defmt"
-    "1.85.0 ethercat"
+    "1.81.0 none std canopen socketcan socketcan-tokio serial serde defmt"
+    "1.85.0 ethercat modbus"
 )
 
 failed=0
