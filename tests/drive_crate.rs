@@ -188,6 +188,69 @@ fn traits_of_other_crates_reach_every_generated_type() {
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
+/// A crate with ten descriptions: a change of one description rewrites only its bindings, and an unchanged build runs nothing.
+#[test]
+fn a_change_rewrites_only_its_bindings() {
+    const COUNT: usize = 10;
+    if lane::skips("a build outside of the workspace") {
+        return;
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ten-valves");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a temporary file");
+    let manifest = format!(
+        "[package]\nname = \"ten-valves\"\nversion = \"0.1.0\"\nedition = \"2021\"\n[workspace]\n\
+         [dependencies]\nlexibus = {{ path = {:?} }}\n[build-dependencies]\nlexibus-codegen = {{ path = {:?} }}\n",
+        root(),
+        root().join("codegen")
+    );
+    write("Cargo.toml", &manifest);
+    write(
+        "build.rs",
+        "fn main() -> Result<(), lexibus_codegen::BuildError> {\n    \
+         (0..10).try_for_each(|at| lexibus_codegen::Builder::new().compile(format!(\"valve_{at}.eds\")))\n}\n",
+    );
+    let module = |at| format!("pub mod valve_{at} {{ include!(concat!(env!(\"OUT_DIR\"), \"/valve_{at}.rs\")); }}\n");
+    write("src/lib.rs", &(0..COUNT).map(module).collect::<String>());
+    (0..COUNT).for_each(|at| write(&format!("valve_{at}.eds"), VALVE));
+    let build = || {
+        let output = cargo(&folder, &["build", "-v"]);
+        let log = text(&output.stderr);
+        assert!(output.status.success(), "{log}");
+        let running: Vec<String> = log.lines().filter(|line| line.contains("Running `")).map(str::to_owned).collect();
+        running
+    };
+    build();
+    let out = out_folder();
+    let times = || -> Vec<_> {
+        let time = |at| std::fs::metadata(out.join(format!("valve_{at}.rs"))).and_then(|file| file.modified());
+        (0..COUNT).map(|at| time(at).expect("the bindings")).collect()
+    };
+    assert_eq!(build(), Vec::<String>::new(), "an unchanged build runs nothing");
+    let before = times();
+    // Cargo and file systems compare times with limited resolution.
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    write("valve_3.eds", &VALVE.replace("Opening", "Position"));
+    let running = build();
+    // Cargo runs the build script, and compiles the crate.
+    assert!(running.len() == 2 && running[0].contains("build-script-build"), "{running:#?}");
+    let after = times();
+    let changed: Vec<usize> = (0..COUNT).filter(|at| before[*at] != after[*at]).collect();
+    assert_eq!(changed, [3]);
+    assert_eq!(build(), Vec::<String>::new(), "an unchanged build runs nothing");
+}
+
+/// Returns the newest folder into which the build script of `ten-valves` wrote.
+fn out_folder() -> PathBuf {
+    let builds = Path::new(env!("CARGO_TARGET_TMPDIR")).join("drive-crate/debug/build");
+    let folders = std::fs::read_dir(builds).expect("the build folder").flatten().map(|entry| entry.path());
+    let is_own =
+        |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("ten-valves-"));
+    let outs = folders.filter(is_own).map(|path| path.join("out")).filter(|out| out.join("valve_0.rs").is_file());
+    outs.max_by_key(|out| std::fs::metadata(out).and_then(|out| out.modified()).ok()).expect("an output folder")
+}
+
 /// The first program of the book must print the output in the chapter. The test assembles the program from the blocks
 /// of the chapter.
 #[test]

@@ -14,7 +14,7 @@ export CARGO_TERM_COLOR=never CARGO_INCREMENTAL=0 LEXIBUS_LANE=full
 target=${CARGO_TARGET_DIR:-target}
 logs=$target/full
 
-parts=(programs format clippy features outside packages rustdoc build sample bindings units doctests ui corpus generated packing \
+parts=(programs format clippy features outside packages api msrv dependencies rustdoc build sample bindings units doctests ui corpus generated packing \
     differential arbitrary mutations nested site browser book pages rest examples)
 
 # Names of test programs for `cargo test --test`. Each test program of the workspace belongs to one part. The part `rest` runs the
@@ -26,7 +26,7 @@ packing=(packing)
 differential=(differential)
 arbitrary=(arbitrary)
 mutations=(corpus_mutations exports)
-nested=(compile_fail drive_crate instructions new_front_end no_std_size)
+nested=(compile_fail drive_crate instructions new_crate new_front_end no_std_size)
 site=(docs)
 pages=(html drives)
 browser=(browser)
@@ -77,6 +77,12 @@ part_outside() {
 }
 # Packages all crates as for crates.io, and builds crates that use the packages.
 part_packages() { CARGO_TARGET_DIR=$(realpath "$target") tests/packages.sh; }
+# Compares the public API of the runtime with its snapshot. `tests/api.sh --bless` writes the snapshot.
+part_api() { CARGO_TARGET_DIR=$(realpath "$target") tests/api.sh; }
+# Checks the minimum Rust versions of the runtime, as far as their toolchains are installed.
+part_msrv() { CARGO_TARGET_DIR=$(realpath "$target") tests/msrv.sh; }
+# Checks the licenses of all dependencies, and which are compiled in several versions.
+part_dependencies() { tests/dependencies.py; }
 part_rustdoc() {
     RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples
 }

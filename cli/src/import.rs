@@ -24,7 +24,7 @@ pub(super) fn run(import: &Import) -> Result<bool, Failure> {
     reporter.report(&imported.compilation)?;
     if let Some(text) = &imported.table {
         match &import.out {
-            Some(path) => create(path, text)?,
+            Some(path) => create(path, text.as_bytes())?,
             None => std::io::stdout().lock().write_all(text.as_bytes())?,
         }
     }

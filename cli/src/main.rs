@@ -7,7 +7,8 @@
 //! $ lexibus explain EDS020
 //! ```
 //!
-//! Exit codes: 0 on success; 1 for errors in the input, stale output or breaking changes; 2 for invalid arguments.
+//! Exit codes: 0 on success; 1 for errors in the input, stale output or breaking changes; 2 for invalid arguments; 130 after
+//! Ctrl-C.
 //!
 //! `args` declares the arguments of all subcommands. Most subcommands have a module with the same name; the others are
 //! implemented in this file. `inputs` reads files in parallel, `output` writes or compares files, and `report` prints
@@ -38,6 +39,7 @@ use std::process::ExitCode;
 use clap::CommandFactory;
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::codes;
+use lexibus_codegen::output::settled;
 use lexibus_codegen::text::printable;
 use lexibus_export::json;
 
@@ -48,8 +50,15 @@ use report::Reporter;
 const FAILED: u8 = 1;
 /// Exit code for invalid arguments.
 const USAGE: u8 = 2;
+/// Exit code after Ctrl-C, as in shells: 128 and the number of the signal. All files are complete or untouched.
+const INTERRUPTED: i32 = 130;
 
 fn main() -> ExitCode {
+    // Ignore a failure to install the handler. The signal then ends the process at once.
+    let _ = ctrlc::set_handler(|| {
+        let _settled = settled();
+        std::process::exit(INTERRUPTED)
+    });
     match run(Arguments::parse_in_order()) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FAILED),

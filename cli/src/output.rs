@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::output::{is_no_regular_file, write_if_changed};
+use lexibus_codegen::output::{is_no_regular_file, write_if_changed, writing};
 
 use super::args::Inputs;
 use super::report::Reporter;
@@ -103,9 +103,10 @@ impl<'g> Target<'g> {
 }
 
 /// Creates a file that the user will edit. Does not overwrite an existing file.
-pub(super) fn create(path: &Path, text: &str) -> Result<(), Failure> {
+pub(super) fn create(path: &Path, content: &[u8]) -> Result<(), Failure> {
+    let _writing = writing();
     let file = std::fs::File::options().write(true).create_new(true).open(path);
-    let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
+    let written = file.and_then(|mut file| file.write_all(content));
     written.map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => {
             Failure::Usage(format!("{} exists already and is not overwritten", path.display()))

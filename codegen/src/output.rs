@@ -4,6 +4,21 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead, BufReader, Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+/// Each write of a file holds a read lock. A program that ends on a signal takes the write lock first.
+static WRITING: RwLock<()> = RwLock::new(());
+
+/// Announces a write to a file. [`settled`] waits until the guard is dropped.
+pub fn writing() -> RwLockReadGuard<'static, ()> {
+    WRITING.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits until all writes to files have ended, and blocks further writes until the guard is dropped. A program that ends on a
+/// signal calls this function first, so that it leaves no incomplete and no temporary files.
+pub fn settled() -> RwLockWriteGuard<'static, ()> {
+    WRITING.write().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Returns whether a path exists and is a pipe, terminal or device, instead of a file or folder.
 pub fn is_no_regular_file(path: &Path) -> bool {
@@ -27,6 +42,7 @@ pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
     if has_content(path, content).unwrap_or(false) {
         return Ok(());
     }
+    let _writing = writing();
     match fs::canonicalize(path) {
         Ok(target) => replace(&target, content),
         // `path` is a symbolic link whose target does not exist yet.

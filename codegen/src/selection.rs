@@ -3,6 +3,8 @@
 //! A vendor file can describe hundreds of devices. The compiler reads all devices and modules, but it checks and generates code
 //! for selected devices and modules only.
 
+pub mod arguments;
+
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt;
 use std::str::FromStr;

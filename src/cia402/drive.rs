@@ -33,7 +33,7 @@ pub struct Drive<'c, C, O> {
 impl<'c, C, O> Drive<'c, C, O> {
     /// Creates the operations of the drive that `client` accesses.
     #[must_use]
-    pub const fn new(client: &'c mut C) -> Self {
+    pub fn new(client: &'c mut C) -> Self {
         Self { client, objects: PhantomData }
     }
 }

@@ -89,6 +89,8 @@ impl Printing {
     /// All diagnostics as text.
     pub(crate) const TEXT: Printing =
         Printing { all: true, statistics: false, message_format: MessageFormat::Text, color: ColorChoice::Auto };
+    /// A limited number of diagnostics as text.
+    pub(crate) const NEW: Printing = Printing { all: false, ..Printing::TEXT };
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use lexibus_codegen::selection::DeviceFilter;
 use lexibus_import::Field;
 
 use inputs::{choice, DIAGNOSTICS};
@@ -47,8 +48,8 @@ pub(super) enum Command {
     /// Print the intermediate representation as JSON.
     #[command(after_help = "Example:\n  lexibus dump drive.eds")]
     Dump(Dump),
-    /// Create a register table with example rows.
-    #[command(after_help = "Example:\n  lexibus new pump --bus canopen")]
+    /// Create a drive crate, or a register table with example rows.
+    #[command(after_help = "Example:\n  lexibus new --crate my-drive --from drive.eds")]
     New(New),
     /// Convert a list of registers (CSV) to a register table.
     #[command(after_help = "Example:\n  lexibus import registers.csv --out pump.toml")]
@@ -201,14 +202,26 @@ pub(super) struct Dump {
 
 #[derive(Debug, Args)]
 pub(super) struct New {
-    /// Name of the device.
-    pub name: String,
-    /// File to create, which must not exist; by default, the name of the device with the extension .toml.
-    #[arg(short, long, value_name = "FILE")]
+    /// Name of the device, for a register table.
+    #[arg(required_unless_present = "crate_name")]
+    pub name: Option<String>,
+    /// Create a drive crate with this name instead of a register table.
+    #[arg(long = "crate", value_name = "NAME", requires = "from", conflicts_with = "name")]
+    pub crate_name: Option<String>,
+    /// Device description of the crate. The file is copied into the crate.
+    #[arg(long, value_name = "FILE", requires = "crate_name", conflicts_with = "name")]
+    pub from: Option<PathBuf>,
+    /// Device of the crate, if the file describes several (a name, order code or product code, optionally with @REVISION or
+    /// @latest).
+    #[arg(long, value_name = "DEVICE", requires = "crate_name", conflicts_with = "name")]
+    pub device: Option<DeviceFilter>,
+    /// File or folder to create, which must not exist; by default, the name of the device with the extension .toml, or the
+    /// name of the crate.
+    #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Bus of the example rows.
-    #[arg(long, value_enum, value_name = "BUS", default_value_t = Bus::Modbus)]
-    pub bus: Bus,
+    /// Bus of the example rows (by default, modbus), or of the crate's driver (by default, the first bus of the device).
+    #[arg(long, value_enum, value_name = "BUS")]
+    pub bus: Option<Bus>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -44,30 +44,20 @@ pub(crate) fn info_text(info: &Info) -> String {
     let mut text = String::new();
     let _ =
         writeln!(text, "{} ({}, {})", printable(&info.file), info.format.unwrap_or("unknown format"), info.encoding);
-    let number = |value: Option<u32>| value.map_or("unknown".to_owned(), hex32);
-    for device in &info.devices {
-        let _ = writeln!(text, "  {}", printable(&device_title(device)));
-        let _ = writeln!(
-            text,
-            "    vendor {}, product {}, revision {}",
-            number(device.vendor_id),
-            number(device.product_code),
-            number(device.revision)
-        );
-        let registers = device.registers.map(|number| format!(", {number} registers")).unwrap_or_default();
-        let _ = writeln!(text, "    {} objects, {} entries{registers}", device.objects, device.entries);
-        for (direction, pdos) in [("RPDO", &device.rx_pdos), ("TPDO", &device.tx_pdos)] {
-            let all: Vec<String> = pdos.iter().map(pdo_text).collect();
-            if !all.is_empty() {
-                let _ = writeln!(text, "    {direction}: {}", all.join(", "));
-            }
+    match info.devices.as_slice() {
+        [device] => one_device(&mut text, device),
+        [] => {}
+        devices => {
+            let title = ["--device", "order code", "revision", "product", "objects", "entries", "PDOs", "name"];
+            columns(&mut text, title, devices.iter().map(device_row));
         }
     }
     if let Some(dictionary) = &info.dictionary {
         let _ = writeln!(text, "  a dictionary: {} objects, {} entries", dictionary.objects, dictionary.entries);
     }
-    for module in info.modules.iter().flatten() {
-        let _ = writeln!(text, "  module {} ({}): {}", printable(&module.id), hex32(module.ident), module_text(module));
+    let modules = || info.modules.iter().flatten();
+    if modules().next().is_some() {
+        columns(&mut text, ["--module", "ident", "content", "name"], modules().map(module_row));
     }
     for submodule in info.submodules.iter().flatten() {
         let SubmoduleInfo { input_bytes, output_bytes, .. } = submodule;
@@ -81,6 +71,66 @@ pub(crate) fn info_text(info: &Info) -> String {
         }
     }
     text
+}
+
+/// Adds the facts of the only device of a file.
+fn one_device(text: &mut String, device: &DeviceInfo) {
+    let [vendor, product, revision] = [device.vendor_id, device.product_code, device.revision].map(number);
+    let _ = writeln!(text, "  {}", printable(&device_title(device)));
+    let _ = writeln!(text, "    vendor {vendor}, product {product}, revision {revision}");
+    let registers = device.registers.map(|number| format!(", {number} registers")).unwrap_or_default();
+    let _ = writeln!(text, "    {} objects, {} entries{registers}", device.objects, device.entries);
+    for (direction, pdos) in [("RPDO", &device.rx_pdos), ("TPDO", &device.tx_pdos)] {
+        let all: Vec<String> = pdos.iter().map(pdo_text).collect();
+        if !all.is_empty() {
+            let _ = writeln!(text, "    {direction}: {}", all.join(", "));
+        }
+    }
+}
+
+fn number(value: Option<u32>) -> String {
+    value.map_or("unknown".to_owned(), hex32)
+}
+
+/// Returns the row of a device in the table of all devices.
+fn device_row(device: &DeviceInfo) -> [String; 8] {
+    [
+        argument(device.argument.as_deref()),
+        device.order_code.clone(),
+        number(device.revision),
+        number(device.product_code),
+        device.objects.to_string(),
+        device.entries.to_string(),
+        (device.rx_pdos.len() + device.tx_pdos.len()).to_string(),
+        device.name.clone(),
+    ]
+}
+
+/// Returns the row of a module in the table of all modules.
+fn module_row(module: &ModuleInfo) -> [String; 4] {
+    [argument(module.argument.as_deref()), hex32(module.ident), module_text(module), module.name.clone()]
+}
+
+/// Returns an argument of the command line, in quotation marks if a shell would split it.
+fn argument(text: Option<&str>) -> String {
+    let is_word = |letter: char| letter.is_alphanumeric() || "-_.,:/@+=".contains(letter);
+    match text {
+        None => "-".to_owned(),
+        Some(text) if text.chars().all(is_word) => text.to_owned(),
+        Some(text) => format!("\"{}\"", text.replace('\\', "\\\\").replace('$', "\\$").replace('`', "\\`")),
+    }
+}
+
+/// Adds a table with aligned columns.
+fn columns<const N: usize>(text: &mut String, title: [&str; N], rows: impl Iterator<Item = [String; N]>) {
+    let rows = rows.map(|row| row.map(|cell| printable(&cell).into_owned()));
+    let all: Vec<[String; N]> = std::iter::once(title.map(str::to_owned)).chain(rows).collect();
+    let width = |column: usize| all.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; N] = std::array::from_fn(width);
+    for row in &all {
+        let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}"));
+        let _ = writeln!(text, "  {}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
 }
 
 /// Returns the name of a device, preceded by the order code with which the user can select it.

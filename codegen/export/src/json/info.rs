@@ -10,6 +10,7 @@ use lexibus_codegen::ir::{
     Catalog, Device, Direction, Format, Group, GroupKind, IoData, Module, ProcessData, Submodule, SubmoduleKind,
     SubmoduleUse,
 };
+use lexibus_codegen::selection::arguments;
 use lexibus_codegen::source::{FileId, Origin};
 
 /// The output of `lexibus info --format json` for a file.
@@ -54,6 +55,9 @@ pub struct DeviceInfo {
     pub name: String,
     /// Order code, or Type of ETG.2000; empty if there is none.
     pub order_code: String,
+    /// Argument of `--device` that selects only this device, if there is one. Not part of the JSON object.
+    #[serde(skip)]
+    pub argument: Option<String>,
     /// Number of distinct indices that the file and the dictionary file of the device declare.
     pub objects: usize,
     /// Number of addressable entries that the file and the dictionary file of the device declare, including sub-index 0.
@@ -94,6 +98,12 @@ pub struct ModuleInfo {
     pub id: String,
     /// Ident number of the module.
     pub ident: u32,
+    /// Name of the module. Not part of the JSON object.
+    #[serde(skip)]
+    pub name: String,
+    /// Argument of `--module` that selects only this module, if there is one. Not part of the JSON object.
+    #[serde(skip)]
+    pub argument: Option<String>,
     /// The bus-specific facts of the module.
     #[serde(flatten)]
     pub content: ModuleContent,
@@ -174,22 +184,31 @@ pub fn info(compilation: &Compilation) -> Info {
     let is_gsdml = compilation.format == Some(Format::Gsdml);
     let is_table = compilation.format == Some(Format::Table);
     let is_modular = is_gsdml || compilation.format == Some(Format::Esi);
+    let of_devices = arguments::of_devices(&catalog.devices).into_iter();
+    let of_modules = arguments::of_modules(&catalog.modules).into_iter();
     let main_devices = || catalog.devices.iter().filter(|device| is_in_main_file(device.origin));
-    let main_modules = || catalog.modules.iter().filter(|module| is_in_main_file(module.origin));
     let mut info = Info {
         file: source.map(|source| source.name().to_owned()).unwrap_or_default(),
         format: compilation.format.map(|format| format.name()),
         encoding: source.map_or("utf-8", |source| source.encoding().name()),
-        devices: main_devices()
-            .filter(|device| !device.dictionary_only)
-            .map(|described| DeviceInfo {
+        devices: catalog
+            .devices
+            .iter()
+            .zip(of_devices)
+            .filter(|(device, _)| is_in_main_file(device.origin) && !device.dictionary_only)
+            .map(|(described, argument)| DeviceInfo {
                 registers: is_table.then(|| registers(described)),
+                argument,
                 ..device(described, catalog)
             })
             .collect(),
         dictionary: main_devices().find(|device| device.dictionary_only).map(|device| dictionary(device, catalog)),
         daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
-        modules: is_modular.then(|| main_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
+        modules: is_modular.then(|| {
+            let main_modules = catalog.modules.iter().zip(of_modules).filter(|(one, _)| is_in_main_file(one.origin));
+            let info = |(one, argument)| ModuleInfo { argument, ..module(one, catalog, is_gsdml) };
+            main_modules.map(info).collect()
+        }),
         submodules: is_gsdml.then(|| {
             let pluggable = |one: &&Submodule| one.kind == SubmoduleKind::Pluggable;
             catalog.submodules.iter().filter(pluggable).map(submodule).collect()
@@ -231,6 +250,7 @@ fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
         revision: device.identity.revision_number,
         name: device.name.to_string(),
         order_code: device.identity.order_code.to_string(),
+        argument: None,
         objects,
         entries,
         registers: None,
@@ -275,7 +295,8 @@ fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
             tx_pdos: pdos(&module.process_data, Direction::Transmit),
         }
     };
-    ModuleInfo { id: module.id.to_string(), ident: module.number, content }
+    let (id, name) = (module.id.to_string(), module.name.to_string());
+    ModuleInfo { id, ident: module.number, name, argument: None, content }
 }
 
 fn virtual_submodules(uses: &[SubmoduleUse], catalog: &Catalog) -> Vec<SubmoduleInfo> {

@@ -55,10 +55,7 @@ impl Constants<'_, '_> {
         let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
         let (object, model) = all.into_iter().find(|(_, item)| is_it(item))?;
         let item = self.context.item(model.id)?;
-        let path = match object.is_module {
-            true => format!("objects::{}::{}", object.name, model.constant),
-            false => format!("objects::{}", model.constant),
-        };
+        let path = object.path(model);
         let location = self.locations.name(ItemAddresses::of(self.context, item).buses(), "objects::");
         value_type::is_word(self.context.base(item.ty)).then_some(Constant {
             model,

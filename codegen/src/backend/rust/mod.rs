@@ -49,12 +49,14 @@ mod print;
 mod procedure;
 #[cfg(feature = "gsdml")]
 mod profinet;
+mod program;
 mod quantity;
 mod reachable;
 mod reexport;
 mod remap;
 mod route;
 mod scope;
+mod simulation;
 mod slot_dependency;
 mod table;
 mod value_type;
@@ -65,6 +67,10 @@ mod window_model;
 mod words;
 
 pub use options::{Presence, RustOptions};
+#[cfg(feature = "gsdml")]
+pub use profinet::{profinet_program, ProfinetData, ProfinetProgram};
+pub use program::{program, Program, ProgramCia402, ProgramItem, ProgramMachine};
+pub use simulation::Simulation;
 
 use std::collections::HashMap;
 

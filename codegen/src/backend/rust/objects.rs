@@ -36,6 +36,14 @@ pub(super) struct ObjectModel {
 }
 
 impl ObjectModel {
+    /// Returns the path of the constant of an item.
+    pub(super) fn path(&self, item: &ItemModel) -> String {
+        match self.is_module {
+            true => format!("objects::{}::{}", self.name, item.constant),
+            false => format!("objects::{}", item.constant),
+        }
+    }
+
     /// Returns whether `lexibus::pdo!` knows the names of the items. It knows all mappable items, and items outside of the
     /// communication parameters, so that it can report that they aren't mappable.
     pub(super) fn is_in_mappable(&self) -> bool {

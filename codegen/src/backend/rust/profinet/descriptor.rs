@@ -139,6 +139,12 @@ pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str
     }
 }
 
+/// Returns the slot of a device access point.
+pub(super) fn slot(point: &AccessPoint<'_>) -> u16 {
+    let fixed = point.settings.places.fixed.iter().next();
+    fixed.or_else(|| point.settings.places.allowed.iter().next()).unwrap_or(0)
+}
+
 /// A device access point, ready to be printed.
 pub(in crate::backend::rust) struct DapModel<'a> {
     pub name: &'a str,
@@ -165,8 +171,7 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
     docs::paragraphs(&device.name, device.documentation.as_deref(), &mut docs);
     let lengths = settings.max_lengths;
     let vendor_id = device.identity.vendor_id.map_or(0, |id| (id & 0xFFFF) as u16);
-    let fixed = settings.places.fixed.iter().next();
-    let slot = fixed.or_else(|| settings.places.allowed.iter().next()).unwrap_or(0);
+    let slot = slot(point);
     DapModel {
         name,
         docs,

@@ -1,31 +1,31 @@
-//! `lexibus new`: creates a register table with example rows.
+//! `lexibus new NAME`: creates a register table with example rows.
 
 use std::path::{Path, PathBuf};
 
-use super::args::{Bus, New};
-use super::output::create;
-use super::Failure;
+use crate::args::{Bus, New};
+use crate::output::create;
+use crate::Failure;
 
 // These templates contain the placeholders `{name}` and `{file}`.
-const MODBUS: &str = include_str!("../templates/table/modbus.toml");
-const CANOPEN: &str = include_str!("../templates/table/canopen.toml");
-const ETHERCAT: &str = include_str!("../templates/table/ethercat.toml");
+const MODBUS: &str = include_str!("../../templates/table/modbus.toml");
+const CANOPEN: &str = include_str!("../../templates/table/canopen.toml");
+const ETHERCAT: &str = include_str!("../../templates/table/ethercat.toml");
 
-pub(super) fn run(new: &New) -> Result<bool, Failure> {
-    let name = new.name.trim();
+pub(super) fn run(new: &New, name: &str) -> Result<bool, Failure> {
+    let name = name.trim();
     if name.is_empty() || name.chars().any(char::is_control) {
         return Err(Failure::Usage("the name of the device must not be empty or contain control characters".into()));
     }
     let template = match new.bus {
-        Bus::Modbus => MODBUS,
-        Bus::Canopen => CANOPEN,
-        Bus::Ethercat => ETHERCAT,
+        None | Some(Bus::Modbus) => MODBUS,
+        Some(Bus::Canopen) => CANOPEN,
+        Some(Bus::Ethercat) => ETHERCAT,
     };
     let path = new.out.clone().unwrap_or_else(|| PathBuf::from(file_name(name)));
     let file = path.display();
     let quoted = name.replace('\\', "\\\\").replace('"', "\\\"");
-    create(&path, &template.replace("{name}", &quoted).replace("{file}", &file.to_string()))?;
-    super::say(&format!("{file}: created with example rows. Replace them, then run: lexibus check {file}"));
+    create(&path, template.replace("{name}", &quoted).replace("{file}", &file.to_string()).as_bytes())?;
+    crate::say(&format!("{file}: created with example rows. Replace them, then run: lexibus check {file}"));
     Ok(true)
 }
 

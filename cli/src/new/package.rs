@@ -1,0 +1,162 @@
+//! `lexibus new --crate`: creates a drive crate from a device description. The build script of the crate reports the warnings
+//! about the description.
+
+use std::path::{Path, PathBuf};
+
+use askama::Template;
+use lexibus_codegen::compile::{self, Compilation, Options, NOTHING_TO_GENERATE};
+use lexibus_codegen::ir::{Catalog, Device, Format};
+use lexibus_codegen::selection::Selection;
+use lexibus_codegen::source::Source;
+use lexibus_codegen::text::file_name;
+
+use super::files::Files;
+use super::text::literal;
+use super::{objects, profinet};
+use crate::args::{New, Printing};
+use crate::report::Reporter;
+use crate::Failure;
+
+/// Names that Cargo refuses, and names of crates on which a drive crate depends.
+const RESERVED: [&str; 11] =
+    ["test", "core", "std", "alloc", "proc_macro", "build", "examples", "deps", "self", "lexibus", "lexibus_codegen"];
+
+#[derive(Template)]
+#[template(path = "crate/Cargo.toml.txt", escape = "none")]
+struct Manifest<'m> {
+    name: &'m str,
+    description: String,
+    format: &'static str,
+    is_in_workspace: bool,
+}
+
+#[derive(Template)]
+#[template(path = "crate/build.rs.txt", escape = "none")]
+struct BuildScript {
+    file: String,
+    device: Option<String>,
+    /// Whether the simulated device needs the table of all entries.
+    has_table: bool,
+}
+
+/// A device description, and what the files of a new crate have in common.
+pub(super) struct Package<'p> {
+    /// Name of the library in Rust.
+    pub library: String,
+    /// Name of the device.
+    pub title: String,
+    pub catalog: &'p Catalog,
+}
+
+pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Failure> {
+    check_name(name)?;
+    let folder = new.out.clone().unwrap_or_else(|| PathBuf::from(name));
+    Files::check(&folder)?;
+    let source = Source::read(description)
+        .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", description.display())))?;
+    let devices = new.device.iter().cloned().collect();
+    let options = Options { select: Selection { devices, ..Selection::default() }, ..Options::default() };
+    let compilation = compile::check(source, &options);
+    let Some((catalog, format)) = compilation.usable().zip(compilation.format) else {
+        let mut reporter = Reporter::with(&Printing::NEW, false)?;
+        reporter.report(&compilation)?;
+        return reporter.finish();
+    };
+    let device = only_device(catalog, description)?;
+    let package = Package { library: name.replace('-', "_"), title: title(device, name), catalog };
+    let mut files = Files::default();
+    match format {
+        Format::Gsdml if new.bus.is_some() => {
+            return Err(Failure::Usage("a GSDML file describes a device on PROFINET: leave out --bus".into()));
+        }
+        Format::Gsdml => profinet::write(&package, &mut files)?,
+        _ => objects::write(&package, device, new.bus, &mut files)?,
+    }
+    let file = copy_sources(&compilation, &mut files);
+    let manifest = Manifest {
+        name,
+        description: literal(&format!("Driver for {}", package.title)),
+        format: feature(format, device),
+        is_in_workspace: is_in_workspace(&folder),
+    };
+    files.text("Cargo.toml", render(&manifest)?);
+    let device = new.device.as_ref().map(|device| literal(&device.to_string()));
+    files.text("build.rs", render(&BuildScript { file, device, has_table: format != Format::Gsdml })?);
+    files.create(&folder)?;
+    let shown = folder.display();
+    crate::say(&format!("{shown}: created a drive crate. Try it with: cd {shown} && cargo run --example simulated"));
+    Ok(true)
+}
+
+/// Returns the text of a file.
+pub(super) fn render(template: &impl Template) -> Result<String, Failure> {
+    template.render().map_err(|error| Failure::Usage(format!("cannot write a file of the crate: {error}")))
+}
+
+/// Returns an error if Cargo does not accept the name of a crate, or the crate would hide one on which it depends.
+fn check_name(name: &str) -> Result<(), Failure> {
+    let is_word = name.starts_with(|first: char| first.is_ascii_alphabetic())
+        && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_');
+    let library = name.replace('-', "_");
+    let is_taken = RESERVED.contains(&library.as_str()) || lexibus_codegen::names::escaped(&library) != library;
+    match (is_word, is_taken) {
+        (true, false) => Ok(()),
+        (true, true) => Err(Failure::Usage(format!("`{name}` is a reserved name: choose another name for the crate"))),
+        (false, _) => Err(Failure::Usage(format!(
+            "`{name}` is not a name of a crate: start with an ASCII letter, and use letters, digits, `-` and `_`"
+        ))),
+    }
+}
+
+/// Returns the device of the catalog. Returns an error if there is none, or if there are several.
+fn only_device<'c>(catalog: &'c Catalog, description: &Path) -> Result<&'c Device, Failure> {
+    let file = description.display();
+    match catalog.devices.as_slice() {
+        [device] => Ok(device),
+        [] => Err(Failure::Usage(format!("{file}: {NOTHING_TO_GENERATE}"))),
+        devices => Err(Failure::Usage(format!(
+            "{file} describes {} devices: choose one with --device. `lexibus info {file}` lists them",
+            devices.len()
+        ))),
+    }
+}
+
+fn title(device: &Device, name: &str) -> String {
+    let identity = &device.identity;
+    let device = if device.name.is_empty() { &identity.order_code } else { &device.name };
+    match (device.is_empty(), identity.vendor_name.is_empty()) {
+        (true, _) => name.to_owned(),
+        (false, true) => device.to_string(),
+        (false, false) => format!("{} {device}", identity.vendor_name),
+    }
+}
+
+/// Adds copies of all description files. Returns the literal with the name of the main file.
+fn copy_sources(compilation: &Compilation, files: &mut Files) -> String {
+    let names = compilation.sources.iter().map(|source| (file_name(source.name()).to_owned(), source));
+    for (name, source) in names {
+        files.copy(name, source.bytes().to_vec());
+    }
+    compilation.sources.first().map_or_else(String::new, |source| literal(file_name(source.name())))
+}
+
+/// Returns the cargo feature of `lexibus-codegen` for a description.
+fn feature(format: Format, device: &Device) -> &'static str {
+    match format {
+        Format::Eds | Format::Dcf => "eds",
+        Format::Xdd => "xdd",
+        Format::Esi => "esi",
+        Format::Gsdml => "gsdml",
+        Format::Table if device.messages.is_empty() => "table",
+        Format::Table => "messages",
+    }
+}
+
+/// Returns whether a folder above `folder` is the root of a Cargo workspace.
+fn is_in_workspace(folder: &Path) -> bool {
+    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    folder.ancestors().skip(1).any(|folder| {
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
+        manifest.lines().any(|line| line.trim() == "[workspace]")
+    })
+}

@@ -1,0 +1,80 @@
+//! The files of a crate for a PROFINET device.
+
+use askama::Template;
+use lexibus_codegen::backend::rust::{self, ProfinetData};
+
+use super::files::Files;
+use super::package::{render, Package};
+use super::text::doc;
+use crate::Failure;
+
+/// Minimum number of submodules in a slot plan, so that a user can plug further modules.
+const MIN_PLACES: usize = 8;
+
+#[derive(Template)]
+#[template(path = "crate/profinet_lib.rs.txt", escape = "none")]
+struct Library<'l> {
+    title: String,
+    places: usize,
+    plugged: Option<&'l (u16, String)>,
+    data: Option<&'l Data<'l>>,
+}
+
+#[derive(Template)]
+#[template(path = "crate/profinet_example.rs.txt", escape = "none")]
+struct Example<'e> {
+    library: &'e str,
+    data: Option<&'e Data<'e>>,
+}
+
+#[derive(Template)]
+#[template(path = "crate/profinet_support.rs.txt", escape = "none")]
+struct Support<'s> {
+    library: &'s str,
+    data: Option<&'s Data<'s>>,
+}
+
+#[derive(Template)]
+#[template(path = "crate/profinet_test.rs.txt", escape = "none")]
+struct Test<'t> {
+    library: &'t str,
+    data: Option<&'t Data<'t>>,
+}
+
+/// The cyclic data of a submodule.
+struct Data<'d> {
+    slot: u16,
+    subslot: u16,
+    submodule: &'d str,
+    has_inputs: bool,
+    has_outputs: bool,
+    /// Import of the structs.
+    structs: &'static str,
+}
+
+pub(super) fn write(package: &Package, files: &mut Files) -> Result<(), Failure> {
+    let program = rust::profinet_program(package.catalog)
+        .ok_or_else(|| Failure::Usage("the file describes no device access point".into()))?;
+    let library = package.library.as_str();
+    let data = program.data.as_ref().map(Data::new);
+    let data = data.as_ref();
+    let places = program.places.next_power_of_two().max(MIN_PLACES);
+    let title = doc(&package.title);
+    files.text("src/lib.rs", render(&Library { title, places, plugged: program.plugged.as_ref(), data })?);
+    files.text("examples/simulated.rs", render(&Example { library, data })?);
+    files.text("tests/support/mod.rs", render(&Support { library, data })?);
+    files.text("tests/simulated.rs", render(&Test { library, data })?);
+    Ok(())
+}
+
+impl<'d> Data<'d> {
+    fn new(data: &'d ProfinetData) -> Self {
+        let ProfinetData { slot, subslot, submodule, has_inputs, has_outputs } = data;
+        let structs = match (has_inputs, has_outputs) {
+            (true, true) => "{Inputs, Outputs}",
+            (true, false) => "Inputs",
+            _ => "Outputs",
+        };
+        Data { slot: *slot, subslot: *subslot, submodule, has_inputs: *has_inputs, has_outputs: *has_outputs, structs }
+    }
+}

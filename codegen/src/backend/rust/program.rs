@@ -1,0 +1,223 @@
+//! Names of the generated elements with which a program accesses a device. New drive crates use these names.
+
+use super::constants::{Constant, Constants};
+use super::context::Context;
+use super::device_names;
+use super::item_addresses;
+use super::locations::Locations;
+use super::model;
+use super::named::Types;
+use super::objects::{self, ObjectModel};
+use super::options::RustOptions;
+use super::route::RouteBus;
+use super::scope::Scope;
+use super::simulation::{self, Simulation};
+use super::walk::{self, WalkModel};
+use super::{cia402::Cia402Model, example};
+use crate::facts::words::PLAIN;
+use crate::ir::{Bus, Device, FileInfo, Item};
+
+/// The generated elements with which a program accesses a device on one bus. All paths are relative to the module of the
+/// device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Program {
+    /// Name of the driver's type.
+    pub driver: String,
+    /// Bus of the program: CANopen, EtherCAT or Modbus.
+    pub bus: Bus,
+    /// State machine that the program leads to a state.
+    pub machine: Option<ProgramMachine>,
+    /// Operations of CiA 402.
+    pub cia402: Option<ProgramCia402>,
+    /// A number that the program reads, preferably a measured value.
+    pub read: Option<ProgramItem>,
+    /// A setting that the program writes, and its default value.
+    pub write: Option<(ProgramItem, i128)>,
+}
+
+/// A state machine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramMachine {
+    /// Method that leads the state machine to a state.
+    pub walk: String,
+    /// Type of the states, in the module `types`.
+    pub states: String,
+    /// Path of the constant of the status item.
+    pub status: String,
+    /// State to which the program leads the device: "Operation enabled", or the state farthest from the state after power-on.
+    pub target: String,
+    /// Behavior of a simulated device. `None` if `lexibus::sim` provides it, which applies to the objects of CiA 402.
+    pub simulation: Option<Simulation>,
+}
+
+/// Operations of CiA 402.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramCia402 {
+    /// Method that returns the operations.
+    pub method: String,
+    /// Whether the device accepts target positions in the mode "profile position".
+    pub positioning: bool,
+    /// Whether the device accepts target velocities.
+    pub velocity: bool,
+    /// Call that reads the actual position, such as `position_actual_value()`.
+    pub position: Option<String>,
+}
+
+/// An item that a program accesses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramItem {
+    /// Call that returns the accessor, such as `profile_velocity()`.
+    pub call: String,
+    /// Name of the item in the description.
+    pub name: String,
+    /// Path of the constant, such as `objects::PROFILE_VELOCITY`.
+    pub constant: String,
+    /// Primitive type of the raw value, such as `u32`.
+    pub native: &'static str,
+    /// A raw value within the limits of the item.
+    pub sample: i128,
+    /// Unit and resolution of the raw value, such as `unit rpm` or `1 LSB = 0.01 rev/s`. The text is empty if the unit is not known.
+    pub unit: String,
+}
+
+/// Buses of a program, in order of preference.
+const BUSES: [RouteBus; 3] = [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus];
+
+/// Returns the elements for a program that accesses `device` on `bus`. Without `bus`, the program uses the first bus of CANopen,
+/// EtherCAT and Modbus on which the state machine, or otherwise a value, can be accessed. Returns `None` if there is no such bus.
+pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Program> {
+    let options = RustOptions::default();
+    let driver = device_names::device_name(device, file, None);
+    let context = model::context(Scope::of_device(device), &options, &driver);
+    let locations = Locations::of(&context);
+    let objects = objects::models(&context, &locations);
+    let types = Types::of(&context, &options);
+    let constants = Constants { context: &context, locations: &locations, objects: &objects };
+    let walks = walk::models(&constants, &types.machines);
+    let parts = Parts { context: &context, constants: &constants, walks: &walks, objects: &objects };
+    let possible = || BUSES.into_iter().filter(|route| bus.is_none_or(|bus| route.of_items() == bus));
+    let with_machine = possible().filter_map(|route| Some((route, Some(parts.machine(&types, route)?)))).next();
+    let usable = || possible().find(|route| parts.read(*route).is_some() || parts.write(*route).is_some());
+    let (route, machine) = with_machine.or_else(|| Some((usable()?, None)))?;
+    let cia402 = Cia402Model::new(&constants, &walks)
+        .filter(|_| machine.as_ref().is_some_and(|machine| machine.simulation.is_none()));
+    Some(Program {
+        driver,
+        bus: route.of_items(),
+        machine,
+        cia402: cia402.map(|model| parts.cia402(&model, route)),
+        read: parts.read(route),
+        write: parts.write(route),
+    })
+}
+
+/// The results of the stages from which a program's elements are chosen.
+struct Parts<'p, 'a> {
+    context: &'p Context<'a>,
+    constants: &'p Constants<'p, 'a>,
+    walks: &'p [WalkModel],
+    objects: &'p [ObjectModel],
+}
+
+impl Parts<'_, '_> {
+    /// Returns the first state machine whose items can be accessed on a bus.
+    fn machine(&self, types: &Types, bus: RouteBus) -> Option<ProgramMachine> {
+        let machines = self.context.names.types.machines.iter().zip(&types.machines);
+        machines.into_iter().find_map(|(named, model)| {
+            let walk = self.walks.iter().find(|walk| walk.states == named.states)?;
+            let is_on = |path: &str, writes| self.item_of(path).is_some_and(|item| self.is_on(item, bus, writes));
+            if !is_on(&walk.status, false) || !is_on(&walk.control, true) {
+                return None;
+            }
+            let is_at =
+                |object, path: &str| self.constants.object(object).is_some_and(|it: Constant<'_>| it.path == path);
+            let is_cia402 = is_at((0x6040, 0), &walk.control) && is_at((0x6041, 0), &walk.status);
+            let simulated = simulation::of(named, model, walk)?;
+            Some(ProgramMachine {
+                walk: walk.method.clone(),
+                states: walk.states.clone(),
+                status: walk.status.clone(),
+                target: walk.energized.clone().unwrap_or_else(|| simulated.farthest()),
+                simulation: (!is_cia402).then_some(simulated),
+            })
+        })
+    }
+
+    fn cia402(&self, model: &Cia402Model, bus: RouteBus) -> ProgramCia402 {
+        let has = |name: &str| model.traits.iter().any(|implemented| implemented.path.ends_with(name));
+        let position = self.constants.object((0x6064, 0)).map(|constant| constant.path);
+        let call = position.and_then(|path| {
+            let item = self.item_of(&path).filter(|item| self.is_on(item, bus, false))?;
+            self.calls().find(|(other, _)| std::ptr::eq(*other, item)).map(|(_, call)| call)
+        });
+        ProgramCia402 {
+            method: model.method.clone(),
+            positioning: has("::Positioning"),
+            velocity: has("::Velocity"),
+            position: call,
+        }
+    }
+
+    /// Returns the number that a program reads on a bus.
+    fn read(&self, bus: RouteBus) -> Option<ProgramItem> {
+        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| self.is_on(item, bus, false)).collect();
+        let (item, call) = example::readable(self.context, &calls)?;
+        self.item(item, call)
+    }
+
+    /// Returns the setting that a program writes on a bus, and its default value.
+    fn write(&self, bus: RouteBus) -> Option<(ProgramItem, i128)> {
+        let is_possible = |item: &Item| self.is_on(item, bus, true) && is_default_allowed(item);
+        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| is_possible(item)).collect();
+        let (item, call, number) = example::writable(self.context, &calls)?;
+        Some((self.item(item, call)?, number))
+    }
+
+    fn item(&self, item: &Item, call: &str) -> Option<ProgramItem> {
+        let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |model| (object, model)));
+        let (object, model) = all
+            .into_iter()
+            .find(|(_, model)| self.context.item(model.id).is_some_and(|other| std::ptr::eq(other, item)))?;
+        let (low, high) = item.limits.integers();
+        let sample = [1, 0].into_iter().chain(low).chain(high).find(|number| is_within(item, *number))?;
+        Some(ProgramItem {
+            call: call.to_owned(),
+            name: item.name.to_string(),
+            constant: object.path(model),
+            native: self.context.value_type(item.ty).number()?.1,
+            sample,
+            unit: item.quantity.as_deref().and_then(|quantity| PLAIN.unit(quantity)).unwrap_or_default(),
+        })
+    }
+
+    /// Returns the items whose type is a plain number, and the calls of their accessors. Numbers of sub-indices are left out.
+    fn calls(&self) -> impl Iterator<Item = (&Item, String)> {
+        let is_count =
+            |item: &Item, call: &str| call.contains('.') && item.object().is_some_and(|(_, sub_index)| sub_index == 0);
+        objects::calls(self.context)
+            .map(|(entry, call)| (entry.item, call))
+            .filter(move |(item, call)| example::is_number(self.context, item) && !is_count(item, call))
+    }
+
+    /// Returns the item with the constant `path`.
+    fn item_of(&self, path: &str) -> Option<&Item> {
+        let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |model| (object, model)));
+        let (_, model) = all.into_iter().find(|(object, model)| object.path(model) == path)?;
+        self.context.item(model.id)
+    }
+
+    /// Returns whether a client on `bus` can access the item.
+    fn is_on(&self, item: &Item, bus: RouteBus, writes: bool) -> bool {
+        item_addresses::address(self.context, item, bus, writes).is_some()
+    }
+}
+
+/// Returns whether the default value of an item is within its limits. A range that consists of several ranges is left out.
+fn is_default_allowed(item: &Item) -> bool {
+    item.limits.allowed.is_empty() && item.default_integer().is_some_and(|number| is_within(item, number))
+}
+
+fn is_within(item: &Item, number: i128) -> bool {
+    let (low, high) = item.limits.integers();
+    low.is_none_or(|low| low <= number) && high.is_none_or(|high| number <= high)
+}
