@@ -13,7 +13,8 @@ use crate::route::{ReadRoute, WriteRoute};
 use crate::value::{byte_len, Fixed};
 use crate::value_error::{LengthError, OutOfRange};
 
-impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
+/// Methods for items that can be read.
+impl<C, V: Fixed, A: Readable, L> Accessor<'_, C, V, A, L> {
     /// Reads the value.
     ///
     /// # Errors
@@ -22,7 +23,6 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     #[inline]
     pub fn read(&mut self) -> Result<V::Native, AccessError<C::Error>>
     where
-        A: Readable,
         C: Client,
         L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
@@ -42,7 +42,6 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// Returns [`Error::Length`] if the device sends a value whose length differs from the length of the type.
     pub async fn read_async(&mut self) -> Result<V::Native, AccessError<C::Error>>
     where
-        A: Readable,
         C: AsyncClient,
         L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
@@ -54,7 +53,10 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
             Err(error) => Err(self.read_failed(error)),
         }
     }
+}
 
+/// Methods for items that can be written.
+impl<C, V: Fixed, A: Writable, L> Accessor<'_, C, V, A, L> {
     /// Writes the value.
     ///
     /// # Errors
@@ -64,7 +66,6 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     #[inline]
     pub fn write(&mut self, value: V::Native) -> Result<(), AccessError<C::Error>>
     where
-        A: Writable,
         C: Client,
         L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
@@ -85,7 +86,6 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// isn't sent.
     pub async fn write_async(&mut self, value: V::Native) -> Result<(), AccessError<C::Error>>
     where
-        A: Writable,
         C: AsyncClient,
         L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
@@ -97,7 +97,10 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         };
         sent.map_err(|error| self.write_failed(error, V::raw_value(value)))
     }
+}
 
+/// Methods for items that can be read and written.
+impl<C, V: Fixed, A: Readable + Writable, L> Accessor<'_, C, V, A, L> {
     /// Reads the value, changes it with `change`, and writes the result: one read and one write. Bits that `change` doesn't
     /// change keep the values that the device has.
     ///
@@ -126,7 +129,6 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     #[inline]
     pub fn modify(&mut self, change: impl FnOnce(V::Native) -> V::Native) -> Result<(), AccessError<C::Error>>
     where
-        A: Readable + Writable,
         C: Client,
         L: On<C::Bus, Route: ReadRoute<C::Bus> + WriteRoute<C::Bus>>,
     {
@@ -145,14 +147,15 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         change: impl FnOnce(V::Native) -> V::Native,
     ) -> Result<(), AccessError<C::Error>>
     where
-        A: Readable + Writable,
         C: AsyncClient,
         L: On<C::Bus, Route: ReadRoute<C::Bus> + WriteRoute<C::Bus>>,
     {
         let value = self.read_async().await?;
         self.write_async(change(value)).await
     }
+}
 
+impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     #[inline(always)]
     fn out_of_range<B: Bus, E>(&self, value: V::Native) -> AccessError<E>
     where

@@ -16,7 +16,7 @@ macro_rules! octets {
         $marker:ident: $Client:ident $fetch:ident $send:ident $read_into:ident $write:ident
         $($async:ident $await:ident)?
     ) => {
-        impl<C, A, L> Accessor<'_, C, $marker, A, L> {
+        impl<C, A: Readable, L> Accessor<'_, C, $marker, A, L> {
             /// Reads the byte string into `buffer` and returns the received bytes.
             ///
             /// # Errors
@@ -24,13 +24,14 @@ macro_rules! octets {
             /// Returns [`Error::Length`] if the byte string is longer than `buffer`.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], AccessError<C::Error>>
             where
-                A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
                 self.$fetch(buffer)$(.$await)?.map_err(|error| self.read_failed(error))
             }
+        }
 
+        impl<C, A: Writable, L> Accessor<'_, C, $marker, A, L> {
             /// Writes the byte string.
             ///
             /// # Errors
@@ -38,7 +39,6 @@ macro_rules! octets {
             /// Returns only the errors of the client.
             pub $($async)? fn $write(&mut self, data: &[u8]) -> Result<(), AccessError<C::Error>>
             where
-                A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {

@@ -33,7 +33,7 @@ macro_rules! scaled {
         $Client:ident $read:ident $write:ident: $read_scaled:ident $write_scaled:ident $read_scaled_by:ident
         $write_scaled_by:ident $($async:ident $await:ident)?
     ) => {
-        impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
+        impl<C, V: Quantity<Other = ()>, A: Readable, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if some raw value has a
             /// special meaning. `None` means that the device sent a raw value with a special meaning.
             ///
@@ -42,13 +42,14 @@ macro_rules! scaled {
             /// Returns the errors of [`read`](Accessor::read).
             pub $($async)? fn $read_scaled(&mut self) -> Result<V::Physical, AccessError<C::Error>>
             where
-                A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
                 self.$read()$(.$await)?.map(|raw| V::physical(raw, ()))
             }
+        }
 
+        impl<C, V: Quantity<Other = ()>, A: Writable, L> Accessor<'_, C, V, A, L> {
             /// Writes the raw value that is nearest to `physical`. `physical` is a value in the item's unit.
             ///
             /// # Errors
@@ -57,7 +58,6 @@ macro_rules! scaled {
             /// a special meaning. An invalid value isn't sent.
             pub $($async)? fn $write_scaled(&mut self, physical: f64) -> Result<(), AccessError<C::Error>>
             where
-                A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
@@ -68,7 +68,7 @@ macro_rules! scaled {
 
         /// Methods for values whose scale depends on another value. The caller passes the other value, which the item's
         /// documentation names.
-        impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
+        impl<C, V: Quantity<Other = f64>, A: Readable, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. `other` is the value that determines the scale.
             ///
             /// # Errors
@@ -76,13 +76,14 @@ macro_rules! scaled {
             /// Returns the errors of [`read`](Accessor::read).
             pub $($async)? fn $read_scaled_by(&mut self, other: f64) -> Result<V::Physical, AccessError<C::Error>>
             where
-                A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
                 self.$read()$(.$await)?.map(|raw| V::physical(raw, other))
             }
+        }
 
+        impl<C, V: Quantity<Other = f64>, A: Writable, L> Accessor<'_, C, V, A, L> {
             /// Writes the raw value that is nearest to `physical`. `other` is the value that determines the scale.
             ///
             /// # Errors
@@ -90,7 +91,6 @@ macro_rules! scaled {
             /// Returns the errors of [`write_scaled`](Accessor::write_scaled).
             pub $($async)? fn $write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), AccessError<C::Error>>
             where
-                A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {

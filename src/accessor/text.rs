@@ -13,7 +13,7 @@ use crate::text::{decode_visible, encode_utf16, encode_visible, UnicodeString, U
 /// Defines the methods for texts, blocking and async.
 macro_rules! texts {
     ($Client:ident $fetch:ident $send:ident: $read_into:ident $write:ident $($async:ident $await:ident)?) => {
-        impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
+        impl<C, A: Readable, L> Accessor<'_, C, VisibleString, A, L> {
             /// Reads the text into `buffer`. The text ends before the first NUL, because devices pad texts of a fixed
             /// length with NULs.
             ///
@@ -23,7 +23,6 @@ macro_rules! texts {
             /// ASCII nor UTF-8.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, AccessError<C::Error>>
             where
-                A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
@@ -31,7 +30,9 @@ macro_rules! texts {
                 let text = bytes.and_then(|bytes| Ok(decode_visible(bytes)?));
                 text.map_err(|error| self.read_failed(error))
             }
+        }
 
+        impl<C, A: Writable, L> Accessor<'_, C, VisibleString, A, L> {
             /// Writes the text.
             ///
             /// # Errors
@@ -39,7 +40,6 @@ macro_rules! texts {
             /// Returns [`Error::Text`] if a character is outside the range 0x20 to 0x7E; the text isn't sent.
             pub $($async)? fn $write(&mut self, text: &str) -> Result<(), AccessError<C::Error>>
             where
-                A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
@@ -51,7 +51,7 @@ macro_rules! texts {
             }
         }
 
-        impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
+        impl<C, A: Readable, L> Accessor<'_, C, UnicodeString, A, L> {
             /// Reads the text into `buffer`, two bytes per code unit. The text ends before the first NUL.
             ///
             /// # Errors
@@ -60,7 +60,6 @@ macro_rules! texts {
             /// UTF-16.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, AccessError<C::Error>>
             where
-                A: Readable,
                 C: $Client,
                 L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
@@ -68,7 +67,9 @@ macro_rules! texts {
                 let text = bytes.and_then(|bytes| Ok(Utf16::new(bytes)?));
                 text.map_err(|error| self.read_failed(error))
             }
+        }
 
+        impl<C, A: Writable, L> Accessor<'_, C, UnicodeString, A, L> {
             /// Writes the text. The method encodes the text into `scratch`, two bytes per code unit.
             ///
             /// # Errors
@@ -76,7 +77,6 @@ macro_rules! texts {
             /// Returns [`Error::Length`] if `scratch` is too short; the text isn't sent.
             pub $($async)? fn $write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), AccessError<C::Error>>
             where
-                A: Writable,
                 C: $Client,
                 L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
