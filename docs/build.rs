@@ -1,6 +1,6 @@
 //! Generates the bindings of the descriptions that the chapters use.
 
-use lexibus_codegen::{BuildError, Builder, Level, Presence};
+use lexibus_codegen::{BuildError, Builder, Presence};
 
 fn main() -> Result<(), BuildError> {
     let builder = Builder::new().table(Presence::Always);
@@ -8,7 +8,7 @@ fn main() -> Result<(), BuildError> {
         builder.compile(description)?;
     }
     // Allow warnings, because the following descriptions have warnings on purpose.
-    let lenient = builder.level("warnings", Level::Allow);
+    let lenient = builder.allow("warnings");
     lenient.compile_as("examples/station.gsdml.xml", "station.rs")?;
     lenient.compile_as("../tests/ui/configuration/order-of-a-dcf/input.dcf", "conveyor.rs")?;
     lenient.compile("../tests/data/press.toml")?;

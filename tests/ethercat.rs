@@ -365,6 +365,32 @@ fn any_legal_choice_of_pdos_has_its_image_and_its_start_up_list() {
 }
 
 #[test]
+fn the_default_start_up_list_is_sent_with_one_call() {
+    /// Records the writes.
+    struct Recorder(Vec<(Object, Vec<u8>)>);
+
+    impl Client for Recorder {
+        type Bus = CoE;
+        type Error = ();
+
+        fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, lexibus::Error<()>> {
+            Err(lexibus::Error::Client(()))
+        }
+
+        fn write(&mut self, object: Object, data: &[u8]) -> Result<(), lexibus::Error<()>> {
+            self.0.push((object, data.to_vec()));
+            Ok(())
+        }
+    }
+
+    let mut client = Recorder(Vec::new());
+    lexibus::ethercat::configure(&mut client, sv_1::STARTUP).unwrap();
+    let expected: Vec<_> = sv_1::STARTUP.iter().map(|write| (write.object(), write.data().to_vec())).collect();
+    assert_eq!(client.0, expected);
+    assert_eq!(client.0[3], (Object { index: 0x1600, sub_index: 1 }, vec![0x10, 0, 0x40, 0x60]));
+}
+
+#[test]
 fn what_a_master_has_to_know() {
     let device = &sv_1::DEVICE;
     assert_eq!((device.identity.product_code, device.identity.order_code), (Some(0x00A1_0002), "SV-1"));

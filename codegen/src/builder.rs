@@ -52,8 +52,22 @@ impl Builder {
         self
     }
 
-    /// Sets the level of a diagnostic code by identifier (`EDS020`) or name (`octal-number`), or of all `warnings`.
-    pub fn level(mut self, code: impl Into<String>, level: Level) -> Self {
+    /// Doesn't report a diagnostic code, named by identifier (`EDS020`) or name (`octal-number`), or none of the `warnings`.
+    pub fn allow(self, code: impl Into<String>) -> Self {
+        self.level(code, Level::Allow)
+    }
+
+    /// Reports a diagnostic code as a warning. The code is named as in [`allow`](Self::allow).
+    pub fn warn(self, code: impl Into<String>) -> Self {
+        self.level(code, Level::Warn)
+    }
+
+    /// Reports a diagnostic code as an error. The code is named as in [`allow`](Self::allow).
+    pub fn deny(self, code: impl Into<String>) -> Self {
+        self.level(code, Level::Deny)
+    }
+
+    fn level(mut self, code: impl Into<String>, level: Level) -> Self {
         self.levels.push((code.into(), level));
         self
     }

@@ -166,7 +166,8 @@ impl<'m, T: Timer> Sdo<'m, T> {
         self.mailbox.emergency.take()
     }
 
-    /// Sends a start-up list, for example [`Assignment::startup`](crate::ethercat::Assignment::startup), with complete
+    /// Sends a start-up list, for example [`Assignment::startup`](crate::ethercat::Assignment::startup) or the constant
+    /// `STARTUP` of a generated device, with complete
     /// access for the commands that request it. Call this method in state `PreOp`, before the group changes to
     /// `PreOpPdi` or `SafeOp`. `ethercrab` reads the PDO assignment during the transitions to these two states.
     ///
@@ -175,9 +176,10 @@ impl<'m, T: Timer> Sdo<'m, T> {
     /// Returns the error of the first command that fails. The remaining commands are not sent.
     pub async fn configure(
         &mut self,
-        commands: impl IntoIterator<Item = StartupCommand>,
+        commands: impl IntoIterator<Item: Into<StartupCommand>>,
     ) -> Result<(), Error<BusError>> {
         for command in commands {
+            let command = command.into();
             self.download(command.object, command.complete_access, command.data()).await?;
         }
         Ok(())

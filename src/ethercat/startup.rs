@@ -79,7 +79,22 @@ impl StartupCommand {
     }
 }
 
-/// Sends start-up commands, such as those of an [`Assignment`](super::Assignment) or a [`SlotPlan`](super::SlotPlan).
+/// The write is sent in Pre-Operational, before the transition to Safe-Operational. Generated constants `STARTUP` consist of such
+/// writes.
+impl From<SdoWrite> for StartupCommand {
+    fn from(write: SdoWrite) -> Self {
+        Self::of_write(Transition::PS, write)
+    }
+}
+
+impl From<&SdoWrite> for StartupCommand {
+    fn from(write: &SdoWrite) -> Self {
+        (*write).into()
+    }
+}
+
+/// Sends start-up commands: those of an [`Assignment`](super::Assignment) or a [`SlotPlan`](super::SlotPlan), or the constant
+/// `STARTUP` of a generated device.
 ///
 /// The slave must be in Pre-Operational. For commands with complete access, see [`StartupCommand::send`].
 ///
@@ -97,9 +112,9 @@ impl StartupCommand {
 /// Returns the first error of the client. The remaining commands are not sent.
 pub fn configure<C: Client<Bus = CoE>>(
     client: &mut C,
-    commands: impl IntoIterator<Item = StartupCommand>,
+    commands: impl IntoIterator<Item: Into<StartupCommand>>,
 ) -> Result<(), Error<C::Error>> {
-    commands.into_iter().try_for_each(|command| command.send(client))
+    commands.into_iter().try_for_each(|command| command.into().send(client))
 }
 
 /// Sends start-up commands through an asynchronous client, as [`configure`] does.
@@ -109,10 +124,10 @@ pub fn configure<C: Client<Bus = CoE>>(
 /// Returns the first error of the client. The remaining commands are not sent.
 pub async fn configure_async<C: AsyncClient<Bus = CoE>>(
     client: &mut C,
-    commands: impl IntoIterator<Item = StartupCommand>,
+    commands: impl IntoIterator<Item: Into<StartupCommand>>,
 ) -> Result<(), Error<C::Error>> {
     for command in commands {
-        command.send_async(client).await?;
+        command.into().send_async(client).await?;
     }
     Ok(())
 }

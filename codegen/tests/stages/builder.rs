@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::{Builder, Level, Presence};
+use lexibus_codegen::{Builder, Presence};
 
 const EDS: &str = "[DeviceInfo]\nProductName=Valve\n[2000]\nParameterName=Opening\nDataType=0x0005\nAccessType=rw\n\
                    DefaultValue=012\n";
@@ -76,13 +76,8 @@ fn errors_are_for_people() {
     let error = builder.clone().strict().compile(&input).expect_err("a repair");
     let text = format!("{error:?}");
     assert!(text.contains("error[EDS020]") && text.contains("valve.eds:7:14"), "{text}");
-    builder
-        .clone()
-        .strict()
-        .level("octal-number", Level::Allow)
-        .compile(&input)
-        .expect("a repair that is not an error");
-    let error = builder.clone().level("octal-numbr", Level::Deny).compile(&input).expect_err("no such code");
+    builder.clone().strict().allow("octal-number").compile(&input).expect("a repair that is not an error");
+    let error = builder.clone().deny("octal-numbr").compile(&input).expect_err("no such code");
     assert!(error.to_string().contains("did you mean `octal-number`?"), "{error}");
     let error = builder.compile(folder.join("missing.eds")).expect_err("no such file");
     assert!(error.to_string().contains("missing.eds"), "{error}");
