@@ -50,11 +50,14 @@ await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
   await loadsWhenIdle(window);
   await firstPart(window);
+  await enterBeforeTheIndex(window);
+  await focusAfterTheIndex(window);
   await finds(window, FOUND);
   await units(window);
   await arrows(window);
   await nothing(window);
   window.clean();
+  await missingIndex(await Window.open(browser, site));
 });
 
 // Checks the first result of each test case, and the page that Enter opens.
@@ -115,9 +118,100 @@ async function firstPart(window) {
   await page.waitForFunction(() => isLoaded);
   const after = await page.locator("#found a").evaluateAll((links) => links.map((link) => link.getAttribute("href")));
   assert.ok(after.length >= shown.length, `${after.length} results of the whole index, ${shown.length} before`);
-  if (after.includes(before)) assert.equal(await selected(), before);
+  assert.ok(after.includes(before), `${before} is missing: ${after.join("\n")}`);
+  assert.equal(await selected(), before);
   await page.keyboard.press("Escape");
   await window.context.unroute(/search\.js$/);
+}
+
+// Opens the list of devices, types a text and calls `test` before the whole index is loaded. `release` lets the browser load the index.
+async function beforeTheIndex(window, typed, test) {
+  let release;
+  const held = new Promise((resolve) => { release = resolve; });
+  await window.context.route(/search\.js$/, (route) => held.then(() => route.continue()).catch(() => { /* The page is left. */ }));
+  const page = await window.go("index.html");
+  await page.keyboard.press("/");
+  await page.keyboard.type(typed);
+  await page.waitForFunction(() => pages.length);
+  await test(page, async () => {
+    release();
+    await page.waitForFunction(() => isLoaded);
+  });
+  release();
+  await window.context.unroute(/search\.js$/);
+}
+
+// Checks what Enter does before the whole index is loaded.
+async function enterBeforeTheIndex(window) {
+  const isAtList = async (page) => {
+    await page.waitForTimeout(200);
+    return page.url().endsWith("index.html") && page.evaluate(() => Boolean(deviceFilter));
+  };
+  // A selected result is opened at once.
+  await beforeTheIndex(window, "target", async (page) => {
+    await page.keyboard.press("ArrowDown");
+    const chosen = await page.locator("#found [aria-selected=true]").evaluate((link) => link.href);
+    await page.keyboard.press("Enter");
+    await page.waitForURL(chosen);
+  });
+  // Another selection, Escape and leaving the field cancel Enter.
+  for (const key of ["ArrowDown", "ArrowUp", "Escape", "Tab"]) {
+    await beforeTheIndex(window, "target", async (page, release) => {
+      await page.keyboard.press("Enter");
+      await page.keyboard.press(key);
+      if (key === "Escape") await page.keyboard.press("/");
+      await release();
+      if (key === "Tab") await page.keyboard.press("/");
+      assert.ok(await isAtList(page), `${key} does not cancel Enter`);
+    });
+  }
+  // Enter opens the first result if the whole index has no better one.
+  await beforeTheIndex(window, "vector step", async (page, release) => {
+    const first = await page.locator("#found a").first().evaluate((link) => link.href);
+    await page.keyboard.press("Enter");
+    await release();
+    await page.waitForURL(first);
+  });
+  // Enter is dropped if the first result changes. The test changes the result of the first part.
+  await beforeTheIndex(window, "target", async (page, release) => {
+    await page.evaluate(() => { found.querySelector("a").href = "another.html"; });
+    await page.keyboard.press("Enter");
+    await release();
+    assert.ok(await isAtList(page), "Enter opens another result");
+    assert.ok(await page.locator("#found li").first().isVisible());
+  });
+  // The first part has no similar words, because the whole index may have the word.
+  await beforeTheIndex(window, "targat", async (page, release) => {
+    assert.equal(await page.locator("#found li").count(), 0);
+    await release();
+    assert.ok(await page.locator("#found li").count() > 0, "the whole index has similar words");
+  });
+}
+
+// Checks that the results are those of the whole index after a focus, if the index was loaded while the reader was elsewhere.
+async function focusAfterTheIndex(window) {
+  await beforeTheIndex(window, "KP_VEL", async (page, release) => {
+    await page.keyboard.press("Escape");
+    await release();
+    assert.ok(await page.locator("#found").isHidden());
+    await page.keyboard.press("/");
+    assert.ok(await page.locator("#found").isVisible(), "no search after the focus");
+    assert.match(await page.locator("#found li").first().innerText(), /KP_VEL/);
+  });
+}
+
+// Checks that Enter opens a result of the first part if the whole index cannot be loaded.
+async function missingIndex(window) {
+  await window.context.route(/search\.js$/, (route) => route.abort());
+  const page = await window.go("index.html");
+  await page.keyboard.press("/");
+  await page.keyboard.type("target");
+  const link = page.locator("#found a").first();
+  await link.waitFor();
+  const first = await link.evaluate((link) => link.href);
+  await page.keyboard.press("Enter");
+  await page.waitForURL(first);
+  await window.close();
 }
 
 // Checks that the filter of a long list also finds devices on the other pages of the list.

@@ -42,9 +42,37 @@ await withBrowser(async (browser) => {
   assert.equal(frames.modbus, "11 03 00 6B 00 03 76 87");
   assert.deepEqual(frames.expedited, ["2B 40 60 00 0F 00 00 00"]);
   assert.deepEqual(frames.segmented, ["21 10 20 01 08 00 00 00", "00 01 02 03 04 05 06 07", "1D 08 00 00 00 00 00 00"]);
+  await requestsOfBuses(page);
   await movesObjects(window);
   window.clean();
 });
+
+// Checks the requests of an object with other access rights on a bus, and of 16-bit values in two registers.
+async function requestsOfBuses(page) {
+  const found = await page.evaluate(() => {
+    const row = { canRead: true, canWrite: true, hasValue: true, bytes: [0x00, 0x90], raw: 0x9000n, node: 1, unit: 1 };
+    const titles = (buses, rights = {}) => objectRequests([24640, 0, buses], { ...row, ...rights }).map(([title]) => title.replace(/ \(.*/, ""));
+    const written = (flags) => modbusRequests(["h", 16, 2, flags, "3/16"], row).find(([title]) => title === "Modbus RTU write")[1];
+    return {
+      both: titles("ce"),
+      readOnly: titles("cre"),
+      nothing: titles("crwe-"),
+      writable: titles("cerw", { canWrite: false }),
+      noValue: titles("cerw", { canWrite: false, hasValue: false }),
+      unsigned: written("-"),
+      signed: written("x"),
+    };
+  });
+  const [canopen, ethercat] = [["SDO upload", "canopen read"], ["pysoem read"]];
+  const [toCanopen, toEthercat] = [["SDO download", "canopen write"], ["pysoem write"]];
+  assert.deepEqual(found.both, [...canopen, ...toCanopen, ...ethercat, ...toEthercat]);
+  assert.deepEqual(found.readOnly, [...canopen, ...ethercat, ...toEthercat]);
+  assert.deepEqual(found.nothing, [...canopen, ...toCanopen]);
+  assert.deepEqual(found.writable, [...canopen, ...ethercat, ...toEthercat]);
+  assert.deepEqual(found.noValue, [...canopen, ...ethercat]);
+  assert.match(found.unsigned, /^01 10 00 10 00 02 04 00 00 90 00 /);
+  assert.match(found.signed, /^01 10 00 10 00 02 04 FF FF 90 00 /);
+}
 
 async function movesObjects(window) {
   const page = await window.go("aec-s-r-l/vector-step/no-revision/process-data.html");

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::diagnostics::ShownDiagnostic;
 use super::entry::{self, Doubt, Known, Row, Rows};
+use super::requests;
 use super::shared::{self, SharedDoubt};
 use super::split::{self, Fill};
 use super::words::{self, PLAIN};
@@ -34,7 +35,7 @@ impl Area {
 
     /// Returns whether a row has requests with a node-ID or unit.
     pub fn has_requests(&self) -> bool {
-        self.sections.iter().flat_map(|section| &section.rows).any(|row| !row.fixed_requests.is_empty())
+        self.sections.iter().any(Section::has_requests)
     }
 }
 
@@ -52,6 +53,13 @@ pub(super) struct Section {
     pub shared: Vec<SharedDoubt>,
     pub diagnostics: Vec<ShownDiagnostic>,
     pub rows: Vec<Row>,
+}
+
+impl Section {
+    /// Returns whether a row has requests with a node-ID or unit.
+    pub fn has_requests(&self) -> bool {
+        self.rows.iter().flat_map(|row| &row.fixed_requests).any(|request| !requests::is_of_record(request))
+    }
 }
 
 /// A part of a device whose groups share pages.

@@ -1,7 +1,7 @@
 //! Links between codes and the elements that report them: items that have a code as a named value, and items, messages and states that a
 //! code table mentions.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::codes::Codes;
 use super::link::{Link, Relation};
@@ -33,21 +33,41 @@ impl<'d> Values<'d> {
 
 /// Links from items to codes.
 #[derive(Default)]
-pub(super) struct CodesOfItems(HashMap<ItemId, Vec<Link>>);
+pub(super) struct CodesOfItems {
+    links: HashMap<ItemId, Vec<Link>>,
+    /// Positions of the tables that an item has a link to.
+    tables: HashSet<(ItemId, usize)>,
+}
 
 impl CodesOfItems {
     /// Returns the relation of an item to the codes that it reports, or whose description mentions it.
     pub fn of(&self, id: ItemId) -> Option<Relation> {
-        Relation::new("Codes", self.0.get(&id).cloned().unwrap_or_default())
+        Relation::new("Codes", self.links.get(&id).into_iter().flatten())
     }
 
-    fn add(&mut self, mentions: &[Mention], link: &Link) {
-        for mention in mentions {
-            if let Mention::Item(id) | Mention::Object(_, id) = mention {
-                self.0.entry(*id).or_default().push(link.clone());
+    /// Adds the link to a table. A table on several pages has one link per item, to the first of the pages that mentions the item.
+    fn add_table(&mut self, items: impl IntoIterator<Item = ItemId>, table: usize, link: &Link) {
+        for id in items {
+            if self.tables.insert((id, table)) {
+                self.add(id, link);
             }
         }
     }
+
+    fn add(&mut self, id: ItemId, link: &Link) {
+        let links = self.links.entry(id).or_default();
+        if links.last() != Some(link) {
+            links.push(link.clone());
+        }
+    }
+}
+
+/// Returns the items that a text mentions.
+fn items(mentions: &[Mention]) -> impl Iterator<Item = ItemId> + '_ {
+    mentions.iter().filter_map(|mention| match mention {
+        Mention::Item(id) | Mention::Object(_, id) => Some(*id),
+        _ => None,
+    })
 }
 
 /// Adds the relations of the codes on these pages, each with the file of the page. Returns the links in the other direction.
@@ -57,7 +77,7 @@ pub(super) fn link<'p>(
 ) -> CodesOfItems {
     let (values, mentions) = (Values::new(targets.device), Mentions::new(targets.device));
     let relation = |title: &'static str, mentions: &[Mention]| {
-        Relation::new(title, mentions.iter().filter_map(|mention| targets.mentioned(*mention)).cloned().collect())
+        Relation::new(title, mentions.iter().filter_map(|mention| targets.mentioned(*mention)))
     };
     let mut of_items = CodesOfItems::default();
     for (file, shown) in pages.into_iter().flat_map(|(file, tables)| tables.iter_mut().map(move |table| (file, table)))
@@ -66,16 +86,17 @@ pub(super) fn link<'p>(
         let link = |anchor: &str, title: &str| Link { title: title.to_owned(), target: format!("{file}#{anchor}") };
         let (of_table, to_table) = (mentions.of_table(table), link(&shown.anchor, &shown.title));
         if !shown.is_continued {
-            of_items.add(&of_table, &to_table);
+            of_items.add_table(items(&of_table), shown.position, &to_table);
             shown.relations = relation("See", &of_table).into_iter().collect();
         }
-        for shown in &mut shown.rows {
-            let Some(row) = table.rows.get(shown.position) else { continue };
-            let values: Vec<Mention> = values.of(row).iter().copied().map(Mention::Item).collect();
-            let of_row = mentions.of_row(table, row);
-            of_items.add(&values, &to_table);
-            of_items.add(&of_row, &link(&shown.anchor, &format!("{} {}", shown.number, shown.name)));
-            shown.relations = [relation("Value of", &values), relation("See", &of_row)].into_iter().flatten().collect();
+        for code in &mut shown.rows {
+            let Some(row) = table.rows.get(code.position) else { continue };
+            let (values, of_row) = (values.of(row), mentions.of_row(table, row));
+            of_items.add_table(values.iter().copied(), shown.position, &to_table);
+            let to_row = link(&code.anchor, &format!("{} {}", code.number, code.name));
+            items(&of_row).for_each(|id| of_items.add(id, &to_row));
+            let value_of = Relation::new("Value of", values.iter().filter_map(|id| targets.item(Some(*id))));
+            code.relations = [value_of, relation("See", &of_row)].into_iter().flatten().collect();
         }
     }
     of_items

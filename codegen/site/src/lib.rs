@@ -88,8 +88,13 @@ pub struct Page {
 const GENERATOR: &str = "<meta name=\"generator\" content=\"lexibus docs\">";
 
 /// The first characters of generated files other than HTML pages.
-const BEGINNINGS: [&str; 4] =
-    ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex"];
+const BEGINNINGS: [&str; 5] = [
+    "<!-- Written by lexibus docs",
+    "/* Written by lexibus docs",
+    "// Written by lexibus docs",
+    "lexibusIndex(",
+    "lexibusIndexFirst(",
+];
 
 impl Page {
     /// Returns whether this page may replace a file that contains `text`. The page may replace the file if Lexibus generated the
@@ -191,7 +196,8 @@ impl Site {
         let is_part = lists.len() > 1;
         let parts = lists.iter().filter(|_| is_part).map(|list| (list.file.clone(), list.title.clone()));
         let shared = Rc::new(Links::new(parts.chain(self.comparisons.iter().cloned()).collect(), 0..0));
-        let index_of_site = index.is_empty().then_some(&self.index);
+        // The pages of comparisons always use the index of the site.
+        let index_of_site = (index.is_empty() || !self.comparisons.is_empty()).then_some(&self.index);
         let page = |list: &ListPage| {
             let (title, index, shared) = (list.title.clone(), index.clone(), shared.clone());
             let frame = Frameset { title, root: ".", index, shared, ..Frameset::default() };

@@ -1,10 +1,13 @@
 //! Links to elements of a device.
 
+use std::collections::HashSet;
+use std::hash::Hash;
+
 /// Maximum number of links of one relation.
 const MOST: usize = 20;
 
 /// A link to an element.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Link {
     pub title: String,
     /// File and anchor of the element.
@@ -12,14 +15,9 @@ pub(super) struct Link {
 }
 
 /// Returns the elements without repetitions, in the order of their first occurrence.
-pub(super) fn unique<T: PartialEq>(list: impl IntoIterator<Item = T>) -> Vec<T> {
-    let mut unique = Vec::new();
-    for element in list {
-        if !unique.contains(&element) {
-            unique.push(element);
-        }
-    }
-    unique
+pub(super) fn unique<T: Clone + Eq + Hash>(list: impl IntoIterator<Item = T>) -> Vec<T> {
+    let mut known = HashSet::new();
+    list.into_iter().filter(|element| known.insert(element.clone())).collect()
 }
 
 /// The elements that have the same relation to an item, such as the PDOs that map it.
@@ -33,10 +31,9 @@ pub(super) struct Relation {
 
 impl Relation {
     /// Creates a relation without repeated links. Returns `None` if there are no links.
-    pub fn new(title: &'static str, links: Vec<Link>) -> Option<Self> {
-        let mut unique = unique(links);
-        let others = unique.len().saturating_sub(MOST);
-        unique.truncate(MOST);
-        (!unique.is_empty()).then_some(Relation { title, links: unique, others })
+    pub fn new<'l>(title: &'static str, links: impl IntoIterator<Item = &'l Link>) -> Option<Self> {
+        let unique = unique(links);
+        let links: Vec<Link> = unique.iter().take(MOST).map(|link| (*link).clone()).collect();
+        (!links.is_empty()).then(|| Relation { title, others: unique.len() - links.len(), links })
     }
 }

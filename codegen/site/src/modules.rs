@@ -43,6 +43,11 @@ impl ModuleModel {
     }
 }
 
+/// Returns whether a row of the modules has requests with a node-ID or unit.
+pub(super) fn have_requests(modules: &[ModuleModel]) -> bool {
+    modules.iter().flat_map(|module| &module.sections).any(|(_, section)| section.has_requests())
+}
+
 /// The modules and submodules of a catalog, and their pages.
 #[derive(Debug, Default)]
 pub(super) struct Modules {

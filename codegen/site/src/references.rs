@@ -144,7 +144,7 @@ impl<'d> Targets<'d> {
             ("Replaces", related.replaced),
             ("Replaced by", self.item(replacement).into_iter().cloned().collect()),
         ];
-        lists.into_iter().filter_map(|(title, links)| Relation::new(title, links)).collect()
+        lists.into_iter().filter_map(|(title, links)| Relation::new(title, &links)).collect()
     }
 
     fn add(&self, referrer: &Referrer<'d>, related: &mut Related) {

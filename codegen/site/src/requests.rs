@@ -1,10 +1,13 @@
 //! Requests that read and write an item: bytes on each bus and lines of Python, for pages without a script. The script `requests.js`
 //! shows the same requests for a value, a node-ID and a unit that the reader chooses.
 
+mod object;
+
 use super::tools;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{encoding, register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Type, TypeDef};
+use object::Object;
 
 /// The node-ID and Modbus unit of the requests.
 const NODE: u8 = 1;
@@ -15,6 +18,14 @@ type Frame = Vec<Option<u8>>;
 /// A request: title and text.
 pub(super) type Request = (&'static str, String);
 
+/// Titles of the requests for records.
+const RECORD: [&str; 2] = ["PROFINET record read", "PROFINET record write"];
+
+/// Returns whether a request is one for a PROFINET record, which has neither a node-ID nor a unit.
+pub(super) fn is_of_record((title, _): &Request) -> bool {
+    RECORD.contains(title)
+}
+
 /// Returns the requests of an item. The node-ID or the unit is 1. Write requests have the default value, or `xx` for its bytes if the
 /// item has no default value.
 pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> Vec<Request> {
@@ -22,28 +33,31 @@ pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -
     for binding in &item.bindings {
         match binding {
             Binding::Object { buses, index, sub_index } => {
-                let bus = if buses.canopen { Bus::CanOpen } else { Bus::EtherCat };
-                let access = item.access_on(bus);
                 let object = Object { index: *index, sub_index: *sub_index };
-                let written = Written::of(item, types::basic(types, item.object_type()));
-                let written = written.filter(|_| access.writable());
+                let on = |bus: Bus| {
+                    let access = item.access_on(bus);
+                    (access.readable(), Written::of(item, types, bus).filter(|_| access.writable()))
+                };
                 if buses.canopen {
-                    object.canopen(access.readable(), written.as_ref(), &mut all);
+                    let (is_readable, written) = on(Bus::CanOpen);
+                    object.canopen(is_readable, written.as_ref(), &mut all);
                 }
                 if buses.coe {
-                    object.ethercat(access.readable(), written.as_ref(), &mut all);
+                    let (is_readable, written) = on(Bus::EtherCat);
+                    object.ethercat(is_readable, written.as_ref(), &mut all);
                 }
             }
             Binding::Register(register) => {
                 let functions = register::functions(register, item, tables);
-                let written = Written::of(item, types::basic(types, item.type_on(Bus::Modbus)));
+                let written = Written::of(item, types, Bus::Modbus);
                 modbus(register, &functions, written.as_ref(), &mut all);
             }
             Binding::Record { index, bit_offset, bits } => {
                 let access = item.access_on(Bus::Profinet);
                 let text = record(*index, *bit_offset, *bits);
-                all.extend(access.readable().then(|| ("PROFINET record read", text.clone())));
-                all.extend(access.writable().then_some(("PROFINET record write", text)));
+                let [read, write] = RECORD;
+                all.extend(access.readable().then(|| (read, text.clone())));
+                all.extend(access.writable().then_some((write, text)));
             }
             _ => {}
         }
@@ -59,13 +73,14 @@ struct Written {
 }
 
 impl Written {
-    /// Returns nothing for items that are not numbers.
-    fn of(item: &Item, ty: Type) -> Option<Self> {
+    /// Returns the default value of an item on a bus. Returns nothing for items that are not numbers.
+    fn of(item: &Item, types: &[TypeDef], bus: Bus) -> Option<Self> {
+        let ty = types::basic(types, item.type_on(bus));
         let is_number =
             matches!(ty, Type::Boolean | Type::Integer(_) | Type::Unsigned(_) | Type::Real32 | Type::Real64);
         let length = ty.bits().filter(|_| is_number)?.div_ceil(8) as usize;
-        let default = item.default.as_ref().filter(|value| encoding::fits(value, ty));
-        let bytes = match default.and_then(|value| encoding::bytes(value, ty)) {
+        let default = item.default_on(bus).filter(|value| encoding::fits(value, ty));
+        let bytes = match default.and_then(|value| encoding::bytes(&value.resolved(NODE), ty)) {
             Some(bytes) => known(&bytes),
             None => vec![None; length],
         };
@@ -77,11 +92,12 @@ impl Written {
         self.bytes.iter().copied().collect()
     }
 
-    /// Returns the byte that fills the registers of the item after the bytes of the value.
+    /// Returns the byte that fills the registers of the item after the bytes of the value: the sign of a signed value, or 0.
     fn fill(&self, register: &RegisterBinding) -> Option<u8> {
         match self.bytes.last() {
-            Some(None) if register.extended => None,
-            Some(Some(0x80..)) if register.extended => Some(0xFF),
+            Some(last) if register.extended && self.ty.is_signed() => {
+                last.map(|last| if last < 0x80 { 0 } else { 0xFF })
+            }
             _ => Some(0),
         }
     }
@@ -109,74 +125,6 @@ fn known(bytes: &[u8]) -> Frame {
 fn text(frame: &[Option<u8>]) -> String {
     let byte = |byte: &Option<u8>| byte.map_or_else(|| "xx".to_owned(), |byte| format!("{byte:02X}"));
     frame.iter().map(byte).collect::<Vec<_>>().join(" ")
-}
-
-struct Object {
-    index: u16,
-    sub_index: u8,
-}
-
-impl Object {
-    fn canopen(&self, is_readable: bool, written: Option<&Written>, all: &mut Vec<Request>) {
-        let frame = |data: &Frame| format!("{:03X}  {}", 0x600 + u16::from(NODE), text(data));
-        if is_readable {
-            all.push(("SDO upload (COB-ID, data)", frame(&self.upload())));
-            all.push(("canopen read", format!("node.sdo.upload({})", self.python())));
-        }
-        if let Some(written) = written {
-            let frames: Vec<String> = self.download(&written.bytes).iter().map(frame).collect();
-            all.push(("SDO download (COB-ID, data)", frames.join("; ")));
-            all.push(("canopen write", format!("node.sdo.download({}, {})", self.python(), written.python())));
-        }
-    }
-
-    fn ethercat(&self, is_readable: bool, written: Option<&Written>, all: &mut Vec<Request>) {
-        if is_readable {
-            all.push(("pysoem read", format!("slave.sdo_read({})", self.python())));
-        }
-        if let Some(written) = written {
-            all.push(("pysoem write", format!("slave.sdo_write({}, {})", self.python(), written.python())));
-        }
-    }
-
-    /// Returns the Python arguments for index and sub-index.
-    fn python(&self) -> String {
-        format!("{}, {}", hex16(self.index), self.sub_index)
-    }
-
-    /// Returns the frame with a command and data for the object.
-    fn frame(&self, command: u8, data: &[Option<u8>]) -> Frame {
-        let [low, high] = self.index.to_le_bytes();
-        let mut frame = known(&[command, low, high, self.sub_index]);
-        frame.extend(data);
-        frame.resize(8, Some(0));
-        frame
-    }
-
-    /// Returns the data of an SDO upload request (CiA 301, 7.2.4.3.5).
-    fn upload(&self) -> Frame {
-        self.frame(0x40, &[])
-    }
-
-    /// Returns the data of an SDO download (CiA 301, 7.2.4.3.3): an expedited transfer, or a segmented one if there are more than four
-    /// bytes. A number has at most eight bytes.
-    fn download(&self, bytes: &[Option<u8>]) -> Vec<Frame> {
-        let count = u8::try_from(bytes.len()).unwrap_or(u8::MAX);
-        if let Some(unused) = 4_u8.checked_sub(count) {
-            return vec![self.frame(0x23 | unused << 2, bytes)];
-        }
-        let mut frames = vec![self.frame(0x21, &[Some(count)])];
-        let segments = bytes.chunks(7).collect::<Vec<_>>();
-        for (at, segment) in segments.iter().enumerate() {
-            let unused = 7_u8.saturating_sub(u8::try_from(segment.len()).unwrap_or(7));
-            let toggle = if at % 2 == 1 { 0x10 } else { 0 };
-            let mut frame = known(&[toggle | unused << 1 | u8::from(at + 1 == segments.len())]);
-            frame.extend(*segment);
-            frame.resize(8, Some(0));
-            frames.push(frame);
-        }
-        frames
-    }
 }
 
 /// Adds the requests of a register, coil or discrete input (MODBUS Application Protocol V1.1b3, 6).
@@ -268,7 +216,7 @@ fn record(index: u16, bit_offset: u32, bits: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lexibus_codegen::ir::{Access, Value};
+    use lexibus_codegen::ir::{Access, Buses, ItemVariant, ObjectBuses, Value};
 
     fn texts(item: &Item) -> Vec<String> {
         requests(item, &[], &[]).into_iter().map(|(title, text)| format!("{title}: {text}")).collect()
@@ -313,5 +261,79 @@ mod tests {
             "canopen write: node.sdo.download(0x607A, 0, value.to_bytes(4, \"little\", signed=True))",
         ];
         assert_eq!(texts(&object)[2..], expected);
+    }
+
+    /// Returns a 16-bit item in two registers, the high word first.
+    fn extended(ty: Type, default: Option<i128>) -> Item {
+        let register = RegisterBinding {
+            space: RegisterSpace::Holding,
+            address: 16,
+            printed: "16–17".into(),
+            is_order_assumed: false,
+            count: 2,
+            low_word_first: false,
+            bytes_swapped: false,
+            bit_offset: None,
+            words_per_address: 1,
+            extended: true,
+        };
+        item(Binding::Register(Box::new(register)), ty, default)
+    }
+
+    fn variant(bus: Bus) -> ItemVariant {
+        ItemVariant { buses: Buses::from_iter([bus]), ..ItemVariant::default() }
+    }
+
+    #[track_caller]
+    fn has(item: &Item, expected: &str) {
+        let texts = texts(item);
+        assert!(texts.iter().any(|text| text.contains(expected)), "{expected}: {texts:#?}");
+    }
+
+    #[test]
+    fn only_signed_values_are_extended_with_their_sign() {
+        has(&extended(Type::Unsigned(16), Some(0x9000)), "01 10 00 10 00 02 04 00 00 90 00 ");
+        has(&extended(Type::Unsigned(16), None), "01 10 00 10 00 02 04 00 00 xx xx CRC");
+        has(&extended(Type::Integer(16), Some(-0x7000)), "01 10 00 10 00 02 04 FF FF 90 00 ");
+        has(&extended(Type::Integer(16), Some(0x7000)), "01 10 00 10 00 02 04 00 00 70 00 ");
+        has(&extended(Type::Integer(16), None), "01 10 00 10 00 02 04 xx xx xx xx CRC");
+        // The type on Modbus decides.
+        let mut other = extended(Type::Unsigned(32), None);
+        other.variants.push(ItemVariant { ty: Some(Type::Integer(16)), ..variant(Bus::Modbus) });
+        has(&other, "01 10 00 10 00 02 04 xx xx xx xx CRC");
+    }
+
+    #[test]
+    fn each_bus_has_its_own_access_rights_and_type() {
+        let buses = ObjectBuses { canopen: true, coe: true };
+        let mut object = item(Binding::Object { buses, index: 0x2000, sub_index: 0 }, Type::Unsigned(16), Some(5));
+        object.variants.push(ItemVariant { access: Some(Access::ReadOnly), ..variant(Bus::CanOpen) });
+        object.variants.push(ItemVariant { ty: Some(Type::Unsigned(32)), ..variant(Bus::EtherCat) });
+        let expected = [
+            "SDO upload (COB-ID, data): 601  40 00 20 00 00 00 00 00",
+            "canopen read: node.sdo.upload(0x2000, 0)",
+            "pysoem read: slave.sdo_read(0x2000, 0)",
+            "pysoem write: slave.sdo_write(0x2000, 0, bytes.fromhex(\"05000000\"))",
+        ];
+        assert_eq!(texts(&object), expected);
+    }
+
+    #[test]
+    fn the_default_value_of_the_bus_is_written() {
+        let mut register = extended(Type::Unsigned(16), Some(1));
+        register.variants.push(ItemVariant { default: Some(Value::Int(7)), ..variant(Bus::Modbus) });
+        has(&register, "01 10 00 10 00 02 04 00 00 00 07 ");
+        let mut object = item(Binding::canopen(0x2000, 0), Type::Unsigned(8), Some(1));
+        object.variants.push(ItemVariant { default: Some(Value::Int(7)), ..variant(Bus::Modbus) });
+        has(&object, "601  2F 00 20 00 01 00 00 00");
+    }
+
+    #[test]
+    fn a_default_value_with_the_node_id_has_bytes() {
+        let mut object = item(Binding::canopen(0x1014, 0), Type::Unsigned(32), None);
+        object.default = Some(Value::NodeId(0x80));
+        has(&object, "601  23 14 10 00 81 00 00 00");
+        object.default = Some(Value::NodeId(i128::MAX));
+        has(&object, "601  23 14 10 00 xx xx xx xx");
     }
 }

@@ -343,4 +343,21 @@ mod tests {
             .first_script()
             .starts_with("lexibusIndexFirst([[\"A\",\"Vendor\",\"A\",\"index.html\",\"device\","));
     }
+
+    #[test]
+    fn the_first_part_has_objects_by_their_digits() {
+        let mut all = Index::default();
+        all.device("A", "", "", "a");
+        all.page("items.html", "");
+        // Entries with the same first letter fill the places of this letter.
+        let names: Vec<String> = (0..FIRST).map(|at| format!("Zone {at}")).collect();
+        for name in &names {
+            all.entry(&Entry { number: "register 1", ..entry("zone", name) });
+            all.entry(&Entry { number: "register 1", ..entry("zone", name) });
+        }
+        all.entry(&entry("0x6040", "Zero-speed word"));
+        let first = all.first();
+        assert!(first.numbers.all.contains(&"0x6040".to_owned()), "{:?}", first.numbers.all);
+        assert_eq!(first.texts.all.len(), FIRST + 1);
+    }
 }

@@ -1,7 +1,7 @@
 //! Attributes of a row for the script of the page, which converts values and shows requests.
 
-use lexibus_codegen::facts::register;
-use lexibus_codegen::ir::{Binding, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale, Value};
+use lexibus_codegen::facts::{register, types};
+use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale, TypeDef, Value};
 
 /// Returns the conversion from raw values to physical values: `0.01 0` (scale factor and offset), or `/25000000` (numerator of a
 /// reciprocal). The text is empty if the two values are equal, or if the conversion needs other values.
@@ -33,17 +33,19 @@ pub(super) fn range(item: &Item) -> String {
 
 /// Returns the addresses of an item for requests, separated by `;`.
 ///
-/// - `o 24640 0 ce`: index and sub-index of an object on CANopen and EtherCAT.
+/// - `o 24640 0 ce`: index and sub-index of an object on CANopen and EtherCAT. If a bus has other requests than the access rights of the
+///   item allow, these follow its letter: `crer` is read-only on both buses, and `ce-` has no requests on EtherCAT.
 /// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
 ///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
 /// - `r 1 8 16 4`: record, bit offset and number of bits of the item, and length of the record in bytes as far as it is known.
-pub(super) fn addresses(item: &Item, tables: &[ModbusTable]) -> String {
+pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> String {
     let address = |binding: &Binding| match binding {
         Binding::Object { buses, index, sub_index } => {
-            let buses = [(buses.canopen, "c"), (buses.coe, "e")].map(|(has, bus)| if has { bus } else { "" });
-            Some(format!("o {index} {sub_index} {}", buses.concat()))
+            let buses = [(buses.canopen, "c", Bus::CanOpen), (buses.coe, "e", Bus::EtherCat)].into_iter();
+            let buses = buses.filter(|(has, ..)| *has).map(|(_, letter, bus)| format!("{letter}{}", rights(item, bus)));
+            Some(format!("o {index} {sub_index} {}", buses.collect::<String>()))
         }
-        Binding::Register(register) => Some(registers(register, item, tables)),
+        Binding::Register(register) => Some(registers(register, item, types, tables)),
         Binding::Record { index, bit_offset, bits } => {
             Some(format!("r {index} {bit_offset} {bits} {}", record_length(*bit_offset, *bits)))
         }
@@ -63,21 +65,78 @@ pub(super) fn record_length(bit_offset: u32, bits: u32) -> u32 {
     (bit_offset + bits).div_ceil(8)
 }
 
-fn registers(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
+/// Returns the letters of the requests on a bus, or nothing if they are those of the item's access rights. A page converts values to the
+/// type of the item, so a bus with another type has no write requests.
+fn rights(item: &Item, bus: Bus) -> &'static str {
+    let access = item.access_on(bus);
+    let is_writable = access.writable() && item.type_on(bus) == item.ty;
+    match (access.readable(), is_writable) {
+        rights if rights == (item.access.readable(), item.access.writable()) => "",
+        (true, true) => "rw",
+        (true, false) => "r",
+        (false, true) => "w",
+        (false, false) => "-",
+    }
+}
+
+fn registers(register: &RegisterBinding, item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> String {
     let table = match register.space {
         RegisterSpace::Holding => "h",
         RegisterSpace::Input => "i",
         RegisterSpace::Coil => "c",
         RegisterSpace::DiscreteInput => "d",
     };
+    let is_signed = types::basic(types, item.type_on(Bus::Modbus)).is_signed();
     let flags = [
         (register.low_word_first, "l"),
         (register.bytes_swapped, "s"),
-        (register.extended, "x"),
+        (register.extended && is_signed, "x"),
         (register.bit_offset.is_some(), "p"),
     ];
     let flags = flags.map(|(has, flag)| if has { flag } else { "" }).concat();
     let functions: Vec<String> = register::functions(register, item, tables).iter().map(u8::to_string).collect();
     let flags = if flags.is_empty() { "-" } else { &flags };
     format!("m {table} {} {} {flags} {}", register.address, count(register), functions.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lexibus_codegen::ir::{Access, Buses, ItemVariant, ObjectBuses, Type};
+
+    #[test]
+    fn objects_have_the_access_rights_of_each_bus() {
+        let buses = ObjectBuses { canopen: true, coe: true };
+        let binding = Binding::Object { buses, index: 0x6040, sub_index: 0 };
+        let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
+        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 ce");
+        let variant = |bus| ItemVariant { buses: Buses::from_iter([bus]), ..ItemVariant::default() };
+        item.variants.push(ItemVariant { access: Some(Access::ReadOnly), ..variant(Bus::CanOpen) });
+        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 cre");
+        item.variants.push(ItemVariant { ty: Some(Type::Unsigned(32)), ..variant(Bus::EtherCat) });
+        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 crer");
+        item.access = Access::WriteOnly;
+        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 cre-");
+    }
+
+    #[test]
+    fn only_signed_values_are_extended() {
+        let register = RegisterBinding {
+            space: RegisterSpace::Holding,
+            address: 16,
+            printed: "16–17".into(),
+            is_order_assumed: false,
+            count: 2,
+            low_word_first: false,
+            bytes_swapped: false,
+            bit_offset: None,
+            words_per_address: 1,
+            extended: true,
+        };
+        let binding = Binding::Register(Box::new(register));
+        let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
+        assert_eq!(addresses(&item, &[], &[]), "m h 16 2 - 3/16");
+        item.ty = Type::Integer(16);
+        assert_eq!(addresses(&item, &[], &[]), "m h 16 2 x 3/16");
+    }
 }

@@ -142,6 +142,11 @@ impl Item {
         self.variants_on(bus).find_map(|variant| variant.access).unwrap_or(self.access)
     }
 
+    /// Returns the default value of the item on a bus.
+    pub fn default_on(&self, bus: Bus) -> Option<&Value> {
+        self.variants_on(bus).find_map(|variant| variant.default.as_ref()).or(self.default.as_ref())
+    }
+
     /// Returns the limits of the item on a bus, if a variant states limits for this bus.
     pub fn limits_on(&self, bus: Bus) -> Option<&Limits> {
         self.variants_on(bus)

@@ -7,8 +7,8 @@ let pages = [], titles = [], numbers = [], texts = [], anchors = [];
 let numberAt = new Uint32Array(), textAt = numberAt, anchorAt = numberAt;
 // For each place, the positions of its page and entry. The places of a page are consecutive.
 let pageAt = numberAt, entryAt = numberAt;
-// Whether the scripts are requested, and whether the whole index can be searched.
-let isFirstLoading = false, isLoading = false, isLoaded = false;
+// Whether the scripts are requested, and whether the whole index can be searched or cannot be loaded.
+let isFirstLoading = false, isLoading = false, isLoaded = false, isMissing = false;
 
 // The folder of the site, and the folder of the index.
 const site = root.dataset.root + "/", folder = site + (root.dataset.index || "");
@@ -16,7 +16,7 @@ const site = root.dataset.root + "/", folder = site + (root.dataset.index || "")
 const hasFirst = root.dataset.index === undefined;
 
 const whenIdle = (work) => window.requestIdleCallback ? requestIdleCallback(work, { timeout: 1000 }) : setTimeout(work, 200);
-const loadScript = (file) => document.head.append(element("script", { src: folder + file }));
+const loadScript = (file, onerror = null) => document.head.append(element("script", { src: folder + file, onerror }));
 
 function loadFirst() {
   if (!hasFirst || isFirstLoading) return;
@@ -28,7 +28,7 @@ function load() {
   loadFirst();
   if (isLoading) return;
   isLoading = true;
-  loadScript("search.js");
+  loadScript("search.js", indexIsMissing);
 }
 
 // Receives the index from its script. The whole index is read in several tasks, so the page answers keystrokes in between. Until then,
@@ -58,6 +58,13 @@ function indexIsRead() {
   answer();
   // The first search for a number determines the ranges of all numbers, which takes longer than the next searches.
   whenIdle(() => pointsOf("0"));
+}
+
+// If the whole index cannot be loaded, the search uses only the first part.
+function indexIsMissing() {
+  isMissing = true;
+  known.clear();
+  answer();
 }
 
 // Reads an index in steps. After the last step, the search uses this index.

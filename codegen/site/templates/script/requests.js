@@ -30,19 +30,24 @@ function sdoDownload(head, bytes) {
   return frames;
 }
 
+// Returns whether an object can be read and written on a bus. `buses` has the access rights of a bus after its letter, if they differ from
+// those of the row.
+function rightsOn(bus, buses, { canRead, canWrite, hasValue }) {
+  const [is, rights] = new RegExp(`${bus}([rw-]*)`).exec(buses) ?? [];
+  if (!is) return {};
+  return rights ? { canRead: rights.includes("r"), canWrite: rights.includes("w") && hasValue } : { canRead, canWrite };
+}
+
 // Requests of an object: SDOs on CANopen, and the same services on EtherCAT.
-function objectRequests([index, sub, buses], { canRead, canWrite, bytes, node }) {
+function objectRequests([index, sub, buses], row) {
+  const { bytes, node } = row, canopen = rightsOn("c", buses, row), ethercat = rightsOn("e", buses, row);
   const [number, entry] = [Number(index), Number(sub)], head = [number & 0xFF, number >> 8, entry];
   const path = `0x${hex(number, 4)}, ${entry}`, lines = [];
   const cobId = hex(0x600 + node, 3), frame = (data) => `${cobId}  ${bytesText(data)}`;
-  if (buses.includes("c")) {
-    if (canRead) lines.push(["SDO upload (COB-ID, data)", frame([0x40, ...head, 0, 0, 0, 0])], ["canopen read", `node.sdo.upload(${path})`]);
-    if (canWrite) lines.push(["SDO download (COB-ID, data)", sdoDownload(head, bytes).map(frame).join("\n")], ["canopen write", `node.sdo.download(${path}, ${python(bytes)})`]);
-  }
-  if (buses.includes("e")) {
-    if (canRead) lines.push(["pysoem read", `slave.sdo_read(${path})`]);
-    if (canWrite) lines.push(["pysoem write", `slave.sdo_write(${path}, ${python(bytes)})`]);
-  }
+  if (canopen.canRead) lines.push(["SDO upload (COB-ID, data)", frame([0x40, ...head, 0, 0, 0, 0])], ["canopen read", `node.sdo.upload(${path})`]);
+  if (canopen.canWrite) lines.push(["SDO download (COB-ID, data)", sdoDownload(head, bytes).map(frame).join("\n")], ["canopen write", `node.sdo.download(${path}, ${python(bytes)})`]);
+  if (ethercat.canRead) lines.push(["pysoem read", `slave.sdo_read(${path})`]);
+  if (ethercat.canWrite) lines.push(["pysoem write", `slave.sdo_write(${path}, ${python(bytes)})`]);
   return lines;
 }
 
@@ -103,8 +108,8 @@ function requests(row, type) {
   let raw;
   const show = () => {
     hint.textContent = isWritable && raw === undefined ? "Enter a raw value within the range for write requests." : "";
-    const canWrite = isWritable && raw !== undefined, bytes = canWrite ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
-    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, bytes, raw, node: node.value, unit: unit.value }));
+    const hasValue = Boolean(type) && raw !== undefined, canWrite = isWritable && hasValue, bytes = hasValue ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
+    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, hasValue, bytes, raw, node: node.value, unit: unit.value }));
     list.replaceChildren(...lines.flatMap(copyable));
   };
   const node = keptNumber("node", "Node-ID", 1, 127, () => show()), unit = keptNumber("unit", "Modbus unit", 1, 247, () => show());

@@ -78,6 +78,9 @@ function each(list, points) {
   return all;
 }
 
+// Whether the search uses its last index. The first part of the index can lack the best result.
+const isComplete = () => isLoaded || isMissing;
+
 // Cache with the points of all entries and titles for each word. Previous words stay the same while the reader types the next one.
 const known = new Map();
 
@@ -85,7 +88,8 @@ function pointsOf(word) {
   if (!known.has(word)) {
     if (known.size > 20) known.clear();
     const exact = pointsOfExact(word);
-    const isFound = word.length < 4 || /^[0-9]/.test(word) || Object.values(exact).some((points) => points.some(Boolean));
+    // A word that the first part lacks is usually no typing error.
+    const isFound = !isComplete() || word.length < 4 || /^[0-9]/.test(word) || Object.values(exact).some((points) => points.some(Boolean));
     known.set(word, isFound ? exact : pointsOfSimilar(word) ?? exact);
   }
   return known.get(word);
@@ -221,9 +225,13 @@ function search() {
   }));
   found.hidden = !list.length;
   input.setAttribute("aria-expanded", String(list.length > 0));
-  announcement.textContent = list.length || !isLoaded || !input.value.trim() ? "" : "Nothing found.";
+  announcement.textContent = list.length || !isComplete() || !input.value.trim() ? "" : "Nothing found.";
+  isChosen = false;
   select(0);
 }
+
+// Set if the reader selected a result with an arrow key.
+let isChosen = false;
 
 function select(at) {
   const items = found.querySelectorAll("a");
@@ -237,29 +245,45 @@ function select(at) {
   }
 }
 
+function choose(at) {
+  isEntered = false;
+  select(at);
+  isChosen = found.querySelector("a") !== null;
+}
+
 function close() {
+  isEntered = false;
   found.hidden = true;
   announcement.textContent = "";
   input.setAttribute("aria-expanded", "false");
 }
 
-// Set if the reader pressed Enter before the whole index was read. The first part can lack the best result.
+// Set if the reader pressed Enter before the whole index was read.
 let isEntered = false;
 
-// Opens the selected result as soon as the whole index is read.
+// Opens the selected result. Until the whole index is read, only a result that the reader chose is opened at once.
 function enter() {
-  isEntered = !isLoaded;
   const link = found.querySelectorAll("a")[selected];
-  if (link && isLoaded) { close(); location.href = link.href; }
+  isEntered = !isComplete() && !isChosen;
+  if (link && !isEntered) { close(); location.href = link.href; }
 }
 
-// Repeats the search with a larger index. A result that the reader selected stays selected.
+// Set if an index was read while the reader was elsewhere.
+let isOutdated = false;
+
+// Repeats the search with a larger index. A result that the reader chose stays selected. After Enter, the first result is opened if it is
+// still the first one.
 function searchAgain() {
-  if (document.activeElement !== input) return;
-  const selectedBefore = selected, { href } = found.querySelectorAll("a")[selected] ?? {};
+  isOutdated = document.activeElement !== input;
+  if (isOutdated) return;
+  const { href } = found.querySelectorAll("a")[selected] ?? {}, wasEntered = isEntered, wasChosen = isChosen;
   search();
-  if (href && selectedBefore > 0) select([...found.querySelectorAll("a")].findIndex((link) => link.href === href));
-  if (isEntered) enter();
+  const links = [...found.querySelectorAll("a")], at = links.findIndex((link) => link.href === href);
+  isChosen = wasChosen && at >= 0;
+  if (isChosen) select(at);
+  if (!isComplete()) return;
+  isEntered = false;
+  if (wasEntered && links.length && (at === 0 || href === undefined)) enter();
 }
 
 // A search usually begins on a page with a list of devices, so such a page loads the index before the reader types.
@@ -267,11 +291,12 @@ if (deviceFilter) {
   loadFirst();
   addEventListener("load", () => whenIdle(load));
 }
-input.addEventListener("focus", load);
+input.addEventListener("focus", () => { load(); if (isOutdated) searchAgain(); });
+input.addEventListener("blur", () => { isEntered = false; });
 input.addEventListener("input", () => { isEntered = false; search(); });
 input.addEventListener("keydown", (event) => {
-  if (event.key === "ArrowDown") select(selected + 1);
-  else if (event.key === "ArrowUp") select(selected - 1);
+  if (event.key === "ArrowDown") choose(selected + 1);
+  else if (event.key === "ArrowUp") choose(selected - 1);
   else if (event.key === "Escape") { close(); input.blur(); }
   else if (event.key === "Enter") enter();
   else return;

@@ -11,8 +11,10 @@ mod doubts;
 #[path = "../../../../tests/support/root.rs"]
 mod root;
 
+mod codes;
 mod corpus;
 mod dictionaries;
 mod html;
+mod index;
 mod markdown;
 mod slots;

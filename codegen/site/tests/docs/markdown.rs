@@ -68,3 +68,15 @@ fn a_page_of_registers() {
     insta::assert_snapshot!("markdown_machines", text("/states-and-procedures.md"));
     insta::assert_snapshot!("markdown_summary", text("SUMMARY.md"));
 }
+
+#[test]
+fn modules_with_node_ids_have_a_note() {
+    let has_note = |path: &str, request: &str| {
+        let all = files(Format::Markdown, &[path]);
+        let mut modules = all.iter().filter(|page| page.path.contains("/modules"));
+        let page = modules.find(|page| page.text.contains(request)).expect("modules with requests");
+        page.text.contains("\nRequests have node-ID 1 and Modbus unit 1.")
+    };
+    assert!(has_note("tests/data/coupler.esi.xml", "pysoem read"));
+    assert!(!has_note("tests/data/safe.gsdml.xml", "PROFINET record"));
+}
