@@ -24,6 +24,10 @@ pub struct StateMachine {
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<CompactString>,
+    /// States that the device enters because of a fault, if the source names them. States to which automatic transitions
+    /// from any state lead are fault states, too.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub faults: Vec<CompactString>,
     /// Commands as bit patterns of the control item.
     pub commands: SharedList<Pattern>,
     /// Transitions between states.

@@ -125,7 +125,7 @@ pub(super) fn models(
             states.docs = documentation(context, machine, "States", &machine.status_item, "read from", states);
             states.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
-        let faults = states.as_ref().map(|states| faults(&machine.transitions, states)).unwrap_or_default();
+        let faults = states.as_ref().map(|states| faults(machine, states)).unwrap_or_default();
         let energized = states.as_ref().and_then(energized);
         MachineModel { states, commands, transitions, faults, energized }
     };
@@ -262,10 +262,15 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
-/// Returns the states to which automatic transitions from any state lead, and the states that follow automatically.
-/// These transitions are reactions to faults.
-fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
+/// Returns the fault states that the source names, the states to which automatic transitions from any state lead, and the
+/// states that follow automatically. These transitions are reactions to faults.
+fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
+    for fault in &machine.faults {
+        if !names.contains(&fault.as_str()) {
+            names.push(fault);
+        }
+    }
     loop {
         let is_entered = |transition: &&Transition| {
             let from = transition.from.as_deref();
@@ -273,7 +278,7 @@ fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
                 && from.is_none_or(|from| names.contains(&from))
                 && !names.contains(&transition.to.as_str())
         };
-        let Some(transition) = transitions.iter().find(is_entered) else { break };
+        let Some(transition) = machine.transitions.iter().find(is_entered) else { break };
         names.push(&transition.to);
     }
     let variants = states.by_name();
