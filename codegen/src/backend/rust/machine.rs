@@ -262,15 +262,11 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
-/// Returns the fault states that the source names, the states to which automatic transitions from any state lead, and the
-/// states that follow automatically. These transitions are reactions to faults.
+/// Returns the variants of the fault states. These are the states that the source lists, the states to which automatic
+/// transitions from any state lead, and the states that follow the latter automatically. Automatic transitions from any
+/// state are reactions to faults. A listed state can end automatically without a fault, so its successors are not added.
 fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
-    for fault in &machine.faults {
-        if !names.contains(&fault.as_str()) {
-            names.push(fault);
-        }
-    }
     loop {
         let is_entered = |transition: &&Transition| {
             let from = transition.from.as_deref();
@@ -280,6 +276,11 @@ fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
         };
         let Some(transition) = machine.transitions.iter().find(is_entered) else { break };
         names.push(&transition.to);
+    }
+    for fault in &machine.faults {
+        if !names.contains(&fault.as_str()) {
+            names.push(fault);
+        }
     }
     let variants = states.by_name();
     names.iter().filter_map(|name| variants.get(*name).cloned()).collect()
