@@ -8,6 +8,7 @@ use std::convert::Infallible;
 
 use lexibus::{
     codes, CanOpen, Client, CoE, Error, Modbus, Object, OutOfRange, Parameter, Register, RegisterTable, Serial,
+    Stopped, Walker,
 };
 
 lexibus::dictionary! {
@@ -272,6 +273,15 @@ fn bits_that_depend_on_the_mode() {
     assert_eq!(press.control().read().map(Control::raw), Ok(0x2010));
     press.mode().write(Mode::Unknown(12)).unwrap();
     assert_eq!(press.mode().read(), Ok(Mode::Unknown(12)));
+}
+
+/// The table declares the fault state. The transition to it starts in "running", so it is no fault state by itself.
+#[test]
+fn a_fault_state_of_the_table_stops_the_walker() {
+    let mut walker = Walker::new(State::Running);
+    assert_eq!(walker.cycle(0x00_u16, 0x00_u16).map(|walked| walked.control), Ok(0x03));
+    assert_eq!(walker.cycle(0x01_u16, 0x03_u16).map(|walked| walked.control), Ok(0x07));
+    assert_eq!(walker.cycle(0x04_u16, 0x07_u16), Err(Stopped::Fault(State::Fault)));
 }
 
 #[test]

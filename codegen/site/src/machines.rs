@@ -119,6 +119,10 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     facts.extend(
         (!machine.control_item.is_empty()).then(|| format!("Commands are written to {}.", machine.control_item)),
     );
+    if !machine.faults.is_empty() {
+        let states: Vec<_> = machine.faults.iter().map(|state| readable(state)).collect();
+        facts.push(format!("Fault states: {}.", states.join(", ")));
+    }
     facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {}.", readable(state))));
     facts.extend(PLAIN.manual_entry(manual, "", machine.documentation.as_deref(), &[]));
     facts.extend(PLAIN.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref()));

@@ -24,6 +24,10 @@ pub struct StateMachine {
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<CompactString>,
+    /// Fault states that the source lists. States to which automatic transitions from any state lead, and the states that
+    /// follow automatically, are fault states without an entry.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub faults: Vec<CompactString>,
     /// Commands as bit patterns of the control item.
     pub commands: SharedList<Pattern>,
     /// Transitions between states.

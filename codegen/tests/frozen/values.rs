@@ -68,6 +68,9 @@ fn device(out: &mut String, device: &Device) {
                 );
             }
         }
+        for fault in &machine.faults {
+            line(out, &["fault".into(), machine.name.to_string(), fault.to_string()]);
+        }
         for transition in &machine.transitions {
             let from = transition.from.as_deref().unwrap_or("*");
             line(

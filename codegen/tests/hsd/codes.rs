@@ -251,6 +251,7 @@ fn commands_and_states() {
     let undescribed = machine.outcomes.iter().filter(|row| row.commands.is_empty()).count();
     assert_eq!(undescribed, 7);
     assert_eq!(machine.initial.as_deref(), Some("alarm"));
+    assert_eq!(machine.faults, ["braking to alarm", "alarm"]);
 }
 
 fn cells_with_stars(line: &str) -> Vec<String> {

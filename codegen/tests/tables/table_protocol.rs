@@ -184,11 +184,43 @@ fn machines_and_procedures() {
 
 #[test]
 fn mistakes_in_machines_and_procedures() {
-    let lines = "[machines.m]\nstatus = \"Spede\"\n[machines.m.states]\na = { mask = 1 }\nb = { mask = 1, value = 1 }\n\
+    let lines = "[machines.m]\nstatus = \"Spede\"\nfaults = [\"b\", \"d\"]\n[machines.m.states]\na = { mask = 1 }\nb = { mask = 1, value = 1 }\n\
                  [[machines.m.transitions]]\nfrom = \"c\"\ncommand = \"go\"\n\
                  [procedures.p]\nsteps = [{ write = \"Speed\" }, { write = \"Speed\", argument = \"x\" }, { delay = 3, value = 1 }, \
                  { read = \"Speed\", wait = \"Speed\", value = 1 }, { send = \"Reset\" }]\n";
     insta::assert_snapshot!(findings(lines).join("\n"));
+}
+
+#[test]
+fn fault_states_of_machines() {
+    let machine = |faults: &str| {
+        let state = |at: usize| format!("s{at} = {{ mask = 7, value = {at} }}\n");
+        let states: String = (0..6).map(state).collect();
+        let transition = |(from, to): (&str, &str)| format!("[[machines.m.transitions]]\n{from}to = \"s{to}\"\n");
+        let transitions: String =
+            [("from = \"s4\"\n", "0"), ("", "2"), ("from = \"s2\"\n", "3")].map(transition).concat();
+        read(&format!(
+            "{HEAD}[machines.m]\nstatus = \"Speed\"\ncontrol = \"Speed\"\nfaults = {faults}\n[machines.m.states]\n{states}\
+             [machines.m.commands]\ngo = {{ mask = 1, value = 1 }}\n\
+             [[machines.m.transitions]]\nfrom = \"s0\"\nto = \"s1\"\ncommand = \"go\"\n{transitions}"
+        ))
+    };
+    let faults = |given: &str| {
+        let compilation = machine(given);
+        assert_eq!(reported(&compilation), Vec::<String>::new());
+        let rust = compilation.rust(&Options::default().rust).expect("bindings");
+        let list = rust.split_once("const FAULTS: &'static [u8] = &[").expect("a list").1;
+        let list = list.split_once("];").expect("the end of the list").0;
+        list.split(',')
+            .filter_map(|state| state.trim().strip_prefix("Self::")?.strip_suffix(" as u8").map(str::to_owned))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(faults("[]"), ["S2", "S3"]);
+    // The successor of a listed state is no fault state.
+    assert_eq!(faults("[\"s4\", \"s3\", \"s4\"]"), ["S2", "S3", "S4"]);
+    let unknown = machine("[\"s5\", \"s44\"]");
+    assert_eq!(reported(&unknown), ["t.toml:13:17: no state has the name `s44` [TAB005]"]);
+    assert_eq!(unknown.diagnostics.list()[0].help.as_deref(), Some("did you mean `s4`?"));
 }
 
 #[test]

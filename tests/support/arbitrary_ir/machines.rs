@@ -30,6 +30,7 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         control_item: names::of(b, items).into(),
         state_type: b.maybe(5, |b| names::of(b, types).into()),
         initial: b.maybe(3, |b| names::of(b, &state_names)),
+        faults: b.few(3, 2, |b| names::of(b, &state_names)),
         outcomes: b.few(3, 3, |b| outcomes(b, &state_names)),
         states: states.into(),
         commands: commands.into(),

@@ -14,6 +14,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
         // An added state breaks Rust code that matches all variants of the enumeration.
         states: list(patterns(|state| format!("state {}", state.name)), pattern),
         initial: fact("state after power-on", Judgement::BEHAVIOR),
+        faults: fact("fault states", Judgement::BEHAVIOR),
         commands: list(patterns(|command| format!("command {}", command.name)), pattern),
         transitions: list(transitions(), transition),
         outcomes: list(

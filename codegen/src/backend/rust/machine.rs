@@ -125,7 +125,7 @@ pub(super) fn models(
             states.docs = documentation(context, machine, "States", &machine.status_item, "read from", states);
             states.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
-        let faults = states.as_ref().map(|states| faults(&machine.transitions, states)).unwrap_or_default();
+        let faults = states.as_ref().map(|states| faults(machine, states)).unwrap_or_default();
         let energized = states.as_ref().and_then(energized);
         MachineModel { states, commands, transitions, faults, energized }
     };
@@ -262,9 +262,10 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::slice(steps))
 }
 
-/// Returns the states to which automatic transitions from any state lead, and the states that follow automatically.
-/// These transitions are reactions to faults.
-fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
+/// Returns the variants of the fault states. These are the states that the source lists, the states to which automatic
+/// transitions from any state lead, and the states that follow the latter automatically. Automatic transitions from any
+/// state are reactions to faults. A listed state can end automatically without a fault, so its successors are not added.
+fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
     let mut names: Vec<&str> = Vec::new();
     loop {
         let is_entered = |transition: &&Transition| {
@@ -273,8 +274,13 @@ fn faults(transitions: &[Transition], states: &PatternsModel) -> Vec<String> {
                 && from.is_none_or(|from| names.contains(&from))
                 && !names.contains(&transition.to.as_str())
         };
-        let Some(transition) = transitions.iter().find(is_entered) else { break };
+        let Some(transition) = machine.transitions.iter().find(is_entered) else { break };
         names.push(&transition.to);
+    }
+    for fault in &machine.faults {
+        if !names.contains(&fault.as_str()) {
+            names.push(fault);
+        }
     }
     let variants = states.by_name();
     names.iter().filter_map(|name| variants.get(*name).cloned()).collect()

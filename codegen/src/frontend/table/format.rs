@@ -976,6 +976,8 @@ tables! {
         pub states: Option<At<TextOr<Entries<PatternTable>>>>,
         /// State after power-on.
         pub initial: Option<At<String>>,
+        /// Fault states, in which `walk` stops. States to which a transition without `from` and `command` leads, and states that follow them without a command, are fault states without an entry.
+        pub faults: Vec<At<String>>,
         /// Commands, each with its bit pattern in the `control` item.
         pub commands: Entries<PatternTable>,
         /// Transitions between the states.

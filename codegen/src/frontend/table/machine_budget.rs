@@ -65,7 +65,8 @@ fn weight(table: &MachineTable, device: &Device) -> usize {
         }
     });
     let matrix = table.matrix.as_ref().map_or(0, |matrix| of_matrix(&matrix.value));
-    [1, states, table.commands.iter().count(), matrix].into_iter().chain(transitions).fold(0, usize::saturating_add)
+    let rows = [1, states, table.commands.iter().count(), table.faults.len(), matrix];
+    rows.into_iter().chain(transitions).fold(0, usize::saturating_add)
 }
 
 /// Returns the size of a state-command matrix in rows, including copies of the names of states and of notes.

@@ -47,6 +47,9 @@ pub(super) fn machine(
     if let Some(initial) = &table.initial {
         names.state(reader, &initial.value, reader.span(initial));
     }
+    for fault in &table.faults {
+        names.state(reader, &fault.value, reader.span(fault));
+    }
     let mut rows = Vec::new();
     if let Some(matrix) = &table.matrix {
         rows = outcomes::read(reader, &matrix.value, &names, references);
@@ -59,6 +62,7 @@ pub(super) fn machine(
         state_type,
         states: states.into(),
         initial: table.initial.as_ref().map(text),
+        faults: table.faults.iter().map(text).collect(),
         commands: commands.into(),
         transitions: transitions.into(),
         outcomes: rows,

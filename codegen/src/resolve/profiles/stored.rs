@@ -118,7 +118,7 @@ structures! {
     EnumValue { name, value, last, zone, when, documentation | names, availability, at }
     CodeTable { name, columns, rows, documentation | buses, stated_by, origin }
     CodeRow { printed, code, last, name, documentation, cells | printed_cells, names, availability, stated_by }
-    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation | outcomes, stated_by }
+    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation | faults, outcomes, stated_by }
     Pattern { name, mask, value, documentation | names }
     Transition { number, from, to, command, documentation }
     Doubt { says, chosen, why, cite, severity, subject | origin }
