@@ -103,7 +103,7 @@ mod tests {
         let expected = [
             Some("EL1@0x00000001"),
             Some("EL1@0x00000002"),
-            Some("0x00000002@0x00000001"),
+            Some("0x00000002"),
             Some("0x00000003"),
             Some("Third"),
             None,
