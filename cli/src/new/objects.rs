@@ -199,7 +199,7 @@ impl<'m> Machine<'m> {
 
     /// Returns the expression that leads the state machine to the target.
     fn enable(&self) -> String {
-        let walk = format!("{}(State::{}, deadline)", self.walk, self.target);
+        let walk = format!("{}(target, deadline)", self.walk);
         layout::chain(At(8, ""), "self", &["bindings", &walk], "")
     }
 

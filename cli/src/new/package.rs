@@ -55,12 +55,20 @@ struct BuildScript {
 impl BuildScript {
     /// Returns the calls of the builder.
     fn builder(&self) -> String {
-        let compile = layout::call(At(8, ""), "compile_as", &[&self.file, "\"bindings.rs\""], "");
+        // A long name gets a variable, so that the calls are short.
+        let (start, file) = match self.file.chars().count() > 40 {
+            true if self.file.chars().count() > 77 => {
+                (format!("let description =\n        {};\n    ", self.file), "description")
+            }
+            true => (format!("let description = {};\n    ", self.file), "description"),
+            false => (String::new(), self.file.as_str()),
+        };
+        let compile = format!("compile_as({file}, \"bindings.rs\")");
         let table = self.has_table.then(|| "table(Presence::Always)".to_owned());
         let device = self.device.as_deref().map(|device| layout::call(At(8, ""), "device", &[device], ""));
         let calls: Vec<String> = table.into_iter().chain(device).chain([compile]).collect();
         let calls: Vec<&str> = calls.iter().map(String::as_str).collect();
-        layout::chain(At(4, ""), "Builder::new()", &calls, "")
+        start + &layout::chain(At(4, ""), "Builder::new()", &calls, "")
     }
 }
 
