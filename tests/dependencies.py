@@ -36,10 +36,41 @@ def cargo(*arguments):
     return subprocess.run(call, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
+def parts(expression, operator):
+    """Splits a license expression at an operator outside of parentheses."""
+    found, depth = [""], 0
+    for token in re.split(rf"(\(|\)|{operator})", expression):
+        depth += (token == "(") - (token == ")")
+        if depth == 0 and re.fullmatch(operator, token):
+            found.append("")
+        else:
+            found[-1] += token
+    return [part.strip() for part in found]
+
+
 def is_allowed(expression):
-    """Returns whether one alternative of a license expression consists of allowed licenses."""
-    alternatives = re.split(r"\s+OR\s+|/", expression.replace("(", "").replace(")", ""))
-    return any(all(part.strip() in ALLOWED for part in alternative.split(" AND ")) for alternative in alternatives)
+    """Returns whether a license expression allows the use with allowed licenses only. AND binds stronger than OR. The slash is an old
+    form of OR."""
+    alternatives = parts(expression, r"\s+OR\s+|/")
+    if len(alternatives) > 1:
+        return any(map(is_allowed, alternatives))
+    both = parts(expression, r"\s+AND\s+")
+    if len(both) > 1:
+        return all(map(is_allowed, both))
+    if expression.startswith("(") and expression.endswith(")"):
+        return is_allowed(expression[1:-1].strip())
+    return expression in ALLOWED
+
+
+def check_expressions():
+    """Checks `is_allowed`."""
+    allowed = ["MIT", "MIT/Apache-2.0", "MIT OR GPL-3.0", "(MIT OR GPL-3.0) AND Zlib", "(MIT)", "GPL-3.0 OR MIT AND ISC",
+               "(MIT OR Apache-2.0) AND (Zlib OR GPL-3.0)", "Apache-2.0 WITH LLVM-exception OR GPL-3.0"]
+    refused = ["", "GPL-3.0", "(MIT OR Apache-2.0) AND GPL-3.0", "MIT AND GPL-3.0", "GPL-3.0 AND (MIT OR Zlib)", "(GPL-3.0)",
+               "MIT AND (GPL-3.0 OR MPL-2.0)"]
+    for expressions, expected in ((allowed, True), (refused, False)):
+        for expression in expressions:
+            assert is_allowed(expression) == expected, expression
 
 
 def licenses():
@@ -60,7 +91,7 @@ def compatible(version):
 
 def duplicates():
     """Returns the differences between the duplicates and the list of known duplicates."""
-    tree = cargo("tree", "--workspace", "--duplicates", "--depth", "0", "--prefix", "none", "--format", "{p}")
+    tree = cargo("tree", "--workspace", "--target", "all", "--duplicates", "--depth", "0", "--prefix", "none", "--format", "{p}")
     versions = {}
     for name, version in re.findall(r"^(\S+) v(\S+)", tree, re.MULTILINE):
         versions.setdefault(name, set()).add(compatible(version))
@@ -76,6 +107,7 @@ def duplicates():
             yield f"{name}: {now}, but tests/duplicates.txt lists {then}"
 
 
+check_expressions()
 faults = [*licenses(), *duplicates()]
 print("\n".join(faults) or "all licenses are compatible, and all duplicates are listed")
 sys.exit(bool(faults))

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks that the runtime compiles with its minimum Rust versions, with each feature alone. A version whose toolchain is not
+# Checks that the runtime compiles with its minimum Rust versions, with each feature alone, and that the crate `generated` compiles with
+# the minimum version of the runtime. A version whose toolchain is not
 # installed is skipped with a message. Install a toolchain with `rustup toolchain install 1.81.0 --profile minimal`.
 #
 #     tests/msrv.sh
@@ -61,6 +62,19 @@ for target, tables in manifest["target"].items():
 with open(path, "w") as file:
     file.write(text)
 PYTHON
+    # The crate `generated` and the runtime have the same minimum version.
+    if [[ $version == 1.81.0 ]]; then
+        rm -rf "$copy/generated"
+        mkdir "$copy/generated"
+        cp -r generated/src generated/README.md "$copy/generated"
+        sed -e '/workspace = true/d' -e '/^\[lints\]/d' -e 's/^rust-version/version = "0.1.0"\nedition = "2021"\nrust-version/' \
+            generated/Cargo.toml >"$copy/generated/Cargo.toml"
+        echo '[workspace]' >>"$copy/generated/Cargo.toml"
+        echo "Rust $version, crate: generated"
+        CARGO_RESOLVER_INCOMPATIBLE_RUST_VERSIONS=fallback cargo generate-lockfile --quiet --manifest-path "$copy/generated/Cargo.toml"
+        CARGO_TARGET_DIR=$folder/build cargo "+$version" check --quiet --locked --all-features \
+            --manifest-path "$copy/generated/Cargo.toml" || failed=1
+    fi
     rm -f "$copy/Cargo.lock"
     CARGO_RESOLVER_INCOMPATIBLE_RUST_VERSIONS=fallback cargo generate-lockfile --quiet --manifest-path "$copy/Cargo.toml"
     for feature in $features; do

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
-use lexibus_codegen::output::write_if_changed;
+use lexibus_codegen::output::{write_if_changed, writing};
 use lexibus_codegen::source::Source;
 
 use super::args::Fix;
@@ -176,6 +176,7 @@ fn back_up(path: &Path) -> io::Result<PathBuf> {
 
 /// Copies a file to a new file, on file systems without links.
 fn copy(path: &Path, backup: &Path) -> io::Result<()> {
+    let _writing = writing();
     let mut file = fs::File::options().write(true).create_new(true).open(backup)?;
     let copied = fs::File::open(path).and_then(|mut old| {
         file.set_permissions(old.metadata()?.permissions())?;
@@ -234,9 +235,31 @@ fn fixes(count: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
     use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
     use lexibus_codegen::source::{FileId, Span};
+
+    /// A program that ends on a signal holds the guard `settled`.
+    #[test]
+    fn a_backup_is_complete_when_the_program_ends() {
+        let folder = std::env::temp_dir().join(format!("lexibus-fix-copy-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("a folder");
+        let (path, backup) = (folder.join("a"), folder.join("a.bak"));
+        fs::write(&path, "old").expect("a file");
+        let settled = lexibus_codegen::output::settled();
+        let copying = std::thread::spawn({
+            let (path, backup) = (path.clone(), backup.clone());
+            move || copy(&path, &backup)
+        });
+        std::thread::sleep(Duration::from_millis(100));
+        assert!(!backup.exists(), "the backup was started after the end");
+        drop(settled);
+        copying.join().expect("no panic").expect("a backup");
+        assert_eq!(fs::read_to_string(&backup).expect("a backup"), "old");
+        fs::remove_dir_all(folder).expect("a folder");
+    }
 
     #[test]
     fn fixes_of_a_round_do_not_overlap_and_change_the_file() {

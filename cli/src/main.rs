@@ -31,6 +31,7 @@ mod new;
 mod output;
 mod report;
 mod schema;
+mod shell;
 mod unified;
 
 use std::io::Write;

@@ -44,6 +44,7 @@ fn folder(name: &str) -> PathBuf {
         }
     }
     copy(&root.join("tests/data/coupler.esi.xml"), &folder);
+    copy(&root.join("dictionaries/demo-drive.eds"), &folder);
     // Create two versions of a description for `lexibus diff`.
     let old = std::fs::read_to_string(docs().join("examples/pump.eds")).expect("an example");
     let new =

@@ -1,4 +1,4 @@
-//! Ctrl-C while `docs`, `generate` and `export` write files: each file is complete or absent, and no temporary file remains.
+//! Ctrl-C while `docs`, `generate`, `export` and `new` write files: each file is complete or absent, and no temporary file remains.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -80,5 +80,34 @@ fn an_interruption_leaves_complete_files_only() {
             interrupted += usize::from(status.code() == Some(130) && found.len() < expected.len());
         }
         assert!(interrupted > 0, "{command:?}: no signal arrived while the command wrote files");
+    }
+}
+
+#[test]
+fn an_interruption_leaves_no_part_of_a_crate() {
+    let description = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/demo-drive.eds");
+    let start = |out: &Path| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lexibus"));
+        command.args(["new", "--crate", "drive", "--from"]).arg(&description).arg("--out").arg(out.join("drive"));
+        command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("lexibus starts")
+    };
+    let whole = folder("whole-crate");
+    let begin = std::time::Instant::now();
+    assert!(start(&whole).wait().expect("lexibus ends").success());
+    let time = begin.elapsed();
+    let expected = files(&whole);
+    // The signals arrive at different moments of the whole run.
+    const ROUNDS: u32 = 24;
+    for round in 0..ROUNDS {
+        let out = folder("interrupted-crate");
+        let mut child = start(&out);
+        std::thread::sleep(time * round / ROUNDS);
+        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).stderr(Stdio::null()).status();
+        assert!(sent.is_ok(), "`kill` runs");
+        child.wait().expect("lexibus ends");
+        let found = files(&out);
+        assert!(found.is_empty() || found == expected, "{:?}", found.keys());
+        let entries = std::fs::read_dir(&out).expect("a folder").count();
+        assert_eq!(entries, usize::from(!found.is_empty()), "an empty folder remains");
     }
 }

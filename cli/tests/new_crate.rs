@@ -109,6 +109,8 @@ fn create(name: &str, description: &Path, options: &[&str]) -> PathBuf {
     own = own.replace(&format!("lexibus = {git}"), &format!("lexibus = {{ path = {:?} }}", root()));
     assert!(!own.contains("git ="), "{own}");
     std::fs::write(folder.join("Cargo.toml"), own).expect("a manifest");
+    // The crate is formatted with the default settings, and not with those of this workspace.
+    std::fs::write(folder.join("rustfmt.toml"), "").expect("settings");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
     folder
 }
@@ -135,7 +137,7 @@ fn an_esi_becomes_a_crate_that_enables_a_drive() {
     if lane::skips("a crate from an ESI file") {
         return;
     }
-    let folder = create("new-esi", &root().join("examples/support/servo.esi.xml"), &["--device", "SV-1@latest"]);
+    let folder = create("new-esi", &root().join("examples/support/servo.esi.xml"), &["--device", "Demo Servo@latest"]);
     try_out(&folder, 2, &["state: OperationEnabled"]);
 }
 
@@ -154,10 +156,11 @@ fn a_table_becomes_a_crate_on_each_of_its_buses() {
         return;
     }
     let table = root().join("dictionaries/eco.toml");
-    for bus in ["canopen", "modbus"] {
-        let folder = create("new-table", &table, &["--bus", bus]);
-        try_out(&folder, 3, &["state: OperationEnabled"]);
-    }
+    let folder = create("new-table", &table, &["--bus", "canopen"]);
+    try_out(&folder, 2, &["state: OperationEnabled"]);
+    // The drive has no objects of CiA 402 on Modbus.
+    let folder = create("new-table", &table, &["--bus", "modbus"]);
+    try_out(&folder, 1, &[]);
 }
 
 #[test]
@@ -169,4 +172,88 @@ fn a_table_becomes_a_crate_with_its_own_state_machine() {
     std::fs::write(&table, LIFT).expect("a table");
     let folder = create("new-lift", &table, &[]);
     try_out(&folder, 3, &["state: Moving", "height (unit mm): 0", "speed (unit mm/s): 200"]);
+}
+
+/// A table whose names have `length` letters.
+fn with_names_of(length: usize) -> String {
+    let name = |start: &str, word: &str| format!("{start}_{}", word.repeat(length))[..length].to_owned();
+    [
+        ("status", "status_word"),
+        ("control", "control_word"),
+        ("height", "height_of_the_cabin"),
+        ("speed", "speed_of_the_cabin"),
+        ("off", "switched_off"),
+        ("starting", "starting_up"),
+        ("ready", "ready_to_move"),
+        ("moving", "moving_up"),
+        ("start", "start_now"),
+        ("go", "go_on"),
+        ("stop", "stop_now"),
+    ]
+    .iter()
+    .fold(LIFT.to_owned(), |table, (word, long)| {
+        let long = name(word, &format!("{long}_"));
+        let long = long.trim_end_matches('_');
+        let table = table.replace(&format!("\"{word}\""), &format!("\"{long}\""));
+        let lines =
+            table.lines().map(|line| match line.strip_prefix(word).filter(|rest| rest.trim_start().starts_with('=')) {
+                Some(rest) if !rest.trim_start_matches(" = ").starts_with('"') => format!("{long}{rest}"),
+                _ => line.to_owned(),
+            });
+        lines.collect::<Vec<_>>().join("\n")
+    })
+}
+
+/// Checks the format of the files only, because compiling each crate would take long.
+#[test]
+fn crates_with_long_names_are_formatted() {
+    let table = temporary().join("long-names.toml");
+    let mut lengths = std::collections::BTreeSet::new();
+    for length in (12..=66).step_by(3) {
+        std::fs::write(&table, with_names_of(length)).expect("a table");
+        let folder = create("new-long", &table, &[]);
+        cargo(&folder, &["fmt", "--check"]);
+        let library = std::fs::read_to_string(folder.join("src/lib.rs")).expect("the library");
+        lengths.extend(library.lines().filter(|line| line.contains("pub fn")).map(str::len));
+    }
+    assert!(lengths.range(90..=100).next().is_some(), "no line is nearly full: {lengths:?}");
+    for length in (10..=90).step_by(4) {
+        let description = temporary().join(format!("{}.eds", "d".repeat(length)));
+        let name = "Following error time out of the axis, of the motor and of the brake in the cabin of the lift";
+        let eds = format!(
+            "[DeviceInfo]\nProductName=Lift\n[2000]\nParameterName={}\nDataType=0x0006\nAccessType=rw\nDefaultValue=1\n",
+            &name[..length].trim_end()
+        );
+        std::fs::write(&description, eds).expect("a description");
+        cargo(&create("new-long", &description, &[]), &["fmt", "--check"]);
+        cargo(&create("new-long", &description, &["--device", "Lift"]), &["fmt", "--check"]);
+    }
+}
+
+/// A dictionary in a subfolder must be found by the crate.
+#[test]
+fn a_crate_contains_the_files_to_which_its_description_refers() {
+    let folder = temporary().join("new-references");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("Dicts")).expect("a folder");
+    let device = "<EtherCATInfo><Vendor><Id>#x1</Id><Name>Maker</Name></Vendor><Descriptions><Devices>\
+        <Device Physics=\"YY\"><Type ProductCode=\"#x1\" RevisionNo=\"#x1\">T1</Type><Name>Terminal</Name>\
+        <Mailbox><CoE/></Mailbox><Profile><DictionaryFile>Dicts\\dict.xml</DictionaryFile></Profile></Device></Devices>\
+        </Descriptions></EtherCATInfo>";
+    let dictionary = "<EtherCATDict><Dictionary><DataTypes><DataType><Name>UINT</Name><BitSize>16</BitSize></DataType>\
+        </DataTypes><Objects><Object><Index>#x2000</Index><Name>Speed</Name><Type>UINT</Type><BitSize>16</BitSize>\
+        <Flags><Access>rw</Access></Flags></Object></Objects></Dictionary></EtherCATDict>";
+    std::fs::write(folder.join("main.xml"), device).expect("a description");
+    std::fs::write(folder.join("Dicts/dict.xml"), dictionary).expect("a dictionary");
+    let made = create("new-with-dictionary", &folder.join("main.xml"), &[]);
+    assert_eq!(std::fs::read_to_string(made.join("Dicts/dict.xml")).expect("the copy"), dictionary);
+    let library = std::fs::read_to_string(made.join("src/lib.rs")).expect("the library");
+    assert!(library.contains("pub fn speed(&mut self)"), "{library}");
+    // The copies describe the same device as the originals.
+    let info = |folder: &Path| {
+        let info = Command::new(env!("CARGO_BIN_EXE_lexibus")).args(["info", "main.xml"]).current_dir(folder).output();
+        text(&info.expect("lexibus runs"))
+    };
+    assert!(info(&made).contains("1 objects, 1 entries"), "{}", info(&made));
+    assert_eq!(info(&made), info(&folder));
 }

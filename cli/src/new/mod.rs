@@ -1,6 +1,7 @@
 //! `lexibus new`: creates a register table with example rows, or a drive crate.
 
 mod files;
+mod layout;
 mod objects;
 mod package;
 mod profinet;

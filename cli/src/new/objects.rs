@@ -5,6 +5,7 @@ use lexibus_codegen::backend::rust::{self, Program, ProgramItem, ProgramMachine,
 use lexibus_codegen::ir::{self, Device};
 
 use super::files::Files;
+use super::layout::{self, At};
 use super::package::{render, Package};
 use super::text::{doc, printed};
 use crate::args::Bus;
@@ -22,6 +23,8 @@ struct Library<'l> {
     machine: Option<&'l Machine<'l>>,
     /// Method that returns the operations of CiA 402.
     motion: Option<&'l str>,
+    /// Expression that changes the mode of operation.
+    set_mode: String,
     is_positioning: bool,
     items: &'l [Item],
     /// Imports from the runtime.
@@ -35,8 +38,8 @@ struct Example<'e> {
     bus: &'e BusNames,
     machine: Option<&'e Machine<'e>>,
     is_positioning: bool,
-    /// Call that reads the actual position.
-    position: Option<&'e str>,
+    /// Statement that reads the actual position.
+    position: Option<String>,
     items: &'e [Item],
 }
 
@@ -67,13 +70,24 @@ struct BusNames {
     type_name: &'static str,
     /// A client of the bus.
     client: &'static str,
+    /// Feature of the runtime with the client.
+    feature: &'static str,
 }
 
-const CANOPEN: BusNames =
-    BusNames { title: "CANopen", type_name: "CanOpen", client: "`lexibus::clients::canopen::Node`" };
-const COE: BusNames = BusNames { title: "EtherCAT", type_name: "CoE", client: "`lexibus::clients::ethercat::Sdo`" };
-const MODBUS: BusNames =
-    BusNames { title: "Modbus", type_name: "Modbus", client: "`lexibus::clients::modbus::ModbusClient`" };
+const CANOPEN: BusNames = BusNames {
+    title: "CANopen",
+    type_name: "CanOpen",
+    client: "`lexibus::clients::canopen::Node`",
+    feature: "canopen",
+};
+const COE: BusNames =
+    BusNames { title: "EtherCAT", type_name: "CoE", client: "`lexibus::clients::ethercat::Sdo`", feature: "ethercat" };
+const MODBUS: BusNames = BusNames {
+    title: "Modbus",
+    type_name: "Modbus",
+    client: "`lexibus::clients::modbus::ModbusClient`",
+    feature: "modbus",
+};
 
 /// A state machine.
 struct Machine<'m> {
@@ -87,7 +101,6 @@ struct Machine<'m> {
 /// An item that the driver reads or writes.
 struct Item {
     method: String,
-    test: String,
     verb: &'static str,
     title: String,
     /// Call that accesses the value.
@@ -118,14 +131,18 @@ pub(super) fn write(package: &Package, device: &Device, bus: Option<Bus>, files:
     let items = items(&program);
     let (library, driver) = (package.library.as_str(), program.driver.as_str());
     let motion = cia402.map(|cia402| cia402.method.as_str());
-    let position = cia402.and_then(|cia402| cia402.position.as_deref());
+    let position = cia402.and_then(|cia402| cia402.position.as_deref()).map(|call| {
+        let calls: Vec<&str> = ["bindings()"].into_iter().chain(call.split('.')).chain(["read()?"]).collect();
+        layout::chain(At(4, "let position = "), "driver", &calls, ";")
+    });
+    let set_mode = chain(&format!("{}()", motion.unwrap_or_default()), "set_mode(mode, deadline)");
     let simulation = program.machine.as_ref().and_then(|machine| machine.simulation.as_ref());
     let commands_import = simulation.map_or_else(String::new, |simulation| import(&simulation.commands, "Command"));
     let title = doc(&package.title);
     let of_machine = |names: &[&'static str]| machine.map_or(Vec::new(), |_| names.to_vec());
     let access = if items.is_empty() { &[][..] } else { &["AccessError"] };
     let runtime_import = imports([access, &["Client", bus.type_name], &of_machine(&["WalkError"])].concat());
-    let lib = Library { title, driver, bus, machine, motion, is_positioning, items: &items, runtime_import };
+    let lib = Library { title, driver, bus, machine, motion, set_mode, is_positioning, items: &items, runtime_import };
     files.text("src/lib.rs", render(&lib)?);
     let example = Example { library, bus, machine, is_positioning, position, items: &items };
     files.text("examples/simulated.rs", render(&example)?);
@@ -159,15 +176,10 @@ fn imports(mut names: Vec<&str>) -> String {
     }
 }
 
-/// Returns a chain of calls, which `rustfmt` breaks if it is long.
+/// Returns a chain of calls in a method of the driver.
 fn chain(call: &str, last: &str) -> String {
-    /// Maximum width of a chain on one line.
-    const WIDTH: usize = 60;
-    let whole = format!("self.bindings.{call}.{last}");
-    match whole.len() <= WIDTH {
-        true => whole,
-        false => format!("self.bindings\n            .{}\n            .{last}", call.replace('.', "\n            .")),
-    }
+    let calls: Vec<&str> = ["bindings"].into_iter().chain(call.split('.')).chain([last]).collect();
+    layout::chain(At(8, ""), "self", &calls, "")
 }
 
 /// Returns the import of a type from the bindings, under the name `name`.
@@ -183,6 +195,75 @@ impl<'m> Machine<'m> {
     fn new(machine: &'m ProgramMachine) -> Self {
         let ProgramMachine { walk, states, target, status, .. } = machine;
         Machine { walk, target, status, states_import: import(states, "State") }
+    }
+
+    /// Returns the expression that leads the state machine to the target.
+    fn enable(&self) -> String {
+        let walk = format!("{}(target, deadline)", self.walk);
+        layout::chain(At(8, ""), "self", &["bindings", &walk], "")
+    }
+
+    /// Returns the statement that compares the state with the target.
+    fn check(&self) -> String {
+        let target = format!("Some(State::{})", self.target);
+        layout::call(At(4, ""), "assert_eq!", &["state", &target], ";")
+    }
+
+    fn get_status(&self) -> String {
+        layout::call(At(4, "let status = "), "device.get", &[self.status], "?;")
+    }
+}
+
+impl Support<'_> {
+    fn initialize(&self, simulation: &Simulation) -> String {
+        let state = format!("State::{}", simulation.initial);
+        layout::call(At(4, ""), "set_state", &["&mut device", &state], "?;")
+    }
+
+    fn transition(&self, (from, command, to): &(String, String, String)) -> String {
+        let [from, command, to] = [format!("State::{from}"), format!("Command::{command}"), format!("State::{to}")];
+        layout::call(At(4, ""), "", &[&from, &command, &to], ",")
+    }
+
+    fn get_status(&self, simulation: &Simulation) -> String {
+        layout::call(At(8, "let status = "), "device.get", &[&simulation.status], "?;")
+    }
+
+    fn set_status(&self, simulation: &Simulation) -> String {
+        layout::call(At(4, ""), "device.set", &[&simulation.status, "status"], "")
+    }
+}
+
+impl Item {
+    /// Returns the first line of the driver's method.
+    fn signature(&self) -> String {
+        let (value, result) = if self.is_write { (Some(self.native), "()") } else { (None, self.native) };
+        layout::method(&self.method, value, &format!("Result<{result}, AccessError<C::Error>>"))
+    }
+
+    /// Returns the statement that reads the value through the driver.
+    fn read(&self) -> String {
+        layout::chain(At(4, "let value = "), "driver", &[&format!("{}()?", self.method)], ";")
+    }
+
+    /// Returns the statement that writes the value through the driver.
+    fn write(&self) -> String {
+        layout::chain(At(4, ""), "driver", &[&format!("{}({})?", self.method, self.value)], ";")
+    }
+
+    /// Returns the statement that sets the value in the simulated device.
+    fn set(&self) -> String {
+        layout::call(At(4, ""), "device.set", &[&self.constant, &self.value.to_string()], "?;")
+    }
+
+    /// Returns the statement that compares the value in the simulated device.
+    fn check(&self) -> String {
+        let get = format!("device.get({})?", self.constant);
+        layout::call(At(4, ""), "assert_eq!", &[&get, &self.value.to_string()], ";")
+    }
+
+    fn print(&self) -> String {
+        layout::call(At(4, ""), "println!", &[&self.printed], ";")
     }
 }
 
@@ -202,7 +283,6 @@ fn item(item: &ProgramItem, value: i128, is_write: bool) -> Item {
     let shown = if is_write { value.to_string() } else { "{value}".to_owned() };
     let plain = format!("{prefix}{name}{suffix}");
     Item {
-        test: format!("the_driver_{}_{name}", if is_write { "writes" } else { "reads" }),
         method: lexibus_codegen::names::escaped(&plain),
         verb: if is_write { "Writes" } else { "Reads" },
         title: doc(&item.name),

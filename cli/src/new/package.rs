@@ -1,25 +1,38 @@
 //! `lexibus new --crate`: creates a drive crate from a device description. The build script of the crate reports the warnings
 //! about the description.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use askama::Template;
 use lexibus_codegen::compile::{self, Compilation, Options, NOTHING_TO_GENERATE};
 use lexibus_codegen::ir::{Catalog, Device, Format};
 use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
-use lexibus_codegen::text::file_name;
 
 use super::files::Files;
+use super::layout::{self, At};
 use super::text::literal;
 use super::{objects, profinet};
 use crate::args::{New, Printing};
 use crate::report::Reporter;
-use crate::Failure;
+use crate::{shell, Failure};
 
-/// Names that Cargo refuses, and names of crates on which a drive crate depends.
-const RESERVED: [&str; 11] =
-    ["test", "core", "std", "alloc", "proc_macro", "build", "examples", "deps", "self", "lexibus", "lexibus_codegen"];
+/// Names that Cargo refuses, names of crates on which a drive crate depends, and names in its example and tests.
+const RESERVED: [&str; 13] = [
+    "test",
+    "core",
+    "std",
+    "alloc",
+    "proc_macro",
+    "build",
+    "examples",
+    "deps",
+    "self",
+    "lexibus",
+    "lexibus_codegen",
+    "objects",
+    "support",
+];
 
 #[derive(Template)]
 #[template(path = "crate/Cargo.toml.txt", escape = "none")]
@@ -37,6 +50,26 @@ struct BuildScript {
     device: Option<String>,
     /// Whether the simulated device needs the table of all entries.
     has_table: bool,
+}
+
+impl BuildScript {
+    /// Returns the calls of the builder.
+    fn builder(&self) -> String {
+        // A long name gets a variable, so that the calls are short.
+        let (start, file) = match self.file.chars().count() > 40 {
+            true if self.file.chars().count() > 77 => {
+                (format!("let description =\n        {};\n    ", self.file), "description")
+            }
+            true => (format!("let description = {};\n    ", self.file), "description"),
+            false => (String::new(), self.file.as_str()),
+        };
+        let compile = format!("compile_as({file}, \"bindings.rs\")");
+        let table = self.has_table.then(|| "table(Presence::Always)".to_owned());
+        let device = self.device.as_deref().map(|device| layout::call(At(8, ""), "device", &[device], ""));
+        let calls: Vec<String> = table.into_iter().chain(device).chain([compile]).collect();
+        let calls: Vec<&str> = calls.iter().map(String::as_str).collect();
+        start + &layout::chain(At(4, ""), "Builder::new()", &calls, "")
+    }
 }
 
 /// A device description, and what the files of a new crate have in common.
@@ -72,7 +105,7 @@ pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Fai
         Format::Gsdml => profinet::write(&package, &mut files)?,
         _ => objects::write(&package, device, new.bus, &mut files)?,
     }
-    let file = copy_sources(&compilation, &mut files);
+    let file = copy_sources(&compilation, &mut files)?;
     let manifest = Manifest {
         name,
         description: literal(&format!("Driver for {}", package.title)),
@@ -83,8 +116,8 @@ pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Fai
     let device = new.device.as_ref().map(|device| literal(&device.to_string()));
     files.text("build.rs", render(&BuildScript { file, device, has_table: format != Format::Gsdml })?);
     files.create(&folder)?;
-    let shown = folder.display();
-    crate::say(&format!("{shown}: created a drive crate. Try it with: cd {shown} && cargo run --example simulated"));
+    let (shown, argument) = (folder.display(), shell::argument(&folder.to_string_lossy()));
+    crate::say(&format!("{shown}: created a drive crate. Try it with: cd {argument} && cargo run --example simulated"));
     Ok(true)
 }
 
@@ -115,8 +148,9 @@ fn only_device<'c>(catalog: &'c Catalog, description: &Path) -> Result<&'c Devic
         [device] => Ok(device),
         [] => Err(Failure::Usage(format!("{file}: {NOTHING_TO_GENERATE}"))),
         devices => Err(Failure::Usage(format!(
-            "{file} describes {} devices: choose one with --device. `lexibus info {file}` lists them",
-            devices.len()
+            "{file} describes {} devices: choose one with --device. `lexibus info {}` lists them",
+            devices.len(),
+            shell::argument(&description.to_string_lossy())
         ))),
     }
 }
@@ -131,13 +165,29 @@ fn title(device: &Device, name: &str) -> String {
     }
 }
 
-/// Adds copies of all description files. Returns the literal with the name of the main file.
-fn copy_sources(compilation: &Compilation, files: &mut Files) -> String {
-    let names = compilation.sources.iter().map(|source| (file_name(source.name()).to_owned(), source));
-    for (name, source) in names {
-        files.copy(name, source.bytes().to_vec());
+/// Adds copies of all description files, at the same paths relative to the main file. Returns the literal with the name of the main
+/// file.
+fn copy_sources(compilation: &Compilation, files: &mut Files) -> Result<String, Failure> {
+    let Some(main) = compilation.sources.first() else { return Ok(literal("")) };
+    let folder = main.folder().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
+    for source in &compilation.sources {
+        let path = relative(source.name(), &folder).ok_or_else(|| {
+            Failure::Usage(format!("{} is not in the folder of the description: move the file there", source.name()))
+        })?;
+        files.copy(path, source.bytes().to_vec())?;
     }
-    compilation.sources.first().map_or_else(String::new, |source| literal(file_name(source.name())))
+    Ok(literal(&relative(main.name(), &folder).unwrap_or_default()))
+}
+
+/// Returns the path of a file relative to a folder, with `/`. Returns `None` if the file is not in the folder.
+fn relative(file: &str, folder: &str) -> Option<String> {
+    let inside = Path::new(file).strip_prefix(folder).ok()?;
+    let part = |part: Component<'_>| match part {
+        Component::Normal(part) => Some(part.to_string_lossy().into_owned()),
+        _ => None,
+    };
+    let parts: Vec<String> = inside.components().map(part).collect::<Option<_>>()?;
+    Some(parts.join("/")).filter(|path| !path.is_empty())
 }
 
 /// Returns the cargo feature of `lexibus-codegen` for a description.
@@ -157,6 +207,48 @@ fn is_in_workspace(folder: &Path) -> bool {
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     folder.ancestors().skip(1).any(|folder| {
         let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
-        manifest.lines().any(|line| line.trim() == "[workspace]")
+        manifest.parse::<toml::Table>().is_ok_and(|manifest| manifest.contains_key("workspace"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_manifest_of_a_workspace_is_found() {
+        let root = std::env::temp_dir().join(format!("lexibus-new-workspace-{}", std::process::id()));
+        std::fs::create_dir_all(root.join("a")).expect("a folder");
+        for (manifest, expected) in [
+            ("[workspace]\nmembers = []", true),
+            ("  [ workspace ] # x", true),
+            ("[workspace.package]\nedition = \"2021\"", true),
+            ("workspace = { members = [] }", true),
+            ("[package]\nname = \"a\"\nworkspace = \"..\"", false),
+            ("[package]\ndescription = \"\"\"\n[workspace]\n\"\"\"", false),
+            ("no TOML", false),
+        ] {
+            std::fs::write(root.join("Cargo.toml"), manifest).expect("a manifest");
+            assert_eq!(is_in_workspace(&root.join("a/crate")), expected, "{manifest}");
+        }
+        std::fs::remove_dir_all(root).expect("a folder");
+    }
+
+    #[test]
+    fn paths_stay_in_the_folder_of_the_description() {
+        assert_eq!(relative("a/main.xml", "a").as_deref(), Some("main.xml"));
+        assert_eq!(relative("a/Dicts/./dict.xml", "a").as_deref(), Some("Dicts/dict.xml"));
+        assert_eq!(relative("main.xml", "").as_deref(), Some("main.xml"));
+        for outside in ["b/main.xml", "a/../b.xml", "a", "ab/main.xml"] {
+            assert_eq!(relative(outside, "a"), None, "{outside}");
+        }
+    }
+
+    #[test]
+    fn reserved_names_are_refused() {
+        for name in ["support", "objects", "lexibus-codegen", "match"] {
+            assert!(check_name(name).is_err(), "{name}");
+        }
+        assert!(check_name("support-x").is_ok());
+    }
 }

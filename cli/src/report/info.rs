@@ -1,10 +1,13 @@
 //! Summaries of descriptions as text.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::text::printable;
 use lexibus_export::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
+
+use crate::shell;
 
 /// Returns a one-line summary of a file: `drive.eds: EDS, Demo Drive, 32 objects, 59 entries, 2 RPDOs, 2 TPDOs`.
 pub(crate) fn summary_line(info: &Info) -> String {
@@ -48,6 +51,7 @@ pub(crate) fn info_text(info: &Info) -> String {
         [device] => one_device(&mut text, device),
         [] => {}
         devices => {
+            let _ = writeln!(text, "  vendor {}", vendors(devices));
             let title = ["--device", "order code", "revision", "product", "objects", "entries", "PDOs", "name"];
             columns(&mut text, title, devices.iter().map(device_row));
         }
@@ -111,14 +115,15 @@ fn module_row(module: &ModuleInfo) -> [String; 4] {
     [argument(module.argument.as_deref()), hex32(module.ident), module_text(module), module.name.clone()]
 }
 
-/// Returns an argument of the command line, in quotation marks if a shell would split it.
+/// Returns an argument for a shell, or `-` if there is none.
 fn argument(text: Option<&str>) -> String {
-    let is_word = |letter: char| letter.is_alphanumeric() || "-_.,:/@+=".contains(letter);
-    match text {
-        None => "-".to_owned(),
-        Some(text) if text.chars().all(is_word) => text.to_owned(),
-        Some(text) => format!("\"{}\"", text.replace('\\', "\\\\").replace('$', "\\$").replace('`', "\\`")),
-    }
+    text.map_or_else(|| "-".to_owned(), shell::argument)
+}
+
+/// Returns the vendor IDs of all devices, each once.
+fn vendors(devices: &[DeviceInfo]) -> String {
+    let ids: BTreeSet<Option<u32>> = devices.iter().map(|device| device.vendor_id).collect();
+    ids.into_iter().map(number).collect::<Vec<_>>().join(", ")
 }
 
 /// Adds a table with aligned columns.

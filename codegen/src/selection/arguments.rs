@@ -37,10 +37,13 @@ pub fn of_modules(modules: &[Module]) -> Vec<Option<String>> {
     modules.iter().enumerate().map(argument).collect()
 }
 
-/// Returns whether a filter with this text matches only elements with exactly this name or number.
+/// Returns whether a filter with this text matches only elements with exactly this name or number, and the command line reads the
+/// text as a filter.
 fn is_plain(text: &str) -> bool {
     let has_revision = text.parse::<DeviceFilter>().map_or(true, |filter| filter.revision.is_some());
-    text == text.trim() && !has_revision && !text.contains(['*', '"']) && !text.chars().any(char::is_control)
+    // The command line would read a text that starts with `-` as an option.
+    let is_argument = !text.starts_with('-') && !text.chars().any(char::is_control);
+    text == text.trim() && !has_revision && !text.contains('*') && is_argument
 }
 
 /// The positions of all elements, by name in lower case and by number.
@@ -97,6 +100,8 @@ mod tests {
             device("", "Second", 2, 1),
             device("EL*", "Second", 3, 1),
             device("2", "Third", 4, 1),
+            device("-4", "Fo\"u\"r", 6, 1),
+            device("-4", "-", 7, 1),
             device("", "", 5, 1),
             device("", "", 5, 1),
         ];
@@ -106,6 +111,8 @@ mod tests {
             Some("0x00000002"),
             Some("0x00000003"),
             Some("Third"),
+            Some("Fo\"u\"r"),
+            Some("0x00000007"),
             None,
             None,
         ];

@@ -1,0 +1,62 @@
+//! Breaks lines like `rustfmt` with its default settings. The length of a line depends on the names in a description.
+
+/// Maximum width of a line.
+const LINE: usize = 100;
+
+/// Maximum width of several arguments or of a chain on one line.
+const SHORT: usize = 60;
+
+/// A position in the code: the indentation, and the text of the line up to the expression.
+#[derive(Clone, Copy)]
+pub(super) struct At<'a>(pub usize, pub &'a str);
+
+impl At<'_> {
+    fn fits(self, text: &str) -> bool {
+        self.0 + width(self.1) + width(text) <= LINE
+    }
+
+    /// Returns a line break with `levels` more indentation than the line.
+    fn newline(self, levels: usize) -> String {
+        format!("\n{}", " ".repeat(self.0 + 4 * levels))
+    }
+}
+
+fn width(text: &str) -> usize {
+    text.chars().count()
+}
+
+/// Returns a call, a macro or a tuple: `head`, the arguments in parentheses, and `end`.
+pub(super) fn call(at: At<'_>, head: &str, arguments: &[&str], end: &str) -> String {
+    let joined = arguments.join(", ");
+    let one = format!("{head}({joined}){end}");
+    if at.fits(&one) && (arguments.len() == 1 || width(&joined) <= SHORT) {
+        return at.1.to_owned() + &one;
+    }
+    let lines = arguments.join(&format!(",{}", at.newline(1)));
+    let comma = if head.ends_with('!') { "" } else { "," };
+    format!("{}{head}({}{lines}{comma}{}){end}", at.1, at.newline(1), at.newline(0))
+}
+
+/// Returns a chain of fields and calls, and `end`.
+pub(super) fn chain(at: At<'_>, root: &str, calls: &[&str], end: &str) -> String {
+    let one = format!("{root}.{}", calls.join("."));
+    if at.fits(&format!("{one}{end}")) && (calls.len() == 1 || width(&one) + width(end.trim_end_matches(';')) <= SHORT)
+    {
+        return format!("{}{one}{end}", at.1);
+    }
+    // The first part follows a root that is not longer than the indentation.
+    let separator = |position: usize| if position == 0 && width(root) <= 4 { String::new() } else { at.newline(1) };
+    let lines: String = calls.iter().enumerate().map(|(at, call)| format!("{}.{call}", separator(at))).collect();
+    format!("{}{root}{lines}{end}", at.1)
+}
+
+/// Returns the first line of a method of the driver, at one level of indentation.
+pub(super) fn method(name: &str, value: Option<&str>, result: &str) -> String {
+    let value = value.map(|ty| format!("value: {ty}"));
+    let parameters: Vec<&str> = std::iter::once("&mut self").chain(value.as_deref()).collect();
+    let one = format!("pub fn {name}({}) -> {result} {{", parameters.join(", "));
+    if At(4, "").fits(&one) {
+        return one;
+    }
+    format!("pub fn {name}(\n        {},\n    ) -> {result} {{", parameters.join(",\n        "))
+}
