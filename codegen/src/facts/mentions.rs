@@ -147,6 +147,7 @@ mod tests {
             commands: SharedList::default(),
             transitions: SharedList::default(),
             outcomes: Vec::new(),
+            faults: Vec::new(),
             documentation: None,
             stated_by: None,
         });
