@@ -311,19 +311,17 @@ macro_rules! master {
                 let (start, mut left, mut is_answered) = (self.port.now(), time, false);
                 let part = if start.is_some() { time } else { time / 8 };
                 for _ in 0..BACKLOG {
-                    let passed = match self.$receive(left.min(part), wanted)$(.$await)?? {
+                    match self.$receive(left.min(part), wanted)$(.$await)?? {
                         Some(message) => {
                             is_answered = true;
                             handle(&message);
-                            Duration::ZERO
                         }
                         None if left <= part => break,
-                        None => part,
-                    };
-                    left = match elapsed(start, self.port.now()) {
-                        Some(elapsed) => time.saturating_sub(elapsed),
-                        None => left.saturating_sub(passed),
-                    };
+                        None => left = left.saturating_sub(part),
+                    }
+                    if let Some(elapsed) = elapsed(start, self.port.now()) {
+                        left = time.saturating_sub(elapsed);
+                    }
                 }
                 Ok(is_answered)
             }
