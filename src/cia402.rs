@@ -7,10 +7,10 @@
 //! exist if the device has their objects, see [`Positioning`], [`Velocity`] and [`Homing`]. The method `axis` of a device
 //! with several axes comes first: `device.axis(2).cia402()`.
 //!
-//! - No operation enables a drive. Before an operation other than `quick_stop`, lead the drive to "Operation enabled" with the generated method
-//!   `walk`. An operation of a drive in another state returns [`MotionError::NotEnabled`] or [`MotionError::Fault`] and
-//!   writes nothing. If the drive leaves the state during the operation, the operation returns the same errors, and
-//!   doesn't write the controlword any more.
+//! - No operation enables a drive. Before an operation other than `quick_stop` and `set_mode`, lead the drive to
+//!   "Operation enabled" with the generated method `walk`. Another operation than `quick_stop` and `set_mode` returns
+//!   [`MotionError::NotEnabled`] or [`MotionError::Fault`] in another state, and writes nothing. If the drive leaves the
+//!   state during the operation, the operation returns the same errors, and doesn't write the controlword any more.
 //! - Operations change only those bits of the controlword that their documentation names.
 //! - The drive must not receive the controlword in process data, because process data would overwrite it. In this case,
 //!   use a [`Cyclic`] and a [`Walker`](crate::Walker).

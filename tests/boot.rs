@@ -390,10 +390,16 @@ fn a_running_node_keeps_running() {
     let plan = BOOT.keep_running();
     for is_async in [false, true] {
         let mut node = node();
-        // The node has no heartbeat before its first configuration, and is not operational after it was restarted.
-        let silent = boot(&mut node, &plan, is_async);
+        // The node has no heartbeat before its first configuration. Without a restart, its state is unknown.
+        let silent = boot(&mut node, &Boot::new(ErrorControl::Heartbeat(SECOND)).keep_running(), is_async);
         assert_eq!(silent, Err(BootError::NoHeartbeat));
         assert_eq!(silent.map_err(|error| error.status()), Err(Some('E')));
+        assert_eq!(node.port().state(), NmtState::PreOperational);
+        // A node without a heartbeat is restarted and booted.
+        let restarted = boot(&mut node, &plan, is_async).expect("a node without a heartbeat is restarted");
+        assert_eq!((restarted.is_configured, restarted.was_operational), (true, false));
+        assert_eq!(node.port().state(), NmtState::Operational);
+        let mut node = self::node();
         node.port().device().set_initial_bytes(HEARTBEAT, &100_u16.to_le_bytes()).expect("an object");
         node.nmt(NmtCommand::ResetNode).expect("a bus");
         let first = boot(&mut node, &plan, is_async).expect("a node in Pre-operational is booted");
@@ -409,6 +415,86 @@ fn a_running_node_keeps_running() {
         let other = boot(&mut node, &plan.serial_number(1), is_async);
         assert_eq!(other, Err(BootError::SerialNumber { expected: 1, actual: 99 }));
         assert_eq!(node.port().state(), NmtState::Operational);
+    }
+}
+
+/// A node in Stopped has no SDO server.
+#[test]
+fn a_stopped_node_is_restarted() {
+    let guarding = ErrorControl::Guarding { guard_time: Duration::from_millis(100), life_time_factor: 3 };
+    for is_async in [false, true] {
+        for control in [ErrorControl::Heartbeat(SECOND), ErrorControl::None, guarding] {
+            let plan = Boot::new(control).keep_running();
+            let mut node = simple();
+            if control != guarding {
+                node.port().device().set_initial_bytes(HEARTBEAT, &100_u16.to_le_bytes()).expect("an object");
+            }
+            node.nmt(NmtCommand::ResetNode).expect("a bus");
+            node.nmt(NmtCommand::Stop).expect("a bus");
+            let error = boot(&mut node, &plan, is_async).expect_err("no restart");
+            assert_eq!(error, BootError::Access { object: Object::new(0x1000, 0), error: Error::Timeout });
+            let booted = boot(&mut node, &plan.reset(SECOND), is_async).expect("a restart");
+            assert_eq!((booted.was_operational, node.port().state()), (false, NmtState::Operational), "{control:?}");
+        }
+    }
+}
+
+/// Loses this number of guarding requests.
+struct Lossy(CanNode, u32);
+
+impl CanPort for Lossy {
+    type Error = Infallible;
+
+    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
+        if frame.is_remote() && self.1 > 0 {
+            self.1 -= 1;
+            return Ok(true);
+        }
+        CanPort::send(&mut self.0, frame, patience)
+    }
+
+    fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        CanPort::receive(&mut self.0, patience, wanted)
+    }
+}
+
+impl AsyncCanPort for Lossy {
+    type Error = Infallible;
+
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
+        CanPort::send(self, frame, patience)
+    }
+
+    async fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        CanPort::receive(self, patience, wanted)
+    }
+}
+
+#[test]
+fn a_lost_guarding_request() {
+    for (is_async, life_time_factor) in [(false, 1), (true, 1), (false, 3), (true, 3)] {
+        let plan = Boot::new(ErrorControl::Guarding { guard_time: Duration::from_millis(100), life_time_factor });
+        let mut running = CanNode::new(device(SIMPLE));
+        running.handle(&NmtCommand::Start.frame(None));
+        let mut node = Node::new(Lossy(running, 1), NODE);
+        let booted = boot(&mut node, &plan.keep_running(), is_async).expect("a running node");
+        assert!(booted.was_operational);
+        // A node that never answers is lost, or restarted.
+        node.port().1 = 1000;
+        let lost = boot(&mut node, &plan.keep_running(), is_async);
+        assert_eq!(lost, Err(BootError::Guarding(GuardError::NodeLost)));
+        assert_eq!(node.port().0.state(), NmtState::Operational);
+        let lost = boot(&mut node, &plan.keep_running().device_type(1).reset(SECOND), is_async);
+        assert_eq!(lost, Err(BootError::DeviceType { expected: 1, actual: 0x0002_0192 }));
+        assert_eq!(node.port().0.state(), NmtState::PreOperational, "the node was restarted");
     }
 }
 

@@ -33,6 +33,7 @@ const ERROR_CODE: Item<u16, Ro, OnCanOpen> = Item::object(0x603F, 0, "");
 const FOLLOWING_ERROR: Item<i32, Ro, OnCanOpen> = Item::object(0x60F4, 0, "");
 const TARGET_POSITION: Item<i32, Rw, OnCanOpen> = Item::object(0x607A, 0, "");
 const TARGET_VELOCITY: Item<i32, Rw, OnCanOpen> = Item::object(0x60FF, 0, "");
+const QUICK_STOP_OPTION: Item<i16, Rw, OnCanOpen> = Item::object(0x605A, 0, "");
 const HOMING_METHOD: Item<i8, Rw, OnCanOpen> = Item::object(0x6098, 0, "");
 
 impl cia402::Objects<CanOpen> for Full {
@@ -74,10 +75,11 @@ impl cia402::Homing<CanOpen> for Full {
     }
 }
 
-const ENTRIES: [Entry; 17] = [
+const ENTRIES: [Entry; 18] = [
     entry(0x603F, DataType::Unsigned16),
     entry(0x6040, DataType::Unsigned16),
     entry(0x6041, DataType::Unsigned16),
+    entry(0x605A, DataType::Integer16),
     entry(0x6060, DataType::Integer8),
     entry(0x6061, DataType::Integer8),
     entry(0x6064, DataType::Integer32),
@@ -114,6 +116,8 @@ struct Rig {
     has_clock: bool,
     /// All written values.
     writes: Vec<(u16, i32)>,
+    /// Number of reads of the controlword.
+    control_reads: usize,
 }
 
 impl Rig {
@@ -130,6 +134,7 @@ impl Rig {
             shown: None,
             has_clock: true,
             writes: Vec::new(),
+            control_reads: 0,
         };
         rig.write(0x6060, &mode.to_le_bytes());
         rig.write(0x6081, &1000_u32.to_le_bytes());
@@ -185,6 +190,7 @@ impl Client for Rig {
             self.broken -= 1;
             return Err(Error::Timeout);
         }
+        self.control_reads += usize::from(object.index == 0x6040);
         let length = Client::read(&mut self.drive, object, buffer)?;
         if let (0x6040, Some(control)) = (object.index, self.shown) {
             buffer.copy_from_slice(&control.to_le_bytes());
@@ -537,16 +543,19 @@ fn moving() -> Rig {
 
 #[test]
 fn a_quick_stop() {
-    let mut rig = moving();
-    let state = rig.motion().quick_stop(DEADLINE).unwrap();
-    assert!(matches!(state, State::QuickStopActive | State::SwitchOnDisabled), "{state:?}");
-    assert_eq!((rig.drive.device().get(VELOCITY), rig.controls()), (Ok(0), vec![0x02]));
-    // The command works in every state, and the other bits stay as they are.
+    // The option code selects the state in which the quick stop ends.
+    for (option, state) in [(2, State::SwitchOnDisabled), (6, State::QuickStopActive)] {
+        let mut rig = moving();
+        rig.drive.device().set(QUICK_STOP_OPTION, option).unwrap();
+        assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(state));
+        assert_eq!((rig.drive.device().get(VELOCITY), rig.controls()), (Ok(0), vec![0x02]));
+    }
+    // The command works in every state, and clears all other bits.
     let mut rig = moving();
     rig.write(0x6040, &0x0306_u16.to_le_bytes());
     rig.writes.clear();
     assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::SwitchOnDisabled));
-    assert_eq!(rig.controls(), [0x0302]);
+    assert_eq!(rig.controls(), [0x02]);
     // A drive whose statusword doesn't show the standstill.
     let mut rig = moving();
     rig.cleared = 0x0460;
@@ -564,12 +573,27 @@ fn a_quick_stop_of_a_drive_with_a_fault() {
 }
 
 #[test]
-fn a_quick_stop_without_the_controlword() {
+fn an_old_bit_10_does_not_end_a_quick_stop() {
+    // The bit still shows that the axis has reached its target velocity. With the option 5, the axis needs 70 ms.
     let mut rig = moving();
-    // The read of the controlword fails, and the command is sent nevertheless.
-    rig.drive.device().fail_next(AbortCode::DEVICE_STATE);
-    assert!(rig.motion().quick_stop(DEADLINE).is_ok());
-    assert_eq!(rig.controls(), [0x02]);
+    rig.drive.device().set(QUICK_STOP_OPTION, 5).unwrap();
+    rig.set = 1 << 10;
+    assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::QuickStopActive));
+    assert_eq!(rig.drive.device().get(VELOCITY), Ok(0));
+    assert!(rig.time >= 95, "{}", rig.time);
+    // On an axis that stands still, a shorter deadline passes.
+    assert!(matches!(rig.motion().quick_stop(ms(50)), Err(MotionError::Deadline { .. })));
+}
+
+#[test]
+fn a_quick_stop_is_written_before_any_read() {
+    // Homing is in progress. A bit 4 that stays set would start it again when the drive is enabled.
+    let mut rig = Rig::enabled(6);
+    rig.write(0x6040, &0x001F_u16.to_le_bytes());
+    rig.writes.clear();
+    rig.broken = 1;
+    assert_eq!(rig.motion().quick_stop(DEADLINE), Err(MotionError::Access(Error::Timeout)));
+    assert_eq!((rig.controls(), rig.control_reads), (vec![0x02], 0));
 }
 
 #[test]
@@ -577,8 +601,8 @@ fn halt_and_resume() {
     let mut rig = moving();
     assert_eq!(rig.motion().halt(DEADLINE), Ok(()));
     assert_eq!((rig.drive.device().get(VELOCITY), rig.controls()), (Ok(0), vec![0x010F]));
-    // Bit 10 was 1 before, so the method waits until the drive must have seen the bit.
-    assert!(rig.time >= 65, "{}", rig.time);
+    // The drive clears bit 10 while the axis slows down, which takes 70 ms.
+    assert!((65..95).contains(&rig.time), "{}", rig.time);
     assert_eq!(rig.motion().set_velocity(5), Err(MotionError::Halted));
     assert_eq!(rig.motion().resume(), Ok(()));
     assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
@@ -592,6 +616,15 @@ fn halt_and_resume() {
     assert!(matches!(rig.motion().halt(DEADLINE), Err(MotionError::NotEnabled { .. })));
     assert!(matches!(rig.motion().resume(), Err(MotionError::NotEnabled { .. })));
     assert_eq!(rig.writes, []);
+}
+
+#[test]
+fn an_old_bit_10_does_not_end_a_halt() {
+    let mut rig = moving();
+    rig.set = 1 << 10;
+    assert_eq!(rig.motion().halt(DEADLINE), Ok(()));
+    assert_eq!(rig.drive.device().get(VELOCITY), Ok(0));
+    assert!(rig.time >= 95, "{}", rig.time);
 }
 
 #[tokio::test]

@@ -26,7 +26,7 @@ const fn ms(time: u64) -> Duration {
 }
 
 /// Objects that the demo drive lacks.
-const MORE: [Entry; 31] = [
+const MORE: [Entry; 33] = [
     entry(0x603F, DataType::Unsigned16),
     entry(0x6042, DataType::Integer16),
     entry(0x6043, DataType::Integer16),
@@ -37,6 +37,8 @@ const MORE: [Entry; 31] = [
     sub_entry(0x6048, 2, DataType::Unsigned16),
     sub_entry(0x6049, 1, DataType::Unsigned32),
     sub_entry(0x6049, 2, DataType::Unsigned16),
+    sub_entry(0x604A, 1, DataType::Unsigned32),
+    sub_entry(0x604A, 2, DataType::Unsigned16),
     entry(0x605A, DataType::Integer16),
     entry(0x605D, DataType::Integer16),
     entry(0x605E, DataType::Integer16),
@@ -481,7 +483,41 @@ fn velocity_of_frequency_converters() {
     assert_eq!((number(&device, 0x6044), bit(&device, 11)), (-100, true));
     write(&mut device, 0x6040, 0x17F);
     device.step(ms(200));
-    assert_eq!((number(&device, 0x6044), bit(&device, 10)), (0, true));
+    assert_eq!((number(&device, 0x6044), bit(&device, 10)), (0, false));
+}
+
+#[test]
+fn stops_of_frequency_converters() {
+    let mut device = enabled(2);
+    // Decelerations of 5,000 units per second squared, and of 2,500 for the quick stop.
+    for (object, value) in [((0x6049, 1), 5000), ((0x6049, 2), 1), ((0x604A, 1), 5000), ((0x604A, 2), 2)] {
+        write_sub(&mut device, object, value);
+    }
+    let start = |device: &mut Device| {
+        DemoDrive::new(device.client::<CanOpen>()).walk(State::OperationEnabled, DEADLINE).unwrap();
+        write(device, 0x6042, 1000);
+        write(device, 0x6040, 0x7F);
+        until(device, |device| number(device, 0x6044) == 1000);
+    };
+    start(&mut device);
+    write(&mut device, 0x6040, 0x17F);
+    assert_eq!(until(&mut device, |device| number(device, 0x6044) == 0), 200, "halt");
+    write(&mut device, 0x6040, 0x7F);
+    start(&mut device);
+    write(&mut device, 0x6040, 0x02);
+    assert_eq!(until(&mut device, |device| number(device, 0x6044) == 0), 400, "quick stop");
+}
+
+#[test]
+fn bit_10_of_a_halted_axis() {
+    for (mode, is_defined) in
+        [(1, true), (3, true), (4, true), (6, true), (7, true), (8, false), (9, false), (10, false)]
+    {
+        let mut device = enabled(mode);
+        write(&mut device, 0x6040, 0x10F);
+        device.step(ms(10));
+        assert_eq!(bit(&device, 10), is_defined, "mode {mode}");
+    }
 }
 
 #[test]
@@ -536,6 +572,26 @@ fn interpolated_position() {
 }
 
 #[test]
+fn interpolation_starts_with_a_full_period() {
+    // Halt, and a cleared bit 4.
+    for stop in [0x11F, 0x0F] {
+        let mut device = enabled(7);
+        write(&mut device, 0x6084, 1_000_000);
+        write_sub(&mut device, (0x60C2, 1), 100);
+        write_sub(&mut device, (0x60C2, 2), -3);
+        write_sub(&mut device, (0x60C1, 1), 1000);
+        write(&mut device, 0x6040, 0x1F);
+        device.step(ms(50));
+        write(&mut device, 0x6040, stop);
+        until(&mut device, |device| number(device, 0x606C) == 0);
+        let begin = number(&device, 0x6064);
+        assert!((500..1000).contains(&begin), "{begin}");
+        write(&mut device, 0x6040, 0x1F);
+        assert_eq!(until(&mut device, |device| number(device, 0x6064) == 1000), 100);
+    }
+}
+
+#[test]
 fn torque_with_commutation_angle() {
     let mut device = enabled(11);
     write(&mut device, 0x6071, 500);
@@ -556,6 +612,41 @@ fn the_mode_follows_in_the_next_step() {
         write(&mut device, 0x6060, mode);
         device.step(ms(2));
         assert_eq!(number(&device, 0x6061), 3, "mode {mode}");
+    }
+}
+
+#[test]
+fn a_mode_needs_its_target() {
+    let target = |object: Object, data_type| Entry { object: Some(object), ..entry(object.index, data_type) };
+    for (modes, object) in [
+        (&[1, 8][..], Object::new(0x607A, 0)),
+        (&[2], Object::new(0x6042, 0)),
+        (&[3, 9], Object::new(0x60FF, 0)),
+        (&[4, 10, 11], Object::new(0x6071, 0)),
+        (&[7], Object::new(0x60C1, 1)),
+        (&[6], Object::new(0x6098, 0)),
+    ] {
+        let entries = [
+            entry(0x6040, DataType::Unsigned16),
+            entry(0x6041, DataType::Unsigned16),
+            entry(0x6060, DataType::Integer8),
+            entry(0x6061, DataType::Integer8),
+            target(object, DataType::Integer16),
+        ];
+        let mut device = Device::new(&entries).with_cia402();
+        let mut supported = Vec::new();
+        for mode in 1..=11 {
+            write(&mut device, 0x6060, mode);
+            device.step(ms(2));
+            if number(&device, 0x6061) == mode {
+                supported.push(mode);
+            }
+        }
+        // Homing needs no target.
+        let mut expected = [modes, &[6]].concat();
+        expected.sort_unstable();
+        expected.dedup();
+        assert_eq!(supported, expected, "0x{:04X}", object.index);
     }
 }
 

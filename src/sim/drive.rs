@@ -73,7 +73,7 @@ impl Drive {
         if self.state == State::OperationEnabled {
             self.operate(objects);
         } else {
-            self.stop.slow_down(&mut self.motion, objects);
+            self.slow_down(self.stop, objects);
         }
         self.finish(objects);
         self.publish(objects);

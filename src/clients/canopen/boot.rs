@@ -75,6 +75,11 @@ fn version<E>(object: Object, bytes: &[u8], result: Result<usize, Error<E>>) -> 
     text.map(VersionText::new).map_err(|error| BootError::Access { object, error })
 }
 
+/// Returns whether the error means that the node doesn't report its state.
+const fn is_silence<E>(error: &BootError<E>) -> bool {
+    matches!(error, BootError::NoHeartbeat | BootError::Guarding(GuardError::NodeLost))
+}
+
 /// Returns the error for a part of the identity.
 const fn other_identity<E>(sub_index: u8, expected: u32, actual: u32) -> BootError<E> {
     match sub_index {
@@ -88,20 +93,20 @@ const fn other_identity<E>(sub_index: u8, expected: u32, actual: u32) -> BootErr
 macro_rules! boot {
     (
         $Port:ident $Client:ident $send_step:ident: $boot:ident $nmt:ident $wait_for:ident $guard:ident $number:ident $version:ident $check:ident
-        $date:ident $configure:ident $write:ident $store:ident $discard_states:ident $run:ident $state:ident $($async:ident $await:ident)?
+        $date:ident $configure:ident $write:ident $store:ident $discard_states:ident $run:ident $is_running:ident $state:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
             /// Boots the node as the NMT master (CiA 302-2). The steps have this order:
             ///
-            /// 1. Restart, if it is [requested](Boot::reset). With [`Boot::keep_running`], a node that is already in
-            ///    Operational is only checked, and then keeps running.
+            /// 1. Restart, if it is [requested](Boot::reset). With [`Boot::keep_running`], the master determines the state of
+            ///    the node before. A node that is already in Operational is only checked, and then keeps running.
             /// 2. Check of the device type, the identity and the versions.
             /// 3. [Configuration](Boot::configuration), unless the node already has it. With [`Boot::store`], the node
             ///    stores the configuration, and then its date.
             /// 4. Start of the node (NMT), and wait for its heartbeat or node guarding.
             ///
             /// The node must be in Pre-operational, or must be restarted. In Operational, the node sends PDOs during the
-            /// configuration.
+            /// configuration. In Stopped, the node has no SDO server.
             ///
             /// After an error, the node is not in Operational, unless the error is [`BootError::NotOperational`] or
             /// [`BootError::Guarding`], or the node is to be [kept running](Boot::keep_running).
@@ -110,11 +115,9 @@ macro_rules! boot {
             ///
             /// Returns the error of the step that failed. [`BootError::status`] returns the error status of CiA 302-2.
             pub $($async)? fn $boot(&mut self, boot: &Boot) -> Result<Booted, BootError<P::Error>> {
-                if boot.keeps_running {
+                if boot.keeps_running && self.$is_running(boot)$(.$await)?? {
                     let device_type = self.$check(&boot.checks)$(.$await)??;
-                    if self.$state(boot.error_control)$(.$await)?? == NmtState::Operational {
-                        return Ok(Booted { device_type, is_configured: false, is_stored: false, was_operational: true });
-                    }
+                    return Ok(Booted { device_type, is_configured: false, is_stored: false, was_operational: true });
                 }
                 if let Some(patience) = boot.reset {
                     self.$nmt(NmtCommand::ResetNode)$(.$await)?.map_err(BootError::Command)?;
@@ -142,6 +145,15 @@ macro_rules! boot {
                 Ok(Booted { device_type, is_configured, is_stored, was_operational: false })
             }
 
+            /// Returns whether the node is in Operational. A node that doesn't report its state is restarted if a restart is
+            /// requested. In Stopped, the node has no SDO server, so its state must be known before its objects are read.
+            $($async)? fn $is_running(&mut self, boot: &Boot) -> Result<bool, BootError<P::Error>> {
+                match self.$state(boot.error_control)$(.$await)? {
+                    Err(error) if boot.reset.is_some() && is_silence(&error) => Ok(false),
+                    state => state.map(|state| state == NmtState::Operational),
+                }
+            }
+
             /// Returns the state of a node that may be running. Without error control, the state is unknown, and the node
             /// is booted.
             $($async)? fn $state(&mut self, error_control: ErrorControl) -> Result<NmtState, BootError<P::Error>> {
@@ -156,8 +168,14 @@ macro_rules! boot {
                         frame.and_then(|frame| state_of(&frame, id)).ok_or(BootError::NoHeartbeat)
                     }
                     ErrorControl::Guarding { guard_time, life_time_factor } => {
-                        let mut guarding = Guarding::new(guard_time, life_time_factor);
-                        self.$guard(&mut guarding)$(.$await)?.map_err(BootError::Guarding)
+                        // One lost frame doesn't mean that the node is lost.
+                        let mut guarding = Guarding::new(guard_time, life_time_factor.max(2));
+                        loop {
+                            match self.$guard(&mut guarding)$(.$await)? {
+                                Err(GuardError::NoAnswer | GuardError::ToggleBit) => {}
+                                result => return result.map_err(BootError::Guarding),
+                            }
+                        }
                     }
                 }
             }
@@ -276,10 +294,11 @@ macro_rules! boot {
 
 boot! {
     CanPort Client send: boot nmt wait_for guard boot_number boot_version boot_check boot_date boot_configure boot_write boot_store
-    discard_states boot_run boot_state
+    discard_states boot_run boot_is_running boot_state
 }
 boot! {
     AsyncCanPort AsyncClient send_async: boot_async nmt_async wait_for_async guard_async boot_number_async boot_version_async
-    boot_check_async boot_date_async boot_configure_async boot_write_async boot_store_async discard_states_async boot_run_async boot_state_async
+    boot_check_async boot_date_async boot_configure_async boot_write_async boot_store_async discard_states_async boot_run_async
+    boot_is_running_async boot_state_async
     async await
 }

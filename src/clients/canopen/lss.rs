@@ -69,16 +69,16 @@ const WINDOW: Duration = Duration::from_millis(20);
 ///
 /// # Late answers
 ///
-/// After a timeout, and after an async call that was dropped, the next request first waits for one timeout, and discards
-/// the answers of all slaves that arrive in this time.
+/// After a timeout, after [`LssError::SeveralAnswers`], after a scan that failed, and after an async call that was dropped,
+/// the next request first waits for one timeout, and discards the answers of all slaves that arrive in this time.
 #[derive(Clone, Debug)]
 pub struct LssMaster<P> {
     port: P,
     timeout: Duration,
     window: Duration,
     pause: Duration,
-    /// Command specifier of an answer that has not arrived.
-    owed: Option<u8>,
+    /// Answers to an earlier request can still arrive.
+    is_owed: bool,
     /// Slaves in Configuration may have a pending node-ID that was not confirmed.
     is_doubtful: bool,
 }
@@ -86,7 +86,7 @@ pub struct LssMaster<P> {
 impl<P> LssMaster<P> {
     /// Creates a master on `port`, with a timeout of 500 ms.
     pub const fn new(port: P) -> Self {
-        Self { port, timeout: TIMEOUT, window: WINDOW, pause: Duration::ZERO, owed: None, is_doubtful: false }
+        Self { port, timeout: TIMEOUT, window: WINDOW, pause: Duration::ZERO, is_owed: false, is_doubtful: false }
     }
 
     /// Returns the master with another timeout for each answer, and for sending a frame on a busy bus.
@@ -98,7 +98,7 @@ impl<P> LssMaster<P> {
     /// Returns the master with another time in which further answers are an error. The same time is the duration of
     /// each of the 133 steps of a fastscan. All slaves must answer within this time. The default is 20 ms.
     ///
-    /// Without a [clock](CanPort::now), each answer of several slaves restarts the time of a step.
+    /// Without a [clock](CanPort::now), each answer extends the time of a step by at most one eighth.
     #[must_use]
     pub fn with_window(self, window: Duration) -> Self {
         Self { window, ..self }
@@ -301,19 +301,27 @@ macro_rules! master {
             }
 
             /// Passes the messages of slaves that `wanted` accepts to `handle`, for as long as `time`. Returns whether there are
-            /// any. Without a clock, each message restarts the time.
+            /// any. Without a clock, the time is divided into eighths, and each message restarts its eighth.
             $($async)? fn $collect(
                 &mut self,
                 time: Duration,
                 wanted: &dyn Fn(&Message) -> bool,
                 handle: &mut dyn FnMut(&Message),
             ) -> Result<bool, LssError<P::Error>> {
-                let (start, mut patience, mut is_answered) = (self.port.now(), time, false);
+                let (start, mut left, mut is_answered) = (self.port.now(), time, false);
+                let part = if start.is_some() { time } else { time / 8 };
                 for _ in 0..BACKLOG {
-                    let Some(message) = self.$receive(patience, wanted)$(.$await)?? else { break };
-                    is_answered = true;
-                    handle(&message);
-                    patience = time.saturating_sub(elapsed(start, self.port.now()).unwrap_or_default());
+                    match self.$receive(left.min(part), wanted)$(.$await)?? {
+                        Some(message) => {
+                            is_answered = true;
+                            handle(&message);
+                        }
+                        None if left <= part => break,
+                        None => left = left.saturating_sub(part),
+                    }
+                    if let Some(elapsed) = elapsed(start, self.port.now()) {
+                        left = time.saturating_sub(elapsed);
+                    }
                 }
                 Ok(is_answered)
             }
@@ -325,21 +333,21 @@ macro_rules! master {
                     self.$send(message)$(.$await)??;
                 }
                 self.is_doubtful = false;
-                self.owed = Service::ConfigureNodeId(None).answer();
+                self.is_owed = true;
                 self.$collect(self.timeout, &|_| true, &mut |_| ())$(.$await)??;
-                self.owed = None;
+                self.is_owed = false;
                 Ok(())
             }
 
-            /// Removes node-IDs that were not confirmed, waits for the answers of all slaves to an earlier request that timed out
-            /// or was dropped, and discards all answers that have arrived.
+            /// Removes node-IDs that were not confirmed, waits for further answers to an earlier request, and discards all
+            /// answers that have arrived.
             $($async)? fn $settle(&mut self) -> Result<(), LssError<P::Error>> {
                 if self.is_doubtful {
                     self.$withdraw()$(.$await)??;
                 }
-                let time = if self.owed.is_some() { self.timeout } else { Duration::ZERO };
+                let time = if self.is_owed { self.timeout } else { Duration::ZERO };
                 self.$collect(time, &|_| true, &mut |_| ())$(.$await)??;
-                self.owed = None;
+                self.is_owed = false;
                 Ok(())
             }
 
@@ -351,15 +359,17 @@ macro_rules! master {
             $($async)? fn $request(&mut self, service: Service) -> Result<u32, LssError<P::Error>> {
                 let mut transaction = Transaction::new(service);
                 while let Some(message) = transaction.next() {
-                    self.owed = service.answer();
+                    self.is_owed = service.answer().is_some();
                     if let Err(error) = self.$send(message)$(.$await)? {
-                        self.owed = None;
+                        self.is_owed = false;
                         return Err(error);
                     }
                 }
                 let mut patience = self.timeout;
                 loop {
                     if let Some(result) = transaction.result() {
+                        // After several answers, even more slaves can answer.
+                        self.is_owed = matches!(result, Err(LssError::Timeout | LssError::SeveralAnswers));
                         return result.map_err(LssError::of_client);
                     }
                     match self.$receive(patience, &|message| transaction.accepts(message))$(.$await)?? {
@@ -369,9 +379,6 @@ macro_rules! master {
                         }
                         Some(message) => transaction.handle(&message),
                         None => transaction.time_out(),
-                    }
-                    if transaction.is_answered() {
-                        self.owed = None;
                     }
                     patience = if service.is_change() { self.timeout } else { self.window };
                 }

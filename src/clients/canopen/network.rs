@@ -162,8 +162,9 @@ impl<P, const N: usize> Network<P, N> {
     }
 
     /// Returns the number of frames that were lost because no handle is for them and the handle that used the interface
-    /// didn't expect them: frames of nodes without a handle, PDOs with a COB-ID that was not [added](NetworkPort::with_pdo),
-    /// requests of other masters, and remote frames.
+    /// didn't expect them. A growing number can show that a node has no handle, or a PDO another COB-ID, which was not
+    /// [added](NetworkPort::with_pdo). SYNC, TIME and LSS answers without the handle [`services`](Self::services), and
+    /// frames of other masters, also count, and so do remote frames.
     pub fn unclaimed(&self) -> usize {
         self.unclaimed.get()
     }

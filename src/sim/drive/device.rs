@@ -15,8 +15,10 @@ impl Device {
     ///
     /// The drive has the state machine, halt, quick stop, [faults](Self::fail), and the modes 1 (profile position), 2
     /// (velocity), 3 (profile velocity), 4 (profile torque), 6 (homing), 7 (interpolated position), and 8 to 11 (cyclic
-    /// synchronous position, velocity, torque, and torque with commutation angle). The axis moves on ramps. The drive accesses all objects by index, so it works on every bus and with process data. Objects that the
-    /// table lacks are ignored, and default values apply.
+    /// synchronous position, velocity, torque, and torque with commutation angle). The axis moves on ramps. The drive
+    /// accesses all objects by index, so it works on every bus and with process data. Objects that the table lacks are
+    /// ignored, and default values apply. The drive doesn't activate a mode if the table lacks its target, for example
+    /// 0x607A in the modes 1 and 8.
     ///
     /// The drive executes the controlword at once. Everything else happens when the simulated time advances
     /// ([`step`](Self::step)), for example motion, the change of the mode, and the transition after power-on. If the

@@ -26,16 +26,21 @@ const REFERENCE_RAMP: u16 = 1 << 6;
 /// Maximum interpolation period in steps.
 const MAX_PERIOD: f64 = 10_000.0;
 
-/// Returns whether the drive supports a mode. The object 0x6502 can exclude modes.
+/// Returns whether the drive supports a mode: whether the axis has the target of the mode. The object 0x6502 can exclude
+/// modes.
 pub(super) fn is_supported(mode: i64, objects: &Objects<'_>) -> bool {
-    let is_listed = |modes: i64| modes == 0 || modes >> (mode - 1) & 1 == 1;
-    match mode {
-        0 => true,
-        PROFILE_POSITION..=PROFILE_TORQUE | HOMING..=CYCLIC_TORQUE_WITH_ANGLE => {
-            objects.number(0x6502).map_or(true, is_listed)
-        }
+    let has_target = match mode {
+        0 => return true,
+        PROFILE_POSITION | CYCLIC_POSITION => objects.has(0x607A),
+        VELOCITY => objects.has(0x6042),
+        PROFILE_VELOCITY | CYCLIC_VELOCITY => objects.has(0x60FF),
+        PROFILE_TORQUE | CYCLIC_TORQUE | CYCLIC_TORQUE_WITH_ANGLE => objects.has(0x6071),
+        HOMING => true,
+        INTERPOLATED_POSITION => objects.sub_number(0x60C1, 1).is_some(),
         _ => false,
-    }
+    };
+    let is_listed = |modes: i64| modes == 0 || modes >> (mode - 1) & 1 == 1;
+    has_target && objects.number(0x6502).map_or(true, is_listed)
 }
 
 /// Velocity at which the friction needs the rated torque.
@@ -74,12 +79,12 @@ impl Drive {
 
     /// Moves the axis for one step in "Operation enabled".
     pub(super) fn operate(&mut self, objects: &Objects<'_>) {
-        let motion = &mut self.motion;
         if self.control & HALT != 0 {
             self.homing.abort();
             self.torque = 0.0;
-            return Stop::of_option(objects.option(0x605D)).slow_down(motion, objects);
+            return self.slow_down(Stop::of_option(objects.option(0x605D)), objects);
         }
+        let motion = &mut self.motion;
         match self.mode {
             PROFILE_POSITION => self.set_points.step(motion, objects),
             VELOCITY => velocity(motion, self.control, objects),
@@ -93,18 +98,24 @@ impl Drive {
             CYCLIC_POSITION => cyclic_position(motion, objects),
             CYCLIC_VELOCITY => cyclic_velocity(motion, objects),
             CYCLIC_TORQUE | CYCLIC_TORQUE_WITH_ANGLE => cyclic_torque(motion, objects),
-            _ => Stop::Ramp.slow_down(motion, objects),
+            _ => self.slow_down(Stop::Ramp, objects),
         }
     }
-}
 
-/// Returns an acceleration of the mode "velocity": the change of the speed (sub-index 1) in a time in seconds (sub-index
-/// 2), or `default` if the axis doesn't have the object.
-fn ramp(index: u16, default: f64, objects: &Objects<'_>) -> f64 {
-    match (objects.sub_number(index, 1), objects.sub_number(index, 2)) {
-        // A time of 0 is an infinite acceleration.
-        (Some(speed), Some(time)) if speed > 0 => speed as f64 / time as f64,
-        _ => default,
+    /// Slows the axis down for one step, and discards the cyclic target position.
+    pub(super) fn slow_down(&mut self, stop: Stop, objects: &Objects<'_>) {
+        if !self.motion.is_still() {
+            let profile = Profile::read(objects).deceleration;
+            let deceleration = match stop {
+                Stop::Coast => profile / 4.0,
+                Stop::Ramp if self.mode == VELOCITY => objects.ramp(0x6049, profile),
+                Stop::Ramp => profile,
+                Stop::QuickRamp if self.mode == VELOCITY => objects.ramp(0x604A, objects.quick_deceleration()),
+                Stop::QuickRamp => objects.quick_deceleration(),
+            };
+            self.motion.run(0.0, deceleration, deceleration);
+        }
+        self.motion.hold();
     }
 }
 
@@ -119,7 +130,7 @@ fn velocity(motion: &mut Motion, control: u16, objects: &Objects<'_>) {
         _ if is_enabled => vl_target(motion, objects),
         _ => 0.0,
     };
-    motion.run(wanted, ramp(0x6048, profile.acceleration, objects), ramp(0x6049, profile.deceleration, objects));
+    motion.run(wanted, objects.ramp(0x6048, profile.acceleration), objects.ramp(0x6049, profile.deceleration));
 }
 
 /// Returns the target velocity (0x6042) with an amount between the limits (0x6046).

@@ -106,6 +106,16 @@ impl Objects<'_> {
         self.positive(0x6085).unwrap_or_else(|| 10.0 * Profile::read(self).deceleration)
     }
 
+    /// Returns an acceleration of the mode "velocity": the change of the speed (sub-index 1) in a time in seconds
+    /// (sub-index 2), or `default` if the axis doesn't have the object.
+    pub fn ramp(&self, index: u16, default: f64) -> f64 {
+        match (self.sub_number(index, 1), self.sub_number(index, 2)) {
+            // A time of 0 is an infinite acceleration.
+            (Some(speed), Some(time)) if speed > 0 => speed as f64 / time as f64,
+            _ => default,
+        }
+    }
+
     /// Returns the limits of the position (0x607D), if there are any.
     pub fn position_limits(&self) -> Option<(f64, f64)> {
         let limits = self.sub_number(0x607D, 1).zip(self.sub_number(0x607D, 2));

@@ -1,8 +1,5 @@
 //! States of a simulated drive, and the ramps on which an axis stops.
 
-use super::motion::Motion;
-use super::objects::{Objects, Profile};
-
 pub(super) use crate::cia402::State;
 
 impl State {
@@ -50,9 +47,9 @@ impl State {
 pub(super) enum Stop {
     /// The power stage is disabled. The axis loses its speed with a quarter of the profile deceleration.
     Coast,
-    /// The profile deceleration (0x6084).
+    /// The profile deceleration (0x6084), in the mode "velocity" the deceleration of this mode (0x6049).
     Ramp,
-    /// The quick-stop deceleration (0x6085).
+    /// The quick-stop deceleration (0x6085), in the mode "velocity" that of this mode (0x604A).
     QuickRamp,
 }
 
@@ -65,19 +62,6 @@ impl Stop {
             1 | 5 => Self::Ramp,
             _ => Self::QuickRamp,
         }
-    }
-
-    /// Slows the axis down for one step.
-    pub fn slow_down(self, motion: &mut Motion, objects: &Objects<'_>) {
-        if motion.is_still() {
-            return;
-        }
-        let deceleration = match self {
-            Self::Coast => Profile::read(objects).deceleration / 4.0,
-            Self::Ramp => Profile::read(objects).deceleration,
-            Self::QuickRamp => objects.quick_deceleration(),
-        };
-        motion.run(0.0, deceleration, deceleration);
     }
 }
 

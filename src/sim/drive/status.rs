@@ -48,19 +48,17 @@ impl Drive {
         bits.into_iter().zip(10..).fold(0, |word, (bit, at)| word | u16::from(bit) << at)
     }
 
-    /// Returns bit 10. While the axis is halted, the bit means that the axis has stopped.
+    /// Returns bit 10: target reached, or standstill of a halted axis. The bit has no meaning in the modes 2 and 8 to 11.
     fn is_target_reached(&self, objects: &Objects<'_>) -> bool {
         let is_still = self.motion.is_still();
-        if self.control & HALT != 0 {
-            return is_still;
-        }
         match self.mode {
+            VELOCITY | CYCLIC_POSITION..=CYCLIC_TORQUE_WITH_ANGLE => false,
+            _ if self.control & HALT != 0 => is_still,
             PROFILE_POSITION => self.set_points.is_reached() && is_still,
             PROFILE_VELOCITY => (self.motion.velocity - objects.real(0x60FF)).abs() <= objects.real(0x606D),
             PROFILE_TORQUE => self.torque == objects.real(0x6071),
             HOMING => is_still && !self.homing.is_running(),
             INTERPOLATED_POSITION => is_still && self.motion.position == modes::data_record(objects),
-            VELOCITY | CYCLIC_POSITION..=CYCLIC_TORQUE_WITH_ANGLE => false,
             _ => is_still,
         }
     }

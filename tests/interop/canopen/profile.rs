@@ -64,6 +64,8 @@ fn modes_and_profile_position() {
 #[test]
 fn homing_of_the_library() {
     let Some((mut script, served)) = start("profile-homing") else { return };
+    let begin = served.node.lock().expect("no panic").device().set_bytes(ACTUAL_POSITION, &500_i32.to_le_bytes());
+    assert_eq!(begin, Ok(()));
     assert_eq!(script.ask(json!({ "do": "home" })), true);
     assert_eq!(served.node.lock().expect("no panic").device().bytes(ACTUAL_POSITION), Ok(&[0; 4][..]));
 }

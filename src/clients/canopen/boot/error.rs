@@ -62,7 +62,7 @@ pub enum BootError<E> {
     Command(Error<E>),
     /// The node did not send its boot-up message after the restart.
     NoBootUp,
-    /// E: a node that is to be [kept running](super::Boot::keep_running) sent no heartbeat.
+    /// E: a node that is to be [kept running](super::Boot::keep_running) sent no heartbeat, and no restart is requested.
     NoHeartbeat,
     /// An object could not be read: B (0x1000), D, M, N or O (0x1018), H (0x100A), J (0x1020).
     Access {

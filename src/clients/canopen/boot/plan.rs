@@ -16,7 +16,8 @@ pub enum ErrorControl {
     Heartbeat(Duration),
     /// The node must answer node guarding and report Operational, within one more cycle than the life time factor, and
     /// within at least three cycles. Use the values of the objects 0x100C and 0x100D of the node. To continue, create a
-    /// [`Guarding`](crate::clients::canopen::Guarding) with the same values.
+    /// [`Guarding`](crate::clients::canopen::Guarding) with the same values, and run its first cycle within the life time
+    /// after the boot. Otherwise, the node detects that the master has failed.
     Guarding {
         /// Time between two cycles, and longest time of a cycle.
         guard_time: Duration,
@@ -82,10 +83,15 @@ impl Boot {
     }
 
     /// Keeps a node running that is already in Operational, as bit 4 of the object 0x1F81 of a CANopen manager does (CiA
-    /// 302-2): the master checks the device type, the identity and the versions, and then waits for a heartbeat or asks
-    /// with node guarding once. A node in Operational is neither restarted nor configured, and
-    /// [`Booted::was_operational`](super::Booted::was_operational) is true. A node in another state is booted as without
-    /// this option.
+    /// 302-2): the master first waits for a heartbeat, or asks with node guarding. If the node is in Operational, the
+    /// master checks the device type, the identity and the versions. It neither restarts nor configures the node, and
+    /// doesn't compare the configuration. [`Booted::was_operational`](super::Booted::was_operational) is true. A node in
+    /// another state is booted as without this option.
+    ///
+    /// A node that doesn't report its state is restarted if a [restart](Self::reset) is requested. Otherwise, the boot fails
+    /// with [`BootError::NoHeartbeat`](super::BootError::NoHeartbeat) or
+    /// [`BootError::Guarding`](super::BootError::Guarding). Without a restart, the heartbeat producer time (0x1017) must
+    /// therefore be stored in the node, because a node without it sends no heartbeat before its configuration.
     ///
     /// Without [error control](ErrorControl::None), the state of the node is unknown, and the option has no effect.
     #[must_use]

@@ -2,12 +2,12 @@
 
 use super::super::port::{AsyncCanPort, CanPort};
 use super::LssMaster;
-use crate::lss::{is_identified, FastScan, LssAddress, LssError, LssState, Service};
+use crate::lss::{is_identified, FastScan, IdentityPart, LssAddress, LssError, LssState, Service};
 
 macro_rules! scan {
     (
         $Port:ident: $has_unconfigured:ident $fast_scan:ident $step:ident $await_start:ident
-        $switch_global:ident $inquire_address:ident $send:ident $receive:ident $collect:ident $run:ident $($async:ident $await:ident)?
+        $switch_global:ident $request:ident $send:ident $receive:ident $collect:ident $run:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> LssMaster<P> {
             /// Returns whether there are slaves in Waiting that have no node-ID. [`fast_scan`](Self::fast_scan) finds
@@ -21,7 +21,7 @@ macro_rules! scan {
                 match result {
                     Err(LssError::Timeout) => {
                         // That no slave answers is the answer, and no late answer is expected.
-                        self.owed = None;
+                        self.is_owed = false;
                         Ok(false)
                     }
                     result => result.map(|_| true),
@@ -45,6 +45,8 @@ macro_rules! scan {
             ///   longer [window](Self::with_window).
             pub $($async)? fn $fast_scan(&mut self) -> Result<Option<LssAddress>, LssError<P::Error>> {
                 self.$switch_global(LssState::Waiting)$(.$await)??;
+                // Answers can also arrive after an error, and after a future was dropped.
+                self.is_owed = true;
                 let mut scan = FastScan::new();
                 while let Some(request) = scan.next() {
                     self.$send(request)$(.$await)??;
@@ -59,9 +61,22 @@ macro_rules! scan {
                     }
                     scan.time_out();
                 }
-                let Some(address) = scan.result().map_err(LssError::of_client)? else { return Ok(None) };
-                let inquired = self.$inquire_address()$(.$await)??;
-                if inquired == address { Ok(Some(address)) } else { Err(LssError::Inconclusive) }
+                let Some(address) = scan.result().map_err(LssError::of_client)? else {
+                    self.is_owed = false;
+                    return Ok(None);
+                };
+                let mut inquired = [0; 4];
+                for (to, part) in inquired.iter_mut().zip(IdentityPart::ALL) {
+                    // Without a wait for late answers of the scan, because the answers to inquiries differ from them.
+                    let number = self.$request(Service::Inquire(part))$(.$await)?;
+                    self.is_owed = true;
+                    *to = number?;
+                }
+                if LssAddress::from_array(inquired) != address {
+                    return Err(LssError::Inconclusive);
+                }
+                self.is_owed = false;
+                Ok(Some(address))
             }
 
             /// Collects the answers to a fastscan request for the duration of the window. Returns whether there are any.
@@ -81,9 +96,9 @@ macro_rules! scan {
 
 scan! {
     CanPort: has_unconfigured fast_scan step await_start
-    switch_global inquire_address send receive collect run
+    switch_global request send receive collect run
 }
 scan! {
     AsyncCanPort: has_unconfigured_async fast_scan_async step_async await_start_async
-    switch_global_async inquire_address_async send_async receive_async collect_async run_async async await
+    switch_global_async request_async send_async receive_async collect_async run_async async await
 }
