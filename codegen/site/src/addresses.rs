@@ -99,11 +99,20 @@ fn vendor(device: &Device) -> String {
     }
 }
 
-/// Returns a text that is equal for the revisions of a product: vendor ID and product code. If one of them is missing or 0, which
-/// many EDS files contain instead of the device's number, the folder of the product distinguishes products.
+/// Returns a text that is equal for the revisions of a product: vendor ID, product code and order code. Variants of a product can
+/// share the product code, for example EK1828 and EK1828-0010. Without an order code, the name distinguishes them. If vendor ID or
+/// product code is missing or 0, which many EDS files contain instead of the device's number, the folder of the product
+/// distinguishes products.
 pub(super) fn product(device: &Device) -> String {
-    match (device.identity.vendor_id, device.identity.product_code) {
-        (Some(vendor @ 1..), Some(code @ 1..)) => format!("{vendor} {code}"),
+    let identity = &device.identity;
+    match (identity.vendor_id, identity.product_code) {
+        (Some(vendor @ 1..), Some(code @ 1..)) => {
+            let variant = match identity.order_code.trim() {
+                "" => facts::device::title(device).trim(),
+                order_code => order_code,
+            };
+            format!("{vendor} {code} {}", variant.to_lowercase())
+        }
         _ => folder_of_product(device),
     }
 }
@@ -211,13 +220,39 @@ mod tests {
     #[test]
     fn a_product_can_change_its_name_and_many_files_lack_numbers() {
         let mut renamed = catalog(&[("Drive", Some(7), Some(1)), ("Drive plus", Some(7), Some(2))]);
-        renamed.devices.iter_mut().for_each(|device| device.identity.vendor_id = Some(3));
+        for device in &mut renamed.devices {
+            (device.identity.vendor_id, device.identity.order_code) = (Some(3), "D-1".into());
+        }
         let templates = catalog(&[("Pump", Some(0), Some(1)), ("Fan", Some(0), Some(2))]);
         let mut addresses = Addresses::default();
         addresses.add("renamed", &renamed);
         addresses.add("templates", &templates);
         assert_eq!(addresses.previous(&renamed.devices[1]), Some(&(1, ("renamed".to_owned(), 0))));
         assert_eq!(addresses.previous(&templates.devices[1]), None);
+    }
+
+    #[test]
+    fn variants_with_the_same_product_code_are_different_products() {
+        let revisions = [0x0010_0000, 0x0010_000A, 0x0011_0000, 0x0011_000A];
+        let mut stated = catalog(&revisions.map(|revision| ("Coupler", Some(7), Some(revision))));
+        let mut named = stated.clone();
+        for (at, device) in stated.devices.iter_mut().enumerate() {
+            device.identity.order_code = ["EK1828", "EK1828-0010"][at % 2].into();
+        }
+        for (at, device) in named.devices.iter_mut().enumerate() {
+            device.name = ["EK1828", "EK1828-0010"][at % 2].into();
+        }
+        for catalog in [&mut stated, &mut named] {
+            catalog.devices.iter_mut().for_each(|device| device.identity.vendor_id = Some(2));
+            let mut addresses = Addresses::default();
+            addresses.add("couplers", catalog);
+            let previous = |at: usize| addresses.previous(&catalog.devices[at]).map(|(number, key)| (*number, key.1));
+            assert_eq!(
+                [0, 1, 2, 3].map(previous),
+                [None, None, Some((0x0010_0000, 0)), Some((0x0010_000A, 1))],
+                "each revision follows one of the same product"
+            );
+        }
     }
 
     #[test]
