@@ -60,6 +60,7 @@ mod error;
 mod homing;
 mod integer;
 mod objects;
+mod settling;
 mod state;
 mod stop;
 mod target;

@@ -5,6 +5,7 @@ mod entry;
 #[path = "support/now.rs"]
 mod now;
 
+use std::cell::Cell;
 use std::convert::Infallible;
 use std::time::Duration;
 
@@ -326,16 +327,16 @@ fn guarding() {
     assert_eq!((error, error.status()), (BootError::Guarding(GuardError::NodeLost), Some('F')));
 }
 
-/// A node that ignores the NMT command "start".
-struct Stubborn(CanNode);
+/// A node that doesn't receive the frames for which the function returns true.
+struct Deaf<F>(CanNode, F);
 
-impl CanPort for Stubborn {
+impl<F: FnMut(&CanFrame) -> bool> CanPort for Deaf<F> {
     type Error = Infallible;
 
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
-        match NmtCommand::of(frame) {
-            Some((NmtCommand::Start, _)) => Ok(true),
-            _ => CanPort::send(&mut self.0, frame, patience),
+        match (self.1)(frame) {
+            true => Ok(true),
+            false => CanPort::send(&mut self.0, frame, patience),
         }
     }
 
@@ -348,7 +349,7 @@ impl CanPort for Stubborn {
     }
 }
 
-impl AsyncCanPort for Stubborn {
+impl<F: FnMut(&CanFrame) -> bool> AsyncCanPort for Deaf<F> {
     type Error = Infallible;
 
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
@@ -364,6 +365,11 @@ impl AsyncCanPort for Stubborn {
     }
 }
 
+/// Returns a node that ignores the NMT command "start".
+fn stubborn(node: CanNode) -> Deaf<impl FnMut(&CanFrame) -> bool> {
+    Deaf(node, |frame: &CanFrame| matches!(NmtCommand::of(frame), Some((NmtCommand::Start, _))))
+}
+
 /// The heartbeats before the start don't count, not even those in the buffer of the interface.
 #[test]
 fn a_node_that_does_not_start() {
@@ -374,12 +380,12 @@ fn a_node_that_does_not_start() {
         started.handle(&NmtCommand::Start.frame(None));
         started.advance(SECOND);
         started.handle(&NmtCommand::EnterPreOperational.frame(None));
-        let mut node = Node::new(Buffered::<_, 32>::new(Stubborn(started)), NODE);
+        let mut node = Node::new(Buffered::<_, 32>::new(stubborn(started)), NODE);
         let error = boot(&mut node, &Boot::new(ErrorControl::Heartbeat(SECOND)), is_async).expect_err("not started");
         assert_eq!(error, BootError::NotOperational { actual: Some(NmtState::PreOperational) });
         assert_eq!(error.to_string(), "the node is in PreOperational after its start");
 
-        let mut node = Node::new(Buffered::<_, 32>::new(Stubborn(CanNode::new(device(SIMPLE)))), NODE);
+        let mut node = Node::new(Buffered::<_, 32>::new(stubborn(CanNode::new(device(SIMPLE)))), NODE);
         let error = boot(&mut node, &Boot::new(guarding), is_async).expect_err("not started");
         assert_eq!(error, BootError::NotOperational { actual: Some(NmtState::PreOperational) });
     }
@@ -439,61 +445,29 @@ fn a_stopped_node_is_restarted() {
     }
 }
 
-/// Loses this number of guarding requests.
-struct Lossy(CanNode, u32);
-
-impl CanPort for Lossy {
-    type Error = Infallible;
-
-    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
-        if frame.is_remote() && self.1 > 0 {
-            self.1 -= 1;
-            return Ok(true);
-        }
-        CanPort::send(&mut self.0, frame, patience)
-    }
-
-    fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, Infallible> {
-        CanPort::receive(&mut self.0, patience, wanted)
-    }
-}
-
-impl AsyncCanPort for Lossy {
-    type Error = Infallible;
-
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
-        CanPort::send(self, frame, patience)
-    }
-
-    async fn receive(
-        &mut self,
-        patience: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, Infallible> {
-        CanPort::receive(self, patience, wanted)
-    }
-}
-
 #[test]
 fn a_lost_guarding_request() {
     for (is_async, life_time_factor) in [(false, 1), (true, 1), (false, 3), (true, 3)] {
         let plan = Boot::new(ErrorControl::Guarding { guard_time: Duration::from_millis(100), life_time_factor });
         let mut running = CanNode::new(device(SIMPLE));
         running.handle(&NmtCommand::Start.frame(None));
-        let mut node = Node::new(Lossy(running, 1), NODE);
+        // Number of guarding requests that will be lost.
+        let lost = Cell::new(1);
+        let is_lost = |frame: &CanFrame| {
+            let is_lost = frame.is_remote() && lost.get() > 0;
+            lost.set(lost.get() - u32::from(is_lost));
+            is_lost
+        };
+        let mut node = Node::new(Deaf(running, is_lost), NODE);
         let booted = boot(&mut node, &plan.keep_running(), is_async).expect("a running node");
         assert!(booted.was_operational);
         // A node that never answers is lost, or restarted.
-        node.port().1 = 1000;
-        let lost = boot(&mut node, &plan.keep_running(), is_async);
-        assert_eq!(lost, Err(BootError::Guarding(GuardError::NodeLost)));
+        lost.set(1000);
+        let failed = boot(&mut node, &plan.keep_running(), is_async);
+        assert_eq!(failed, Err(BootError::Guarding(GuardError::NodeLost)));
         assert_eq!(node.port().0.state(), NmtState::Operational);
-        let lost = boot(&mut node, &plan.keep_running().device_type(1).reset(SECOND), is_async);
-        assert_eq!(lost, Err(BootError::DeviceType { expected: 1, actual: 0x0002_0192 }));
+        let failed = boot(&mut node, &plan.keep_running().device_type(1).reset(SECOND), is_async);
+        assert_eq!(failed, Err(BootError::DeviceType { expected: 1, actual: 0x0002_0192 }));
         assert_eq!(node.port().0.state(), NmtState::PreOperational, "the node was restarted");
     }
 }

@@ -7,7 +7,7 @@ mod lane;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A lift with a state machine of its own. An automatic transition follows the first command.
+/// A lift whose state machine is not that of CiA 402. An automatic transition follows the first command.
 const LIFT: &str = r#"lexibus = 1
 
 [device]

@@ -89,17 +89,26 @@ fn fill(mut file: File, path: &Path, content: &[u8]) -> Result<()> {
     }
 }
 
-/// Creates a temporary file in the folder of `path`.
-fn temporary(path: &Path) -> Result<(File, PathBuf)> {
+/// Returns the hidden path of a temporary file or folder next to `path`. Each call returns another path.
+///
+/// # Errors
+///
+/// Returns an error if `path` has no file name.
+pub fn temporary_path(path: &Path) -> Result<PathBuf> {
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let Some(name) = path.file_name() else {
         return Err(Error::new(ErrorKind::InvalidInput, "the path has no file name"));
     };
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}-{}.tmp", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+    Ok(path.with_file_name(hidden))
+}
+
+/// Creates a temporary file in the folder of `path`.
+fn temporary(path: &Path) -> Result<(File, PathBuf)> {
     loop {
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}-{}.tmp", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
-        let temporary = path.with_file_name(hidden);
+        let temporary = temporary_path(path)?;
         match OpenOptions::new().write(true).create_new(true).open(&temporary) {
             Ok(file) => return Ok((file, temporary)),
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}

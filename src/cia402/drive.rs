@@ -6,9 +6,10 @@ use core::time::Duration;
 
 use super::bits::{CONFIRMED, ENABLE_OPERATION, FAILED, HALT, OF_MODE, OF_STATE, REACHED, START};
 use super::error::MotionError;
-use super::homing::{Outcome, SETTLING};
+use super::homing::Outcome;
 use super::integer::{ReadInteger, WriteInteger};
 use super::objects::{Homing, Objects, Positioning, Velocity};
+use super::settling::{Settling, SETTLING};
 use super::state::{Mode, State};
 use super::target::Target;
 use crate::client::{AsyncClient, Client};
@@ -107,10 +108,9 @@ macro_rules! operations {
                     return Err(MotionError::WrongMode { active: mode });
                 }
                 self.$unhalted()$(.$await)??;
-                let (mut is_stale, mut settling) = (true, Remaining::new(SETTLING));
+                let mut settling = Settling::new(true);
                 loop {
-                    is_stale &= status & REACHED != 0 && settling.pause().is_some();
-                    if status & REACHED != 0 && !is_stale {
+                    if settling.confirms(status & REACHED != 0) {
                         return Ok(());
                     }
                     if self.$is_late(&mut remaining)$(.$await)?? {

@@ -5,8 +5,8 @@ use core::time::Duration;
 use super::bits::{HALT, QUICK_STOP, REACHED};
 use super::drive::{enables, Drive};
 use super::error::MotionError;
-use super::homing::SETTLING;
 use super::objects::Objects;
+use super::settling::Settling;
 use super::state::State;
 use crate::client::{AsyncClient, Client};
 use crate::remaining::Remaining;
@@ -45,7 +45,7 @@ macro_rules! stops {
                 let mut remaining = Remaining::new(deadline);
                 // Without a read, whose reply could be lost. A bit 4 that stays 1 would start homing when the drive is enabled.
                 self.$command(QUICK_STOP)$(.$await)??;
-                let (mut is_stale, mut settling) = (true, Remaining::new(SETTLING));
+                let mut settling = Settling::new(true);
                 loop {
                     // Reads the error code of a fault, and the state.
                     let status = match self.$enabled()$(.$await)? {
@@ -54,8 +54,7 @@ macro_rules! stops {
                             return Ok(State::SwitchOnDisabled);
                         }
                         Err(MotionError::NotEnabled { state: Some(State::QuickStopActive), status }) => {
-                            is_stale &= status & REACHED != 0 && settling.pause().is_some();
-                            if status & REACHED != 0 && !is_stale {
+                            if settling.confirms(status & REACHED != 0) {
                                 return Ok(State::QuickStopActive);
                             }
                             status
@@ -93,11 +92,10 @@ macro_rules! stops {
                 self.$enabled()$(.$await)??;
                 let control = enables(self.$control()$(.$await)??)?;
                 self.$command(control | HALT)$(.$await)??;
-                let (mut is_stale, mut settling) = (true, Remaining::new(SETTLING));
+                let mut settling = Settling::new(true);
                 loop {
                     let status = self.$enabled()$(.$await)??;
-                    is_stale &= status & REACHED != 0 && settling.pause().is_some();
-                    if status & REACHED != 0 && !is_stale {
+                    if settling.confirms(status & REACHED != 0) {
                         return Ok(());
                     }
                     if self.$is_late(&mut remaining)$(.$await)?? {

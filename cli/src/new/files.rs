@@ -1,9 +1,8 @@
 //! Creates the files of a new crate in a new folder.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use lexibus_codegen::output::writing;
+use lexibus_codegen::output::{temporary_path, writing};
 
 use crate::Failure;
 
@@ -75,7 +74,8 @@ impl Files {
     pub(super) fn create(&self, folder: &Path) -> Result<(), Failure> {
         let failed = |error| Failure::Usage(format!("cannot create the folder {}: {error}", folder.display()));
         let _writing = writing();
-        let temporary = temporary(folder).map_err(failed)?;
+        let temporary = temporary_path(folder).map_err(failed)?;
+        std::fs::create_dir(&temporary).map_err(failed)?;
         let written = self
             .write(&temporary)
             .and_then(|()| Self::check(folder))
@@ -100,21 +100,10 @@ impl Files {
     }
 }
 
-/// Creates a hidden temporary folder next to `folder`.
-fn temporary(folder: &Path) -> io::Result<PathBuf> {
-    let Some(name) = folder.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path has no name"));
-    };
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.tmp", std::process::id()));
-    let temporary = folder.with_file_name(hidden);
-    std::fs::create_dir(&temporary)?;
-    Ok(temporary)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::*;
 
     /// Creates an empty folder.

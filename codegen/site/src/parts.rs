@@ -32,20 +32,13 @@ impl Parts {
             overview: (first, &self.overview.doubts),
             areas: &self.areas,
             process: self.process.as_deref().map(|file| (file, self.data.frames.as_slice())),
-            protocol: self.protocol.as_ref().map(|(file, protocol)| (file.as_str(), protocol)),
-            behaviour: self.behaviour.as_ref().map(|(file, behaviour)| (file.as_str(), behaviour)),
+            protocol: page(&self.protocol),
+            behaviour: page(&self.behaviour),
             codes: &self.codes,
         };
         sources.ranked()
     }
-}
 
-/// Returns the file and the content of an optional page.
-fn page<T>(page: &Option<(String, T)>) -> Option<(&str, &T)> {
-    page.as_ref().map(|(file, content)| (file.as_str(), content))
-}
-
-impl Parts {
     /// Adds the links between the elements.
     pub fn link(&mut self, device: &Device) {
         let pages = references::Pages {
@@ -80,4 +73,9 @@ impl Parts {
             slots,
         }
     }
+}
+
+/// Returns the file and the content of an optional page.
+fn page<T>(page: &Option<(String, T)>) -> Option<(&str, &T)> {
+    page.as_ref().map(|(file, content)| (file.as_str(), content))
 }

@@ -111,7 +111,7 @@ impl Written {
             (None, Type::Real32) => "struct.pack(\"<f\", value)".to_owned(),
             (None, Type::Real64) => "struct.pack(\"<d\", value)".to_owned(),
             (None, ty) => {
-                let signed = if matches!(ty, Type::Integer(_)) { ", signed=True" } else { "" };
+                let signed = if ty.is_signed() { ", signed=True" } else { "" };
                 format!("value.to_bytes({}, \"little\"{signed})", self.bytes.len())
             }
         }
@@ -265,18 +265,7 @@ mod tests {
 
     /// Returns a 16-bit item in two registers, the high word first.
     fn extended(ty: Type, default: Option<i128>) -> Item {
-        let register = RegisterBinding {
-            space: RegisterSpace::Holding,
-            address: 16,
-            printed: "16–17".into(),
-            is_order_assumed: false,
-            count: 2,
-            low_word_first: false,
-            bytes_swapped: false,
-            bit_offset: None,
-            words_per_address: 1,
-            extended: true,
-        };
+        let register = RegisterBinding { extended: true, ..RegisterBinding::new(RegisterSpace::Holding, 16, 2) };
         item(Binding::Register(Box::new(register)), ty, default)
     }
 

@@ -121,18 +121,7 @@ mod tests {
 
     #[test]
     fn only_signed_values_are_extended() {
-        let register = RegisterBinding {
-            space: RegisterSpace::Holding,
-            address: 16,
-            printed: "16–17".into(),
-            is_order_assumed: false,
-            count: 2,
-            low_word_first: false,
-            bytes_swapped: false,
-            bit_offset: None,
-            words_per_address: 1,
-            extended: true,
-        };
+        let register = RegisterBinding { extended: true, ..RegisterBinding::new(RegisterSpace::Holding, 16, 2) };
         let binding = Binding::Register(Box::new(register));
         let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
         assert_eq!(addresses(&item, &[], &[]), "m h 16 2 - 3/16");

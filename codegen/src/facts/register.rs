@@ -112,16 +112,9 @@ mod tests {
 
     fn register(count: u16) -> RegisterBinding {
         RegisterBinding {
-            space: RegisterSpace::Holding,
-            address: 101,
             printed: if count > 1 { "40102–40103" } else { "40102" }.into(),
-            is_order_assumed: false,
-            count,
             low_word_first: true,
-            bytes_swapped: false,
-            bit_offset: None,
-            words_per_address: 1,
-            extended: false,
+            ..RegisterBinding::new(RegisterSpace::Holding, 101, count)
         }
     }
 

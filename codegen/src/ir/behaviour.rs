@@ -204,6 +204,22 @@ pub struct RegisterBinding {
 }
 
 impl RegisterBinding {
+    /// Creates the address of an item in `count` whole registers, with the high word first.
+    pub fn new(space: RegisterSpace, address: u16, count: u16) -> Self {
+        RegisterBinding {
+            space,
+            address,
+            printed: CompactString::default(),
+            is_order_assumed: false,
+            count,
+            low_word_first: false,
+            bytes_swapped: false,
+            bit_offset: None,
+            words_per_address: 1,
+            extended: false,
+        }
+    }
+
     /// Returns the last wire address of the item.
     pub fn last(&self) -> u16 {
         let addresses = self.count.div_ceil(u16::from(self.words_per_address.max(1)));

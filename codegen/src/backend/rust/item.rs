@@ -133,7 +133,7 @@ pub(super) fn model(
     }
 }
 
-/// Frees the unused room of a list. A large device has a list of each kind for each of its items.
+/// Frees the unused capacity of a list. A large device has a list of each kind for each of its items.
 fn exact<T>(mut list: Vec<T>) -> Vec<T> {
     list.shrink_to_fit();
     list

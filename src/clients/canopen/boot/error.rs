@@ -52,8 +52,8 @@ impl fmt::Display for VersionText {
 ///
 /// The letter L is no error: [`Booted::status`](super::Booted::status) returns it. Three letters don't occur:
 ///
-/// - A (the node isn't in the network list 0x1F81): the program has no such list, because it boots each node by itself.
-/// - G and I (program download not configured, or failed): the master doesn't download programs. H stands for a node that
+/// - A (the node isn't in the network list 0x1F81): the program has no such list, because it boots the nodes one by one.
+/// - G and I (program download not configured, or failed): the master doesn't download programs. H means that a node
 ///   needs another program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

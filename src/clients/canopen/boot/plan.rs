@@ -181,7 +181,7 @@ impl Boot {
     }
 
     /// Sets the date of the configuration. It takes precedence over a date that the configuration contains. The date
-    /// January 1, 1984, 0:00 stands for a missing date.
+    /// January 1, 1984, 0:00 represents a missing date.
     #[must_use]
     pub const fn configuration_date(mut self, date: TimeOfDay) -> Self {
         self.date = Some(date);
