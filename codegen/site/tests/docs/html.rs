@@ -141,7 +141,7 @@ fn revisions_in_two_files_are_compared() {
     // The order of the files does not matter.
     let source = |name: &str, text: String| (name.to_owned(), Source::new(format!("{name}.eds"), text.into()));
     let (old, new) = (source("old", eds(1, "rw")), source("new", eds(2, "ro")));
-    let other = |text: String| text.replace("ProductNumber=7", "ProductNumber=8");
+    let other = |text: String| text.replace("ProductNumber=7", "ProductNumber=8\nOrderCode=P-8");
     let first = source("first", other(eds(1, "rw")));
     let renamed = source("renamed", other(eds(2, "rw")).replace("ProductName=Pump", "ProductName=Pump plus"));
     for mut sources in [vec![old.clone(), new.clone()], vec![new, old]] {
