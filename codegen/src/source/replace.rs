@@ -35,7 +35,8 @@ impl Source {
         new.extend_from_slice(bytes.get(byte..)?);
         text += self.text().get(character..)?;
         // A replacement can change the encoding that a reader detects, as in an XML declaration.
-        let new = Source { folder: self.folder.clone(), ..Source::new(self.name(), new) };
+        let mut new = Source::new(self.name(), new);
+        new.folder.clone_from(&self.folder);
         (new.text() == text).then_some(new)
     }
 }

@@ -51,10 +51,10 @@ pub(super) fn unit(
 }
 
 fn symbol(reader: &mut Reader<'_, '_>, unit: &At<String>) {
-    if !units::is_known(&unit.value) {
+    if !units::is_unit(&unit.value) {
         let message = format!("`{}` is not a known unit", brief(&unit.value));
         let found = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
-        reader.diagnostics.push(match units::usual(&unit.value) {
+        reader.diagnostics.push(match units::usual_unit(&unit.value) {
             Some(usual) => found.help(format!("did you mean `{usual}`?")),
             None => found.label("kept unchanged"),
         });

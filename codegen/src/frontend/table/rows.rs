@@ -283,10 +283,11 @@ impl Rows {
             quantity.units = reader.original(unit_table.as_ref().and_then(|table| table.orig.as_deref()));
             let machine = unit_table.as_ref().and_then(|table| table.machine.as_ref());
             quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
-            if unit_table.is_none() && !unit.value.is_empty() && !super::units::is_known(&unit.value) {
+            if unit_table.is_none() && !unit.value.is_empty() && !super::units::is_unit(&unit.value) {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let names = names.take_while(|_| reader.helps());
-                let similar = crate::text::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
+                let similar =
+                    crate::text::similar(&unit.value, names).or_else(|| super::units::usual_unit(&unit.value));
                 let message = format!("`{}` is neither defined in `[units]` nor a known unit", brief(&unit.value));
                 let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
                 reader.diagnostics.push(match similar {

@@ -12,16 +12,31 @@ const SYMBOLS: [&str; 90] = [
 /// Unit symbols that contain `°` or `µ`.
 const SIGNS: [&str; 13] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm", "µS", "µg"];
 
-/// Returns whether the text is a known unit symbol, such as `rev/s²`, `kg·m²` or `mNm/A`.
-pub(super) fn is_known(symbol: &str) -> bool {
+/// Returns whether the format knows a unit symbol, or a product, quotient or power of known symbols such as `rev/s²`. All other
+/// units must be defined in `[units]` of the table.
+///
+/// ```
+/// use lexibus_codegen::frontend::table::is_unit;
+///
+/// assert!(is_unit("rev/s²") && !is_unit("furlong"));
+/// ```
+pub fn is_unit(symbol: &str) -> bool {
     symbol.split(['/', '·']).all(|part| {
         let single = part.trim_end_matches(['²', '³']);
         SYMBOLS.contains(&single) || SIGNS.contains(&single)
     })
 }
 
-/// Returns the symbol of a unit for another spelling of the unit.
-pub(super) fn usual(text: &str) -> Option<&'static str> {
+/// Returns the symbol of a unit for another spelling of the unit, such as `°C` for `degC` and `rpm` for `1/min`. Returns `None`
+/// if the spelling is unknown.
+///
+/// ```
+/// use lexibus_codegen::frontend::table::usual_unit;
+///
+/// assert_eq!(usual_unit("Volts"), Some("V"));
+/// assert_eq!(usual_unit("furlong"), None);
+/// ```
+pub fn usual_unit(text: &str) -> Option<&'static str> {
     const SPELLINGS: &[(&str, &[&str])] = &[
         (
             "°C",
@@ -74,23 +89,23 @@ pub(super) fn usual(text: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_known, usual};
+    use super::{is_unit, usual_unit};
 
     #[test]
     fn single_and_composed_symbols() {
         for symbol in ["rpm", "rev/s²", "kg·m²", "mNm/A", "mm/count", "°C", "µs", "kbit/s"] {
-            assert!(is_known(symbol), "{symbol}");
+            assert!(is_unit(symbol), "{symbol}");
         }
         for symbol in ["", "velocity", "rev/", "m^2", "/s", "mms"] {
-            assert!(!is_known(symbol), "{symbol}");
+            assert!(!is_unit(symbol), "{symbol}");
         }
     }
 
     #[test]
     fn spellings_of_units() {
         for (text, symbol) in [("degC", "°C"), ("Volts", "V"), ("KW", "kW"), ("1/min", "rpm"), ("m3/h", "m³/h")] {
-            assert_eq!(usual(text), Some(symbol), "{text}");
+            assert_eq!(usual_unit(text), Some(symbol), "{text}");
         }
-        assert_eq!(usual("furlong"), None);
+        assert_eq!(usual_unit("furlong"), None);
     }
 }

@@ -3,10 +3,11 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::definitions::DefinitionKind;
+use super::super::file::resolve;
 use super::super::format::AppliesTable;
 use super::super::machine_budget::MachineBudget;
 use super::super::tree::Reader;
-use super::super::{code_tables, device, machines, resolve};
+use super::super::{code_tables, device, machines};
 use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -448,7 +449,7 @@ fn is_for(device: &Device, applies: &AppliesTable) -> bool {
 
 /// Returns whether `pattern` matches the name, identifier or number of a module.
 fn is_called(pattern: &str, names: [&CompactString; 2], number: u32) -> bool {
-    let by_number = super::notation::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
+    let by_number = super::super::notation::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
     by_number || names.iter().any(|name| glob(pattern, &name.to_lowercase()))
 }
 

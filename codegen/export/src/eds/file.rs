@@ -1,0 +1,135 @@
+//! Writes the file section by section.
+
+use std::collections::HashSet;
+
+use lexibus_codegen::ir::{Binding, Catalog, Device, Format, Group, Item};
+
+use super::super::note::Subject;
+use super::super::registers;
+use super::extras::Extras;
+use super::writer::Writer;
+use super::{header, losses, mapping, modules, object};
+use super::{Export, NoteKind};
+
+/// The kind of file (CiA 306).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Flavour {
+    /// An electronic data sheet. An EDS describes a device type without its configuration.
+    #[default]
+    Eds,
+    /// A device configuration file. A DCF adds the node-ID, the network, configured values, denotations and connected
+    /// modules.
+    Dcf,
+}
+
+/// The notation of REAL32 and REAL64 values. CiA 306 defines no notation for real numbers, and tools support different notations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reals {
+    /// Decimal numbers, as in the files of vendors and in Python's `canopen` library.
+    #[default]
+    Decimal,
+    /// The IEEE 754 bit pattern in hexadecimal, as in the Lely CANopen tools.
+    Pattern,
+}
+
+/// The options of an export.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Kind of the file to write: EDS or DCF.
+    pub flavour: Flavour,
+    /// Notation of real numbers in the file.
+    pub reals: Reals,
+}
+
+impl From<Flavour> for Options {
+    fn from(flavour: Flavour) -> Self {
+        Options { flavour, ..Options::default() }
+    }
+}
+
+/// Exports `device`, a device of `catalog`. Returns `None` if the device has no objects and is not a CANopen device.
+///
+/// Lines end with CR LF (CiA 306). The file is encoded in UTF-8; it is ASCII if the device has only ASCII texts.
+pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -> Option<Export> {
+    let Options { flavour, reals } = options.into();
+    let registers = registers::objects(device, Item::object);
+    let completed = registers::completed(&registers);
+    let derived = [mapping::objects(device), registers].concat();
+    let objects = objects(device, &derived);
+    if objects.is_empty() && device.canopen.is_none() {
+        return None;
+    }
+    let format = catalog.files.first().map(|file| file.format);
+    let context = Context {
+        device,
+        flavour,
+        reals,
+        file_name: catalog.files.first().map_or("", |file| &file.name),
+        is_verbatim: matches!(format, Some(Format::Eds | Format::Dcf)),
+        is_canopen: device.canopen.is_some(),
+    };
+    let mut writer = Writer::new(context.is_verbatim);
+    losses::of_device(&context, catalog, &mut writer.notes);
+    writer.notes.add_many(NoteKind::Completed, completed, Subject::Device);
+    let extras = Extras::new(&context, &mut writer.notes);
+    for comment in &extras.preamble {
+        writer.comment(&comment.value);
+    }
+    let mut seen = HashSet::new();
+    let objects: Vec<&Group> =
+        objects.into_iter().filter(|group| first_of_index(group, &mut seen, &mut writer)).collect();
+    for section in extras.order() {
+        header::write(&mut writer, &context, catalog, section, extras.of(section), &objects);
+    }
+    object::all(
+        &mut writer,
+        &context,
+        objects.iter().filter(|group| group.index().is_some_and(|index| index < 0x1000)),
+    );
+    modules::write(&mut writer, &context, catalog);
+    extras.write_unknown(&mut writer);
+    let (text, notes) = writer.finish();
+    Some(Export { text, notes })
+}
+
+/// Data that the writers of all parts of the file use.
+pub(super) struct Context<'a> {
+    pub(super) device: &'a Device,
+    pub(super) flavour: Flavour,
+    pub(super) reals: Reals,
+    /// Name of the source file.
+    pub(super) file_name: &'a str,
+    /// True if the source is a CiA 306 file. The export of such a file keeps its spellings and adds no missing facts.
+    pub(super) is_verbatim: bool,
+    /// True if the source describes a CANopen device.
+    pub(super) is_canopen: bool,
+}
+
+/// Returns whether a CANopen device has this object only on EtherCAT.
+pub(super) fn is_coe_only(device: &Device, group: &Group) -> bool {
+    let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
+    let mut items = group.items.iter();
+    device.canopen.is_some() && !group.items.is_empty() && items.all(|item| item.bindings.iter().any(is_coe))
+}
+
+/// Returns the objects to write, sorted by index: those of the device and those in `derived`. Objects that CompactPDO implies and
+/// objects that exist only on EtherCAT are left out.
+fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
+    let compact_pdos = device.canopen.as_ref().is_some_and(|canopen| canopen.compact_pdo != 0);
+    let is_implied =
+        |group: &Group| compact_pdos && group.origin.line == 0 && matches!(group.index(), Some(0x1400..=0x1BFF));
+    let described = device.groups.iter().filter(|group| group.index().is_some() && !is_implied(group));
+    let described = described.filter(|group| !is_coe_only(device, group));
+    let mut objects: Vec<&Group> = described.chain(derived).collect();
+    objects.sort_by_key(|group| group.index());
+    objects
+}
+
+/// Returns whether `group` is the first object with its index. Adds a note if it is not.
+fn first_of_index(group: &Group, seen: &mut HashSet<Option<u16>>, writer: &mut Writer) -> bool {
+    let is_first = seen.insert(group.index());
+    if !is_first {
+        writer.notes.add(NoteKind::Duplicate, Subject::object(group));
+    }
+    is_first
+}

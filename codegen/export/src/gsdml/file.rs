@@ -1,0 +1,244 @@
+//! Writes the file with its header, identity and lists.
+
+use std::collections::HashSet;
+
+use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format, LocalText, TypeDef};
+
+use super::super::note::{Notes, Subject};
+use super::super::options::MissingFacts;
+use super::super::xml::Xml;
+use super::options::TrackedOptions;
+use super::texts::TextList;
+use super::{device, diagnosis, image, module, submodule, texts, values};
+use super::{Export, NoteKind, Options, Refusal};
+
+/// Schema version of the file if the source does not declare one.
+const VERSION: &str = "2.35";
+
+/// Exports all device access points of `catalog`. The encoding is UTF-8. Save the file under the name that
+/// [`file_name`] returns.
+pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
+    let options = &TrackedOptions::new(options);
+    // Mark the option `date` as used, because the file name contains the date even if the content of the file does not.
+    options.date();
+    let (mut notes, mut missing) = (Notes::default(), MissingFacts::default());
+    let from_images = match is_gsdml(catalog) {
+        true => None,
+        false => Some(image::catalog(catalog, options, &mut notes, &mut missing).ok_or(Refusal::Nothing)?),
+    };
+    let catalog = from_images.as_ref().unwrap_or(catalog);
+    if catalog.devices.is_empty() && catalog.modules.is_empty() && catalog.submodules.is_empty() {
+        return Err(Refusal::Nothing);
+    }
+    let texts = TextList::new(&catalog.extensions);
+    let mut context = Context {
+        catalog,
+        options,
+        types: &catalog.types,
+        notes,
+        missing,
+        texts,
+        pluggable_ports: submodule::pluggable_ports(catalog),
+        is_gsdml: from_images.is_none(),
+    };
+    let mut xml = Xml::new();
+    root(&mut xml, &mut context);
+    context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
+    let Context { mut notes, missing, .. } = context;
+    options.note_unused(&mut notes);
+    missing.finish(xml.finish(), notes.finish())
+}
+
+/// Returns the required file name without extension: schema version, vendor, family and date. Returns `None` if there
+/// is no date.
+pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
+    let source = catalog.files.first().filter(|_| is_gsdml(catalog));
+    let stem = source.and_then(|file| {
+        let name = lexibus_codegen::text::file_name(&file.name);
+        name.strip_suffix(".xml").or_else(|| name.strip_suffix(".XML"))
+    });
+    if let (Some(stem), None) = (stem.filter(|stem| stem.starts_with("GSDML-V")), &options.date) {
+        return Some(stem.to_owned());
+    }
+    let date = options.date.as_ref()?;
+    let device = catalog.devices.first();
+    let vendor =
+        options.vendor_name.as_deref().or_else(|| device.map(|device| device.identity.vendor_name.as_str()))?;
+    let family = options.product_family.as_deref().or_else(|| device.map(|device| device.name.as_str()))?;
+    // A hyphen separates the parts of the file name, so it is replaced within a part.
+    let part = |text: &str| -> String {
+        let is_safe = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | '+');
+        text.trim().chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
+    };
+    Some(format!("GSDML-V{}-{}-{}-{}", version(catalog), part(vendor), part(family), part(date)))
+}
+
+fn is_gsdml(catalog: &Catalog) -> bool {
+    catalog.files.first().is_some_and(|file| file.format == Format::Gsdml)
+}
+
+fn version(catalog: &Catalog) -> &str {
+    let version = catalog.devices.first().map(|device| device.header.format_version.as_str());
+    version.filter(|version| is_gsdml(catalog) && !version.is_empty()).unwrap_or(VERSION)
+}
+
+/// Data that the writers of all parts of the file use.
+pub(super) struct Context<'a> {
+    pub(super) catalog: &'a Catalog,
+    pub(super) options: &'a TrackedOptions<'a>,
+    pub(super) types: &'a [TypeDef],
+    pub(super) notes: Notes,
+    pub(super) missing: MissingFacts,
+    pub(super) texts: TextList,
+    /// Positions of the pluggable ports among the submodules.
+    pub(super) pluggable_ports: HashSet<u32>,
+    /// True if the source is a GSDML, to which the export adds no missing facts.
+    pub(super) is_gsdml: bool,
+}
+
+impl Context<'_> {
+    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
+    /// missing if there is no value.
+    pub(super) fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.missing.require(given.or(found), key, Options::KEYS)
+    }
+}
+
+fn root(xml: &mut Xml, context: &mut Context<'_>) {
+    const NAMESPACE: &str = "http://www.profibus.com/GSDML/2003/11/DeviceProfile";
+    let version = version(context.catalog);
+    xml.open("ISO15745Profile");
+    xml.attribute("xmlns", NAMESPACE);
+    xml.attribute("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance");
+    xml.attribute("xsi:schemaLocation", format_args!("{NAMESPACE} ..\\xsd\\GSDML-DeviceProfile-v{version}.xsd"));
+    profile_header(xml, &context.catalog.extensions);
+    xml.open("ProfileBody");
+    identity(xml, context);
+    xml.open("ApplicationProcess");
+    process(xml, context);
+    let texts = std::mem::take(&mut context.texts);
+    texts.write(xml, &mut context.notes);
+    lost(context);
+}
+
+/// The header according to ISO 15745-1. All GSDML files have the same header.
+const HEADER: [(&str, &str); 5] = [
+    ("ProfileIdentification", "PROFINET Device Profile"),
+    ("ProfileRevision", "1.00"),
+    ("ProfileName", "Device Profile for PROFINET Devices"),
+    ("ProfileSource", "PROFIBUS Nutzerorganisation e. V. (PNO)"),
+    ("ProfileClassID", "Device"),
+];
+
+const REFERENCE: [(&str, &str); 3] = [("ISO15745Part", "4"), ("ISO15745Edition", "1"), ("ProfileTechnology", "GSDML")];
+
+fn profile_header(xml: &mut Xml, extensions: &[Extension]) {
+    let find = |above: &str, name: &str| {
+        let is_named = |key: &str| key.split_once('/').is_some_and(|(element, rest)| element == above && rest == name);
+        extensions.iter().find(|extension| is_named(&extension.key)).map(|extension| extension.value.as_str())
+    };
+    xml.open("ProfileHeader");
+    for (name, usual) in HEADER {
+        xml.leaf(name, find("ProfileHeader", name).unwrap_or(usual));
+    }
+    for name in ["ProfileDate", "AdditionalInformation"] {
+        if let Some(value) = find("ProfileHeader", name) {
+            xml.leaf(name, value);
+        }
+    }
+    xml.open("ISO15745Reference");
+    for (name, usual) in REFERENCE {
+        xml.leaf(name, find("ISO15745Reference", name).unwrap_or(usual));
+    }
+    xml.close();
+    xml.close();
+}
+
+/// Writes the DeviceIdentity and DeviceFunction elements.
+fn identity(xml: &mut Xml, context: &mut Context<'_>) {
+    let (catalog, options) = (context.catalog, context.options);
+    let none = Default::default();
+    let device = catalog.devices.first().unwrap_or(&none);
+    let number_of_source =
+        |number: Option<u32>| number.and_then(|number| u16::try_from(number).ok()).filter(|_| context.is_gsdml);
+    let (vendor, number) =
+        (number_of_source(device.identity.vendor_id), number_of_source(device.identity.product_code));
+    let name = Some(device.identity.vendor_name.to_string()).filter(|name| context.is_gsdml || !name.is_empty());
+    let text = Some(device.header.description.to_string()).filter(|text| context.is_gsdml || !text.is_empty());
+    let family = device.profinet.as_ref().map(|settings| &settings.family);
+    let main = family.map(|(main, _)| main.to_string()).filter(|main| context.is_gsdml || !main.is_empty());
+    let product = family.map(|(_, product)| product.to_string()).filter(|product| !product.is_empty());
+    xml.open("DeviceIdentity");
+    let vendor = context.required(options.vendor_id(), vendor, "vendor-id");
+    xml.attribute("VendorID", format_args!("0x{vendor:04X}"));
+    let number = context.required(options.device_id(), number, "device-id");
+    xml.attribute("DeviceID", format_args!("0x{number:04X}"));
+    let text = context.required(options.description(), text, "description");
+    let language = |extension: &Extension| {
+        let language = extension.key.strip_prefix("DeviceIdentity/InfoText/")?;
+        Some(LocalText { language: language.into(), text: extension.value.clone() })
+    };
+    let translations = catalog.extensions.iter().filter_map(language).collect();
+    context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
+    let name = context.required(options.vendor_name(), name, "vendor-name");
+    xml.reference("VendorName", "Value", name);
+    xml.close();
+    xml.open("DeviceFunction");
+    xml.open("Family");
+    let main = context.required(options.main_family(), main, "main-family");
+    xml.attribute("MainFamily", main);
+    xml.optional("ProductFamily", options.product_family().or(product));
+    xml.close();
+    xml.close();
+}
+
+fn process(xml: &mut Xml, context: &mut Context<'_>) {
+    let catalog = context.catalog;
+    xml.open("DeviceAccessPointList");
+    catalog.devices.iter().for_each(|device| device::write(xml, context, device));
+    xml.close();
+    xml.list("ModuleList", &catalog.modules, |xml, module| module::write(xml, context, module));
+    submodule::pluggable(xml, context);
+    values::write(xml, context);
+    diagnosis::write(xml, context, catalog);
+    xml.list("GraphicsList", &catalog.graphics, |xml, graphic| {
+        xml.open("GraphicItem");
+        xml.attribute("ID", &graphic.id);
+        xml.attribute("GraphicFile", &graphic.file);
+        xml.close();
+    });
+    xml.list("CategoryList", &catalog.families, |xml, family| category(xml, context, family));
+}
+
+fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::ir::Family) {
+    xml.open("CategoryItem");
+    xml.attribute("ID", &family.id);
+    xml.attribute("TextId", context.texts.id(&family.name, &family.names));
+    if let Some((first, others)) = family.descriptions.split_first() {
+        let translations = others.iter().cloned().collect();
+        let description = Documentation { text: first.text.to_string(), translations, ..Documentation::default() };
+        context.texts.documentation(xml, "InfoText", &description);
+    }
+    xml.close();
+}
+
+/// Adds a note for the extensions of the catalog that the file does not contain.
+fn lost(context: &mut Context<'_>) {
+    let catalog = context.catalog;
+    let is_written = |extension: &&Extension| {
+        let key = extension.key.as_str();
+        let is_header = |above: &str, names: &[(&str, &str)]| {
+            key.strip_prefix(above).is_some_and(|name| names.iter().any(|(known, _)| *known == name))
+        };
+        texts::kept(key).is_some()
+            || key.starts_with("DeviceIdentity/InfoText/")
+            || is_header("ProfileHeader/", &HEADER)
+            || is_header("ISO15745Reference/", &REFERENCE)
+            || matches!(key, "ProfileHeader/ProfileDate" | "ProfileHeader/AdditionalInformation")
+    };
+    let lost = catalog.extensions.iter().filter(|extension| !is_written(extension)).count();
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
+    let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
+    context.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);
+}

@@ -1,0 +1,338 @@
+//! Models of a message protocol and of its messages.
+
+use std::collections::{HashMap, HashSet};
+
+use super::super::code::{call, seq, Doc};
+use super::super::context::Context;
+use super::super::docs::{self, WORDS};
+use super::super::links::{self, DocModule};
+use super::super::named::Types;
+use super::super::naming::messages::{MessageNames as Names, NamedMessages};
+use super::super::options::RustOptions;
+use super::outcomes::OutcomesModel;
+use super::rules::{RuleModel, Rules};
+use super::{completion, device, field, framing, outcomes, parameters, steps};
+use super::{CallModel, DefaultModel, Field, ParametersModel, Statements};
+use crate::ir::{Completion, Message};
+use crate::resolve::messages::{self, Shaped, Step};
+
+/// A message protocol, ready to be printed.
+pub(in super::super) struct ProtocolModel {
+    /// Expression of the framing constant.
+    pub framing: Option<Doc>,
+    pub framing_docs: Vec<String>,
+    pub max_data: u32,
+    pub derives: Vec<String>,
+    /// True if any request contains a station number.
+    pub has_station: bool,
+    pub rules: Vec<RuleModel>,
+    pub messages: Vec<MessageModel>,
+    pub parameters: Option<ParametersModel>,
+    /// Types of the requests that a simulated device can distinguish, and whether each borrows from the data.
+    pub requests: Vec<(String, bool)>,
+    pub request_derives: Vec<String>,
+    pub calls: Vec<CallModel>,
+    /// State of the driver after power-on.
+    pub by_default: Option<DefaultModel>,
+}
+
+/// A message, which consists of a request and a reply, ready to be printed.
+pub(in super::super) struct MessageModel {
+    pub title: String,
+    /// Documentation of the method that sends the request.
+    pub call_docs: Vec<String>,
+    /// The request. `None` if only the device sends the message.
+    pub request: Option<DataModel>,
+    /// The reply. `None` if the description contains no reply to the request.
+    pub reply: Option<DataModel>,
+    /// Type of the reply with which the device refuses the request.
+    pub refusal: String,
+    pub completion: Doc,
+    /// True if this request determines the meaning of other requests.
+    pub is_selector: bool,
+    /// Effects of the command in each state.
+    pub outcomes: Vec<OutcomesModel>,
+}
+
+/// The data of a request or a reply.
+pub(in super::super) struct DataModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub borrows: bool,
+    pub fields: Vec<Field>,
+    pub code: Statements,
+    /// Type of list entries.
+    pub entry: Option<EntryModel>,
+    /// Expression that returns whether the command is completed.
+    pub is_complete: Option<String>,
+}
+
+/// The fields of a list entry.
+pub(in super::super) struct EntryModel {
+    pub name: String,
+    pub title: String,
+    pub derives: Vec<String>,
+    pub length: u32,
+    pub fields: Vec<Field>,
+    pub code: Statements,
+}
+
+impl ProtocolModel {
+    /// Creates the protocol of a device. Returns `None` if the device has no messages. `reserved` contains names that
+    /// the protocol's methods must not have.
+    pub(in super::super) fn new(
+        context: &Context<'_>,
+        options: &RustOptions,
+        types: &Types,
+        reserved: &[&str],
+    ) -> Option<Self> {
+        let device = context.device?;
+        let NamedMessages { shapes, names } = &context.names.messages;
+        if shapes.is_empty() {
+            return None;
+        }
+        let type_names: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+        let steps = shapes.iter().flat_map(|shape| shape.request.steps.iter().chain(&shape.reply.steps));
+        let rules = Rules::new(context, device, steps, &type_names);
+        let states = outcomes::links(context, device, types);
+        let make = Maker {
+            context,
+            options,
+            polled: completion::conditions(device),
+            selectors: shapes.iter().filter_map(|shape| Some(shape.message.after.as_ref()?.as_str())).collect(),
+            rules: &rules,
+            shapes,
+            names,
+            states: &states,
+        };
+        let mut outcomes = outcomes::models(context, device, types);
+        let mut messages: Vec<MessageModel> =
+            shapes.iter().zip(names).map(|(shape, names)| make.message(shape, names)).collect();
+        for (shape, model) in shapes.iter().zip(&mut messages) {
+            model.outcomes = outcomes.remove(shape.message.name.as_str()).unwrap_or_default();
+        }
+        let calls = if options.accessors { device::calls(shapes, &messages, &rules, reserved) } else { Vec::new() };
+        Some(ProtocolModel {
+            framing: device.framing.as_deref().and_then(|framing| framing::constant(framing, shapes)),
+            framing_docs: device
+                .framing
+                .as_deref()
+                .map(|framing| framing::documentation(framing, context))
+                .unwrap_or_default(),
+            max_data: framing::max_data(device, shapes),
+            derives: options.derives(true),
+            has_station: framing::has_station(shapes),
+            parameters: parameters::model(device, shapes, &messages, &rules),
+            requests: requests(&messages),
+            request_derives: make.derives(true),
+            by_default: device::by_default(shapes, &messages, &calls),
+            calls,
+            messages,
+            rules: rules.models,
+        })
+    }
+
+    /// Returns whether a limit of any field is a real number.
+    pub(in super::super) fn has_real_limits(&self) -> bool {
+        let sides = self.messages.iter().flat_map(|message| message.request.iter().chain(&message.reply));
+        let mut fields =
+            sides.flat_map(|side| side.fields.iter().chain(side.entry.iter().flat_map(|entry| &entry.fields)));
+        fields.any(Field::has_real_limits)
+    }
+
+    /// Returns whether some requests determine the meaning of other requests.
+    pub(in super::super) fn selects(&self) -> bool {
+        self.messages.iter().any(|message| message.is_selector)
+    }
+
+    /// Returns whether some methods are available regardless of which selecting request was sent last.
+    pub(in super::super) fn has_free(&self) -> bool {
+        self.calls.iter().any(|call| call.after.is_none() && !call.is_selector)
+    }
+
+    /// Returns whether any distinguishable request borrows from the data.
+    pub(in super::super) fn requests_borrow(&self) -> bool {
+        self.requests.iter().any(|(_, borrows)| *borrows)
+    }
+}
+
+/// Creates the models of messages.
+struct Maker<'m, 'a> {
+    context: &'m Context<'a>,
+    options: &'m RustOptions,
+    /// Polling conditions that indicate that a command is completed.
+    polled: completion::Conditions<'m>,
+    /// Names of messages that determine the meaning of other messages.
+    selectors: HashSet<&'m str>,
+    rules: &'m Rules,
+    shapes: &'m [Shaped<'a>],
+    names: &'m [Names],
+    /// Paths of states, keyed by their names in the description.
+    states: &'m HashMap<String, String>,
+}
+
+impl Maker<'_, '_> {
+    fn message(&self, shape: &Shaped<'_>, names: &Names) -> MessageModel {
+        let message = shape.message;
+        let refusal = messages::refusal(self.shapes, message).and_then(|at| self.names.get(at));
+        let [request_name, reply_name, entry, reply_entry] = names;
+        let has_request = !message.request.is_empty();
+        let request = has_request.then(|| {
+            let data = self.data(&shape.request.steps, request_name, entry);
+            let mut docs = self.documentation(message, DocModule::MESSAGES);
+            let reply = (!message.reply.is_empty()).then(|| format!("Reply: {}.", links::sibling(reply_name)));
+            let refused = refusal.map(|names| format!("Refusal: {}.", links::sibling(&names[1])));
+            let answers: Vec<String> = reply.into_iter().chain(refused).collect();
+            if !answers.is_empty() {
+                docs.extend([String::new(), answers.join(" ")]);
+            }
+            DataModel { docs, ..data }
+        });
+        let reply = (!message.reply.is_empty()).then(|| {
+            let data = self.data(&shape.reply.steps, reply_name, reply_entry);
+            let docs = match has_request {
+                true => vec![format!("Reply to {}.", links::sibling(request_name))],
+                false => self.documentation(message, DocModule::MESSAGES),
+            };
+            let polled =
+                || completion::expression(self.context, &self.polled, message, &shape.reply.steps, &data.fields);
+            let is_complete = has_request.then(polled).flatten();
+            DataModel { docs, is_complete, ..data }
+        });
+        MessageModel {
+            title: super::super::literal::string(&message.name),
+            call_docs: self.documentation(message, DocModule::TOP),
+            request,
+            reply,
+            refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
+            completion: completion(&message.completion),
+            outcomes: Vec::new(),
+            is_selector: self.selectors.contains(message.name.as_str()),
+        }
+    }
+
+    fn data(&self, steps: &[Step<'_>], name: &str, entry: &str) -> DataModel {
+        let (fields, borrows) = self.fields(steps, entry);
+        let code = steps::statements(steps, &fields, self.rules);
+        let entry = steps.iter().find_map(|step| match step {
+            Step::List { steps, length, .. } => Some(self.entry(steps, *length, name, entry)),
+            _ => None,
+        });
+        DataModel {
+            name: name.to_owned(),
+            docs: Vec::new(),
+            derives: self.derives(borrows),
+            borrows,
+            fields,
+            code,
+            entry,
+            is_complete: None,
+        }
+    }
+
+    fn entry(&self, steps: &[Step<'_>], length: u32, owner: &str, name: &str) -> EntryModel {
+        let (fields, borrows) = self.fields(steps, "");
+        let mut code = steps::statements(steps, &fields, self.rules);
+        // Remove the check for the end of the data, because another list entry may follow.
+        code.read.pop();
+        EntryModel {
+            name: name.to_owned(),
+            title: format!("Entry of the list in {}.", links::sibling(owner)),
+            derives: self.derives(borrows),
+            length,
+            fields,
+            code,
+        }
+    }
+
+    /// Returns the fields of a struct, and whether any of them borrows from the data.
+    fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, bool) {
+        let mut fields = field::fields(self.context, steps, entry);
+        let borrows = fields.iter().any(Field::borrows);
+        // If the struct borrows, `serde` is not derived and the fields need no attribute.
+        for field in fields.iter_mut().filter(|_| !borrows) {
+            field.attribute = field.text_length().and_then(|length| self.options.octets_attribute(length));
+        }
+        (fields, borrows)
+    }
+
+    /// Returns the `derive` attributes of a struct. Structs that borrow, for example lists, support neither `serde` nor
+    /// `defmt`.
+    fn derives(&self, borrows: bool) -> Vec<String> {
+        if !borrows {
+            return self.options.derives(true);
+        }
+        let plain = RustOptions {
+            serde: super::super::Presence::Never,
+            defmt: super::super::Presence::Never,
+            ..self.options.clone()
+        };
+        plain.derives(true)
+    }
+
+    /// Returns the documentation of a message. Links are relative to `doc_module`.
+    fn documentation(&self, message: &Message, doc_module: DocModule<'_>) -> Vec<String> {
+        let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
+        let mut sentences = Vec::new();
+        docs::words(message.documentation.as_deref(), &mut sentences);
+        sentences.extend(completion::sentence(self.context, message, doc_module));
+        if !message.accepted_in.is_empty() {
+            // Only the documentation of the message links to states. The documentation of the method links to the
+            // message.
+            let state = |name: &str| match self.states.get(name).filter(|_| !doc_module.is_top()) {
+                Some(path) => doc_module.code(path),
+                None => docs::escape(name),
+            };
+            let states: Vec<String> = message.accepted_in.iter().map(|name| state(name)).collect();
+            sentences.push(format!("The device accepts the message in these states: {}.", states.join(", ")));
+        }
+        for condition in &message.accepted_when {
+            sentences.push(format!(
+                "The device accepts the message only while {}.",
+                docs::holds(condition, self.context, doc_module)
+            ));
+        }
+        sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
+        sentences.extend(message.after.iter().map(|other| {
+            let other = self.context.link(other, doc_module).unwrap_or_else(|| docs::escape(other));
+            format!("The message has this meaning only after {other} was sent.")
+        }));
+        if message.by_default {
+            sentences.push("The message also has this meaning after power-on.".to_owned());
+        }
+        let link = |id, name: &str| self.context.link_to(id, name, doc_module);
+        sentences
+            .extend(message.availability.as_ref().map(|availability| docs::linked(&link).availability(availability)));
+        sentences.extend(WORDS.manual_entry(
+            &self.context.manual,
+            "",
+            message.documentation.as_deref(),
+            &message.names,
+        ));
+        sentences.extend(message.doubts.iter().map(|doubt| WORDS.doubt(&self.context.manual, doubt)));
+        for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
+            lines.extend([String::new(), sentence]);
+        }
+        lines
+    }
+}
+
+fn completion(completion: &Completion) -> Doc {
+    let name = match completion {
+        Completion::Immediate => "Immediate",
+        Completion::Reply => "Reply",
+        Completion::Polled { .. } => "Polled",
+        Completion::Delayed(milliseconds) => return call!("rt::message::Completion::Delayed", *milliseconds),
+    };
+    seq!["rt::message::Completion::", name]
+}
+
+/// Returns the requests that can be distinguished by their bytes. If the bytes of several requests have the same form,
+/// only the first of these requests is returned.
+fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
+    let mut seen = HashSet::new();
+    let requests = messages.iter().filter_map(|message| message.request.as_ref());
+    let first = requests.filter(|request| seen.insert(&request.code.read));
+    first.map(|request| (request.name.clone(), request.borrows)).collect()
+}

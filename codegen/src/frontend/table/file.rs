@@ -1,0 +1,320 @@
+//! Reads a register table part by part.
+
+use super::at::{At, Entries};
+use super::by_name::ByName;
+use super::definitions::Definitions;
+use super::format::{DeviceTable, OptionTable};
+use super::in_use::InUse;
+use super::machine_budget::MachineBudget;
+use super::objects::Dictionary;
+use super::read::Read;
+use super::repeats::Repeats;
+use super::rows::Rows;
+use super::tree::{Node, Reader};
+use super::{
+    at, chapters, code_tables, composites, defaults, device, ethercat, format, frames, given, images, machines,
+    numbered, process, references, spaces, summary, tree, windows,
+};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Buses, Catalog, Device};
+use crate::source::{FileId, Source, Span};
+
+/// JSON Schema (draft 7) of register tables, which editors use to complete and check tables. `lexibus schema` prints it.
+pub const SCHEMA: &str = include_str!("../../../schema/table.json");
+
+/// Supported version of the format.
+const VERSION: u32 = 1;
+
+/// Keys of a table in the order in which they are read: elements come before the elements that refer to them.
+const KEYS: [&str; 25] = [
+    "lexibus",
+    "device",
+    "overlay",
+    "profile",
+    "manual",
+    "models",
+    "ethercat",
+    "options",
+    "defaults",
+    "spaces",
+    "units",
+    "given",
+    "enums",
+    "bits",
+    "chapters",
+    "axes",
+    "pdos",
+    "images",
+    "codes",
+    "machines",
+    "procedures",
+    "composites",
+    "framing",
+    "messages",
+    "frames",
+];
+
+/// Reads the device that a table describes. `chosen` contains the choices for the options of the table.
+///
+/// Returns `None` and reports an error if the table does not describe a device.
+pub fn read(
+    source: &Source,
+    file: FileId,
+    chosen: &[(String, String)],
+    diagnostics: &mut Diagnostics,
+) -> Option<Catalog> {
+    let mut reader = Reader::new(source, file, diagnostics);
+    let mut table = Table::new(&mut reader, chosen)?;
+    let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
+        let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");
+        reader.diagnostics.push(match table.node("overlay") {
+            Some(_) => found.help("pass the overlay with `--overlay`, next to the description that it changes"),
+            None => found,
+        });
+        return None;
+    };
+    let mut device = Device::default();
+    if let Some(manual) = table.take(&mut reader, "manual") {
+        device.manual = Some(device::manual(&mut reader, &manual));
+    }
+    let buses = device::head(&mut reader, &head, &mut device);
+    for model in table.list(&mut reader, "models") {
+        device::model(&mut reader, &model, &mut device);
+    }
+    if let Some(settings) = table.take(&mut reader, "ethercat") {
+        ethercat::settings(&mut reader, &settings, buses, &mut device);
+    }
+    let mut rows = table.rows(&mut reader, buses);
+    device.modbus = std::mem::take(&mut rows.modbus);
+    let mut dictionary = Dictionary::new();
+    let mut in_use = InUse::default();
+    for chapter in table.nodes(&mut reader, "chapters") {
+        device.groups.extend(chapters::chapter(&mut reader, &mut rows, &mut dictionary, &mut in_use, chapter));
+    }
+    summary::objects(&mut reader, &rows.definitions, &rows.summaries, &dictionary);
+    for item in dictionary.values().flat_map(|group| &group.items) {
+        in_use.addresses(&mut reader, item);
+    }
+    device.groups.extend(dictionary.into_values());
+    for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
+        device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
+    }
+    // Images and messages need the same state as rows, because their fields have types.
+    table.frames(&mut reader, &mut rows, &mut device);
+    rows.definitions.make_unused(&mut reader);
+    device.types = std::mem::take(&mut rows.definitions.types);
+    device.doubts.append(&mut rows.definitions.doubts);
+    table.rest(&mut reader, &mut rows, &mut device);
+    resolve(&mut reader, &rows, &device);
+    numbered::mentioned(&mut reader, &rows.numbered, &device);
+    rows.allow_of_definitions(&mut reader);
+    reader.diagnostics.allow(rows.allowed);
+    Some(Catalog { devices: vec![device], ..Catalog::default() })
+}
+
+/// Parts of a file by their top-level key.
+pub(super) struct Table<'a> {
+    pub(super) parts: Vec<(At<String>, Option<Node<'a>>)>,
+    pub(super) options: Vec<(At<String>, OptionTable)>,
+    pub(super) spaces: Vec<(At<String>, format::SpaceTable)>,
+}
+
+impl<'a> Table<'a> {
+    /// Parses a file, and replaces each option with the chosen value.
+    pub(super) fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
+        let mut parts: Vec<_> =
+            tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();
+        let known = || KEYS.into_iter().chain(["doubts"]);
+        for (key, node) in &mut parts {
+            if !known().any(|known| known == key.value) {
+                let all: Vec<&str> = known().collect();
+                reader.unknown_key(&key.value, &all, reader.span(key));
+                *node = None;
+            }
+        }
+        let mut table = Table { parts, options: Vec::new(), spaces: Vec::new() };
+        table.version(reader);
+        let mut options = Vec::new();
+        for (name, node) in table.entries(reader, "options") {
+            if let Some(option) = reader.piece::<OptionTable>(node.clone()) {
+                options.push((name, option, node));
+            }
+        }
+        let values = tree::choices(reader, &options, chosen);
+        let names: Vec<String> = options.iter().map(|(name, ..)| name.value.clone()).collect();
+        for node in table.parts.iter_mut().filter_map(|(_, node)| node.as_mut()) {
+            tree::choose(node, &values);
+            tree::undecided(reader, node, &names);
+        }
+        table.options = options.into_iter().map(|(name, option, _)| (name, option)).collect();
+        Some(table)
+    }
+
+    fn version(&mut self, reader: &mut Reader<'a, '_>) {
+        match self.take::<u32>(reader, "lexibus") {
+            Some(version) if version.value == VERSION => {}
+            Some(version) => {
+                let message =
+                    format!("version {} of the format is not supported, only version {VERSION}", version.value);
+                reader.report(&codes::TABLE_VALUE, reader.span(&version), message);
+            }
+            None => {
+                let message = "the version of the format is missing";
+                let help = "begin the file with `lexibus = 1`";
+                reader.report_with_help(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message, help);
+            }
+        }
+    }
+
+    pub(super) fn node(&mut self, key: &str) -> Option<Node<'a>> {
+        self.parts.iter_mut().find(|(name, _)| name.value == key)?.1.take()
+    }
+
+    /// Reads the table below the key `key`.
+    pub(super) fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
+        let node = self.node(key)?;
+        let (start, end) = (node.span().start as u32, node.span().end as u32);
+        Some(At { value: reader.piece(node)?, start, end })
+    }
+
+    /// Returns the elements of the array of tables below the key `key`.
+    pub(super) fn nodes(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<Node<'a>> {
+        self.node(key).map(|node| reader.elements(node, key)).unwrap_or_default()
+    }
+
+    /// Reads the elements of the array of tables below the key `key`.
+    pub(super) fn list<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
+        let nodes = self.nodes(reader, key);
+        nodes
+            .into_iter()
+            .filter_map(|node| {
+                let (start, end) = (node.span().start as u32, node.span().end as u32);
+                Some(At { value: reader.piece(node)?, start, end })
+            })
+            .collect()
+    }
+
+    /// Returns the tables below the key `key`, with their names.
+    pub(super) fn entries(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, Node<'a>)> {
+        self.node(key).map(|node| reader.entries(node, key)).unwrap_or_default()
+    }
+
+    /// Reads the tables below the key `key`, with their names.
+    pub(super) fn named<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, T)> {
+        let entries = self.entries(reader, key);
+        entries.into_iter().filter_map(|(name, node)| Some((name, reader.piece(node)?))).collect()
+    }
+
+    /// Reads the state that rows need: definitions, spaces and default values.
+    pub(super) fn rows(&mut self, reader: &mut Reader<'a, '_>, buses: Buses) -> Rows {
+        let definitions = Definitions {
+            units: ByName::new(self.named(reader, "units")),
+            enums: ByName::new(self.named(reader, "enums")),
+            bits: ByName::new(self.named(reader, "bits")),
+            ..Definitions::default()
+        };
+        let spaces: Vec<(At<String>, format::SpaceTable)> = self.named(reader, "spaces");
+        self.spaces.clone_from(&spaces);
+        let at = |(name, table): (At<String>, _)| (name.clone(), At { value: table, start: name.start, end: name.end });
+        let spaces = Entries(spaces.into_iter().map(at).collect());
+        let defaults = self.node("defaults").and_then(|node| defaults::read(reader, node));
+        Rows {
+            repeats: Repeats::new(defaults.as_ref()),
+            definitions,
+            spaces: spaces::read(reader, &spaces),
+            modbus: spaces::modbus_tables(reader, &spaces),
+            buses,
+            defaults,
+            references: windows::references(&spaces),
+            numbered: Vec::new(),
+            allowed: Vec::new(),
+            summaries: Vec::new(),
+        }
+    }
+
+    /// Reads the elements that have fields: process images and messages.
+    fn frames(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        let mut images = images::Images::new(device);
+        for image in self.list(reader, "images") {
+            images::image(reader, rows, &image, &mut images, device);
+        }
+        images.finish(device);
+        #[cfg(feature = "messages")]
+        super::messages::read(reader, self, rows, device);
+        #[cfg(not(feature = "messages"))]
+        for key in ["messages", "framing"] {
+            if self.node(key).is_some() {
+                let found = crate::frontend::without_feature("messages", "command protocols", reader.file);
+                reader.diagnostics.push(found);
+            }
+        }
+        for frame in self.list::<format::FrameTable>(reader, "frames") {
+            let end = frame.value.request.end.max(frame.value.reply.end).max(frame.end);
+            rows.allow_at(reader, (frame.start, end), &frame.value.allow);
+            frames::frame(reader, &frame, device);
+        }
+    }
+
+    /// Reads the elements that describe no items: axes, PDOs, codes, sequences.
+    fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
+            let models = axes.value.models.iter().flatten();
+            rows.references.extend(models.map(|model| (model.clone(), "model")));
+            device::axes(reader, &axes, device);
+        }
+        let mut pdos = Vec::new();
+        let targets = process::Targets::new(device);
+        for pdo in self.list::<format::PdoTable>(reader, "pdos") {
+            let end = pdo.value.entries.iter().map(|entry| entry.end).fold(pdo.end, u32::max);
+            rows.allow_at(reader, (pdo.start, end), &pdo.value.allow);
+            pdos.extend(process::pdo(reader, &pdo, &targets));
+        }
+        device.process_data.pdos.extend(pdos);
+        for (name, table) in self.named::<format::CodesTable>(reader, "codes") {
+            let models = table.rows.iter().filter_map(|(_, row)| match &row.value {
+                at::TextOr::Table(row) => row.models.as_ref(),
+                at::TextOr::Text(_) => None,
+            });
+            rows.references.extend(models.flatten().map(|model| (model.clone(), "model")));
+            let end = table.rows.iter().map(|(_, row)| row.end).fold(name.end, u32::max);
+            rows.allow_at(reader, (name.start, end), &table.allow);
+            code_tables::table(reader, &name, &table, device);
+        }
+        self.sequences(reader, rows, device);
+        for (name, option) in &self.options {
+            let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
+            let doubts = [option.doubt.as_ref(), option.doubts.as_ref()];
+            let doubts_of_option = reader.doubts(doubts, origin, cite.as_deref());
+            device.doubts.extend(tree::about(doubts_of_option, crate::ir::SubjectKind::Option, &name.value, ""));
+        }
+        for doubt in self.list::<format::DoubtTable>(reader, "doubts") {
+            let origin = reader.origin(&doubt);
+            let list = at::OneOrMany(vec![doubt.value]);
+            device.doubts.extend(reader.doubts([Some(&list), None], origin, None));
+        }
+    }
+
+    /// Reads state machines, procedures and composites.
+    fn sequences(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        let mut budget = MachineBudget::new();
+        for (name, table) in self.named(reader, "machines") {
+            if !machines::machine(reader, &name, &table, device, &mut budget, &mut rows.references) {
+                break;
+            }
+        }
+        for (name, table) in self.named::<format::ProcedureTable>(reader, "procedures") {
+            let end = table.steps.iter().map(|step| step.end).fold(name.end, u32::max);
+            rows.allow_at(reader, (name.start, end), &table.allow);
+            machines::procedure(reader, &name, &table, device, &mut rows.references);
+        }
+        for (name, table) in self.named(reader, "composites") {
+            composites::composite(reader, &name, &table, device, &mut rows.references);
+        }
+    }
+}
+
+/// Reports names without a definition, in rows and sequences.
+pub(super) fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
+    let all = rows.references.iter().chain(&rows.definitions.mentioned);
+    references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);
+}
