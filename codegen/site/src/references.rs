@@ -11,7 +11,7 @@ use lexibus_codegen::facts::mentions::Mention;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::referrers::{Referrer, Referrers};
 use lexibus_codegen::ir::owner::Owner;
-use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeDef, TypeId};
+use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeId};
 
 /// Links to the elements of a device.
 pub(super) struct Targets<'d> {
@@ -119,11 +119,11 @@ impl<'d> Targets<'d> {
     }
 
     /// Returns the relations of an item to other elements.
-    pub fn relations(&self, id: ItemId, referrers: &Referrers<'d>) -> Vec<Relation> {
+    pub fn relations(&self, id: ItemId, referrers: &Referrers) -> Vec<Relation> {
         let owner = Owner { types: &self.device.types, groups: &[self.device.groups.as_slice()] };
         let Some(item) = owner.item(id) else { return Vec::new() };
         let mut related = Related::default();
-        for referrer in referrers.of(id) {
+        for &referrer in referrers.of(id) {
             self.add(referrer, &mut related);
         }
         let images = item.bindings.iter().filter_map(|binding| match binding {
@@ -147,16 +147,13 @@ impl<'d> Targets<'d> {
         lists.into_iter().filter_map(|(title, links)| Relation::new(title, &links)).collect()
     }
 
-    fn add(&self, referrer: &Referrer<'d>, related: &mut Related) {
-        let device = self.device;
-        match *referrer {
-            Referrer::Pdo(pdo) => related.mapped.extend(at(&device.process_data.pdos, pdo, &self.pdos)),
-            Referrer::Machine(machine) => related.users.extend(at(&device.machines, machine, &self.machines)),
-            Referrer::Procedure(procedure) => {
-                related.users.extend(at(&device.procedures, procedure, &self.procedures));
-            }
-            Referrer::Message(message) => related.dependents.extend(at(&device.messages, message, &self.messages)),
-            Referrer::Type(definition) => related.dependents.extend(self.first_of_type(definition)),
+    fn add(&self, referrer: Referrer, related: &mut Related) {
+        match referrer {
+            Referrer::Pdo(at) => related.mapped.extend(self.pdos.get(at).cloned()),
+            Referrer::Machine(at) => related.users.extend(self.machines.get(at).cloned()),
+            Referrer::Procedure(id) => related.users.extend(self.procedures.get(id.0 as usize).cloned()),
+            Referrer::Message(id) => related.dependents.extend(self.messages.get(id.0 as usize).cloned()),
+            Referrer::Type(id) => related.dependents.extend(self.first_of_type(id)),
             Referrer::WritableWhen(item) => related.dependents.extend(self.item(Some(item)).cloned()),
             Referrer::Replaced(item) => related.replaced.extend(self.item(Some(item)).cloned()),
             Referrer::Related(item) => related.items.extend(self.item(Some(item)).cloned()),
@@ -165,9 +162,8 @@ impl<'d> Targets<'d> {
     }
 
     /// Returns the link to the first item with a type.
-    fn first_of_type(&self, definition: &TypeDef) -> Option<Link> {
-        let position = self.device.types.iter().position(|other| std::ptr::eq(other, definition))?;
-        let ty = Type::Named(TypeId(u32::try_from(position).ok()?));
+    fn first_of_type(&self, id: TypeId) -> Option<Link> {
+        let ty = Type::Named(id);
         let items = (0..).zip(&self.device.groups).flat_map(|(position, group)| group.items_at(position));
         items.filter(|(_, item)| item.ty == ty).find_map(|(id, _)| self.item(Some(id))).cloned()
     }
@@ -181,9 +177,4 @@ struct Related {
     dependents: Vec<Link>,
     items: Vec<Link>,
     replaced: Vec<Link>,
-}
-
-/// Returns the link of an element of a list. Each link has the position of its element.
-fn at<T>(list: &[T], element: &T, links: &[Link]) -> Option<Link> {
-    links.get(list.iter().position(|other| std::ptr::eq(other, element))?).cloned()
 }

@@ -2,25 +2,23 @@
 
 use std::collections::HashMap;
 
-use crate::ir::{
-    Composite, Condition, Device, Item, ItemId, ItemRef, Message, Pdo, Procedure, Shape, StateMachine, Step, TypeDef,
-};
+use crate::ir::{Condition, Device, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape, Step, TypeDef, TypeId};
 
-/// An element that refers to an item.
+/// An element that refers to an item. Elements without an id are given by their position in the list of the device.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Referrer<'d> {
+pub enum Referrer {
     /// A PDO that maps the item.
-    Pdo(&'d Pdo),
+    Pdo(usize),
     /// A state machine with the item as status item or control item.
-    Machine(&'d StateMachine),
+    Machine(usize),
     /// A procedure that writes the item, reads it or waits for it.
-    Procedure(&'d Procedure),
+    Procedure(ProcedureId),
     /// A message that the device accepts only for some values of the item.
-    Message(&'d Message),
+    Message(MessageId),
     /// A composite number with the item as a part.
-    Composite(&'d Composite),
+    Composite(usize),
     /// A type whose bits or values depend on the item.
-    Type(&'d TypeDef),
+    Type(TypeId),
     /// An item that can be written only for some values of this item.
     WritableWhen(ItemId),
     /// An item that this item replaces.
@@ -32,29 +30,31 @@ pub enum Referrer<'d> {
 
 /// Elements that refer to each item.
 #[derive(Debug, Default)]
-pub struct Referrers<'d>(HashMap<ItemId, Vec<Referrer<'d>>>);
+pub struct Referrers(HashMap<ItemId, Vec<Referrer>>);
 
-impl<'d> Referrers<'d> {
+impl Referrers {
     /// Collects the resolved references of a device.
-    pub fn new(device: &'d Device) -> Self {
+    pub fn new(device: &Device) -> Self {
         let mut referrers = Referrers::default();
-        for pdo in &device.process_data.pdos {
-            pdo.entries.iter().for_each(|entry| referrers.add(entry.item, Referrer::Pdo(pdo)));
+        for (at, pdo) in device.process_data.pdos.iter().enumerate() {
+            pdo.entries.iter().for_each(|entry| referrers.add(entry.item, Referrer::Pdo(at)));
         }
-        for machine in &device.machines {
-            referrers.add_all([&machine.status_item, &machine.control_item], Referrer::Machine(machine));
+        for (at, machine) in device.machines.iter().enumerate() {
+            referrers.add_all([&machine.status_item, &machine.control_item], Referrer::Machine(at));
         }
-        for procedure in &device.procedures {
+        for (id, procedure) in (0..).map(ProcedureId).zip(&device.procedures) {
             let items = procedure.steps.iter().filter_map(Step::item);
-            referrers.add_all(items, Referrer::Procedure(procedure));
+            referrers.add_all(items, Referrer::Procedure(id));
         }
-        for message in &device.messages {
-            referrers.add_all(items_of(&message.accepted_when), Referrer::Message(message));
+        for (id, message) in (0..).map(MessageId).zip(&device.messages) {
+            referrers.add_all(items_of(&message.accepted_when), Referrer::Message(id));
         }
-        for composite in &device.composites {
-            referrers.add_all(&composite.parts, Referrer::Composite(composite));
+        for (at, composite) in device.composites.iter().enumerate() {
+            referrers.add_all(&composite.parts, Referrer::Composite(at));
         }
-        device.types.iter().for_each(|definition| referrers.of_type(definition));
+        for (id, definition) in (0..).map(TypeId).zip(&device.types) {
+            referrers.of_type(id, definition);
+        }
         for (position, group) in (0..).zip(&device.groups) {
             group.items_at(position).for_each(|(id, item)| referrers.of_item(id, item));
         }
@@ -63,20 +63,20 @@ impl<'d> Referrers<'d> {
 
     /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages, composite numbers,
     /// types, and items.
-    pub fn of(&self, item: ItemId) -> &[Referrer<'d>] {
+    pub fn of(&self, item: ItemId) -> &[Referrer] {
         self.0.get(&item).map_or(&[], Vec::as_slice)
     }
 
-    fn of_type(&mut self, definition: &'d TypeDef) {
+    fn of_type(&mut self, id: TypeId, definition: &TypeDef) {
         let conditions: Vec<&Condition> = match &definition.shape {
             Shape::BitField { fields, .. } => fields.iter().filter_map(|field| field.when.as_deref()).collect(),
             Shape::Enumeration { values, .. } => values.iter().filter_map(|value| value.when.as_deref()).collect(),
             _ => return,
         };
-        self.add_all(items_of(conditions), Referrer::Type(definition));
+        self.add_all(items_of(conditions), Referrer::Type(id));
     }
 
-    fn of_item(&mut self, id: ItemId, item: &'d Item) {
+    fn of_item(&mut self, id: ItemId, item: &Item) {
         if let Some(behaviour) = &item.behaviour {
             self.add_all(items_of(&behaviour.write_when), Referrer::WritableWhen(id));
         }
@@ -86,12 +86,12 @@ impl<'d> Referrers<'d> {
         self.add_all(item.related.iter().flat_map(|related| related.all()), Referrer::Related(id));
     }
 
-    fn add_all(&mut self, items: impl IntoIterator<Item = &'d ItemRef>, referrer: Referrer<'d>) {
+    fn add_all<'d>(&mut self, items: impl IntoIterator<Item = &'d ItemRef>, referrer: Referrer) {
         items.into_iter().for_each(|item| self.add(item.id, referrer));
     }
 
     /// Adds a referrer, unless it is the last one that was added to the item.
-    fn add(&mut self, item: Option<ItemId>, referrer: Referrer<'d>) {
+    fn add(&mut self, item: Option<ItemId>, referrer: Referrer) {
         let Some(item) = item else { return };
         let referrers = self.0.entry(item).or_default();
         if referrers.last() != Some(&referrer) {
@@ -107,7 +107,7 @@ fn items_of<'d>(conditions: impl IntoIterator<Item = &'d Condition>) -> impl Ite
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Binding, Direction, Group, ObjectCode, PdoEntry, RelatedItems};
+    use crate::ir::{Binding, Direction, Group, ObjectCode, Pdo, PdoEntry, RelatedItems};
 
     #[test]
     fn each_referrer_is_listed_once() {
@@ -125,7 +125,7 @@ mod tests {
         let mut device = Device { groups: vec![speed, limit], ..Device::default() };
         device.process_data.pdos.push(pdo);
         let referrers = Referrers::new(&device);
-        let expected = [Referrer::Pdo(&device.process_data.pdos[0]), Referrer::Related(ItemId { group: 1, item: 0 })];
+        let expected = [Referrer::Pdo(0), Referrer::Related(ItemId { group: 1, item: 0 })];
         assert_eq!(referrers.of(id), expected);
         assert_eq!(referrers.of(ItemId { group: 1, item: 0 }), []);
     }
