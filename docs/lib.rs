@@ -92,4 +92,6 @@ mod chapters {
     mod architecture {}
     #[doc = include_str!("src/front-end.md")]
     mod front_end {}
+    #[doc = include_str!("src/back-end.md")]
+    mod back_end {}
 }
