@@ -42,13 +42,13 @@ pub trait Named: Enumeration {
     const NAMES: &'static [(Self, &'static str)];
 }
 
-/// The text is neither the name of a value nor an integer that the type can represent.
+/// The text is neither the name of a value nor an integer that the type can represent. States and commands have names only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UnknownName;
 
 impl fmt::Display for UnknownName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("neither the name of a value nor an integer of the type")
+        f.write_str("the text is not a value of this type")
     }
 }
 
@@ -70,6 +70,17 @@ where
     }
 }
 
+/// Returns the value with this name, ignoring case. Generated states and commands call this function. If several values have the
+/// name, the function returns the first.
+///
+/// # Errors
+///
+/// Returns [`UnknownName`] if no value has the name.
+pub fn find_name<T: Copy>(names: &[(T, &str)], text: &str) -> Result<T, UnknownName> {
+    let found = names.iter().find(|(_, name)| !name.is_empty() && name.eq_ignore_ascii_case(text));
+    found.map(|(value, _)| *value).ok_or(UnknownName)
+}
+
 /// Returns the value with this name, ignoring case, or the value for an integer in decimal. Generated code calls this
 /// function. If several values have the name, the function returns the first.
 ///
@@ -80,8 +91,8 @@ pub fn parse_name<E: Named>(text: &str) -> Result<E, UnknownName>
 where
     <E::Base as Value>::Native: PartialEq + FromStr,
 {
-    if let Some((value, _)) = E::NAMES.iter().find(|(_, name)| !name.is_empty() && name.eq_ignore_ascii_case(text)) {
-        return Ok(*value);
+    if let Ok(value) = find_name(E::NAMES, text) {
+        return Ok(value);
     }
     let raw = text.parse().map_err(|_| UnknownName)?;
     // An enumeration without the variant `Unknown` ignores the bits beyond its width.

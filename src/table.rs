@@ -23,6 +23,8 @@ pub struct Entry {
     pub flags: Flags,
     /// Initial value after power-on.
     pub initial: RawInitial,
+    /// Value that the configuration file (DCF or XDC) sets. `None` if it sets none, or if the device is not described by such a file.
+    pub configured: Option<RawInitial>,
     /// Minimum of the values that can be written.
     pub low: Bound,
     /// Maximum of the values that can be written.
@@ -44,14 +46,14 @@ pub enum AccessRights {
     Constant,
 }
 
-/// Initial value after power-on, encoded as on the device.
+/// Initial value after power-on, or configured value, encoded as on the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RawInitial {
-    /// The initial value is not in the device description.
+    /// The description has no value of the data type.
     Unknown,
     /// Bytes of a fixed value.
     Bytes(&'static [u8]),
-    /// The initial value is the sum of the node-ID and this number.
+    /// The value is the sum of the node-ID and this number.
     NodeId(u64),
 }
 
@@ -90,6 +92,7 @@ mod tests {
             access: AccessRights::ReadOnly,
             flags: Flags::NONE,
             initial: RawInitial::Unknown,
+            configured: None,
             low: Bound::Unlimited,
             high: Bound::Unsigned(9),
             unit: "",

@@ -780,3 +780,17 @@ fn a_generated_drive_with_scaled_values() {
     drive.cia402().wait_reached(DEADLINE).unwrap();
     assert_eq!(drive.velocity_actual_value().read(), Ok(-40));
 }
+
+#[test]
+fn states_and_commands_have_the_names_of_the_description() {
+    use demo_drive::types::{Command, State};
+    assert_eq!(State::SwitchOnDisabled.to_string(), "switch on disabled");
+    assert_eq!(format!("{:>17}", Command::FaultReset), "      fault reset");
+    for (state, name) in State::NAMES {
+        assert_eq!((name.parse(), state.to_string().as_str()), (Ok(*state), *name));
+    }
+    for (command, name) in Command::NAMES {
+        assert_eq!((name.to_uppercase().parse(), command.to_string().as_str()), (Ok(*command), *name));
+    }
+    assert_eq!("on".parse::<State>().unwrap_err().to_string(), "the text is not a value of this type");
+}

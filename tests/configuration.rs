@@ -3,7 +3,7 @@
 use lexibus::clients::canopen::Node;
 use lexibus::configuration::{Phase, Progress};
 use lexibus::sim::{CanNode, Device, Fault};
-use lexibus::{AbortCode, CanOpen, Configuration, Error, NodeId, SdoWrite};
+use lexibus::{AbortCode, CanOpen, Configuration, Error, NodeId, RawInitial, SdoWrite};
 
 lexibus::dictionary! {
     /// The conveyor of a case of the compiler.
@@ -125,4 +125,23 @@ fn concise_dcf() {
     }
     assert!(rest.is_empty());
     assert_eq!(CONFIGURATION.verify(&mut client, NODE, &mut [0; 32], |difference| panic!("{difference}")), Ok(0));
+}
+
+#[test]
+fn the_static_table_has_the_configured_values() {
+    let mut count = 0;
+    for entry in conveyor::ENTRIES {
+        let (Some(object), Some(configured)) = (entry.object, entry.configured) else { continue };
+        let Some(write) = CONFIGURATION.of(object, NODE) else { continue };
+        let expected = match configured {
+            RawInitial::Bytes(bytes) => bytes.to_vec(),
+            RawInitial::NodeId(offset) => (offset + u64::from(NODE.get())).to_le_bytes()[..write.data().len()].to_vec(),
+            RawInitial::Unknown => panic!("the value of {object:?} is unknown"),
+        };
+        assert_eq!(write.data(), expected, "{object:?}");
+        count += 1;
+    }
+    assert!(count > 10, "{count}");
+    let device_type = lexibus::table::find(conveyor::ENTRIES, 0x1000, 0).unwrap();
+    assert_eq!(device_type.configured, None);
 }

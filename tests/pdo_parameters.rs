@@ -212,6 +212,7 @@ const fn entry(index: u16, sub_index: u8, data_type: DataType, initial: &'static
     Entry {
         object: Some(Object::new(index, sub_index)),
         initial: RawInitial::Bytes(initial),
+        configured: None,
         ..entry::entry(index, data_type)
     }
 }

@@ -440,6 +440,7 @@ const BLANK: Entry = Entry {
     access: AccessRights::ReadWrite,
     flags: Flags::NONE,
     initial: lexibus::RawInitial::Unknown,
+    configured: None,
     low: Bound::Unlimited,
     high: Bound::Unlimited,
     unit: "",

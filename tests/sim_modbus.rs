@@ -22,6 +22,7 @@ const fn entry(register: Register, data_type: DataType, access: AccessRights, lo
         access,
         flags: Flags::NONE,
         initial: RawInitial::Unknown,
+        configured: None,
         low,
         high,
         unit: "",

@@ -3997,6 +3997,27 @@ pub mod types {
         Operational,
     }
     impl AlState {
+        /// All states with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Init, "init"),
+            (Self::PreOperational, "pre operational"),
+            (Self::Bootstrap, "bootstrap"),
+            (Self::SafeOperational, "safe operational"),
+            (Self::Operational, "operational"),
+        ];
+    }
+    impl core::fmt::Display for AlState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for AlState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
+    }
+    impl AlState {
         /// Returns the state that these bits encode, or `None` if the bits match no state.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0xF == 0x1 {
@@ -4114,13 +4135,7 @@ pub mod types {
             self as u8
         }
         fn name(self) -> &'static str {
-            match self {
-                Self::Init => "init",
-                Self::PreOperational => "pre operational",
-                Self::Bootstrap => "bootstrap",
-                Self::SafeOperational => "safe operational",
-                Self::Operational => "operational",
-            }
+            Self::NAMES[self as usize].1
         }
         fn pattern(command: AlCommand) -> (u32, u32) {
             (command.mask() as u32, command.value() as u32)
@@ -4169,6 +4184,27 @@ pub mod types {
         RequestSafeOperational,
         /// request operational: `xxxx xxxx xxxx 1000`.
         RequestOperational,
+    }
+    impl AlCommand {
+        /// All commands with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::RequestInit, "request init"),
+            (Self::RequestPreOperational, "request pre operational"),
+            (Self::RequestBootstrap, "request bootstrap"),
+            (Self::RequestSafeOperational, "request safe operational"),
+            (Self::RequestOperational, "request operational"),
+        ];
+    }
+    impl core::fmt::Display for AlCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for AlCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
     }
     impl AlCommand {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
@@ -4268,6 +4304,30 @@ pub mod types {
         FaultReactionActive,
         /// quick stop active: `xxxx xxxx x00x 0111`. The drive stops with the quick-stop ramp.
         QuickStopActive,
+    }
+    impl DriveState {
+        /// All states with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotReadyToSwitchOn, "not ready to switch on"),
+            (Self::SwitchOnDisabled, "switch on disabled"),
+            (Self::ReadyToSwitchOn, "ready to switch on"),
+            (Self::SwitchedOn, "switched on"),
+            (Self::OperationEnabled, "operation enabled"),
+            (Self::Fault, "fault"),
+            (Self::FaultReactionActive, "fault reaction active"),
+            (Self::QuickStopActive, "quick stop active"),
+        ];
+    }
+    impl core::fmt::Display for DriveState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for DriveState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
     }
     impl DriveState {
         /// Returns the state that these bits encode, or `None` if the bits match no state.
@@ -4433,16 +4493,7 @@ pub mod types {
             self as u8
         }
         fn name(self) -> &'static str {
-            match self {
-                Self::NotReadyToSwitchOn => "not ready to switch on",
-                Self::SwitchOnDisabled => "switch on disabled",
-                Self::ReadyToSwitchOn => "ready to switch on",
-                Self::SwitchedOn => "switched on",
-                Self::OperationEnabled => "operation enabled",
-                Self::Fault => "fault",
-                Self::FaultReactionActive => "fault reaction active",
-                Self::QuickStopActive => "quick stop active",
-            }
+            Self::NAMES[self as usize].1
         }
         fn pattern(command: DriveCommand) -> (u32, u32) {
             (command.mask() as u32, command.value() as u32)
@@ -4512,6 +4563,29 @@ pub mod types {
         EnableOperation,
         /// fault reset: `xxxx xxxx 1xxx xxxx`. A rising edge of bit 7 resets the fault.
         FaultReset,
+    }
+    impl DriveCommand {
+        /// All commands with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Shutdown, "shutdown"),
+            (Self::SwitchOn, "switch on"),
+            (Self::DisableVoltage, "disable voltage"),
+            (Self::QuickStop, "quick stop"),
+            (Self::DisableOperation, "disable operation"),
+            (Self::EnableOperation, "enable operation"),
+            (Self::FaultReset, "fault reset"),
+        ];
+    }
+    impl core::fmt::Display for DriveCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for DriveCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
     }
     impl DriveCommand {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
@@ -9883,6 +9957,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -9895,6 +9970,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9907,6 +9983,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9919,6 +9996,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9931,6 +10009,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9943,6 +10022,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -9955,6 +10035,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9967,6 +10048,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9979,6 +10061,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -9991,6 +10074,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10003,6 +10087,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10015,6 +10100,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10027,6 +10113,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10039,6 +10126,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10051,6 +10139,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10063,6 +10152,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10075,6 +10165,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10087,6 +10178,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10099,6 +10191,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10111,6 +10204,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10123,6 +10217,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10135,6 +10230,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10147,6 +10243,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10159,6 +10256,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10171,6 +10269,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10183,6 +10282,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10195,6 +10295,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10207,6 +10308,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10219,6 +10321,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10231,6 +10334,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10243,6 +10347,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10255,6 +10360,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10267,6 +10373,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10279,6 +10386,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10291,6 +10399,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10303,6 +10412,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10315,6 +10425,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10327,6 +10438,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10339,6 +10451,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10351,6 +10464,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10363,6 +10477,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10375,6 +10490,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01\x17"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10387,6 +10503,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10399,6 +10516,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10411,6 +10529,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10423,6 +10542,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(4),
         unit: "",
@@ -10435,6 +10555,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01\x1b"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10447,6 +10568,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10459,6 +10581,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10471,6 +10594,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10483,6 +10607,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10495,6 +10620,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10507,6 +10633,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10519,6 +10646,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10531,6 +10659,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10543,6 +10672,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10555,6 +10685,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10567,6 +10698,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10579,6 +10711,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10591,6 +10724,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10603,6 +10737,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10615,6 +10750,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10627,6 +10763,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10639,6 +10776,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "s",
@@ -10651,6 +10789,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10663,6 +10802,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10675,6 +10815,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10687,6 +10828,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -10699,6 +10841,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",

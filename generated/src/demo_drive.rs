@@ -2478,6 +2478,30 @@ pub mod types {
         Fault,
     }
     impl State {
+        /// All states with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotReadyToSwitchOn, "not ready to switch on"),
+            (Self::SwitchOnDisabled, "switch on disabled"),
+            (Self::ReadyToSwitchOn, "ready to switch on"),
+            (Self::SwitchedOn, "switched on"),
+            (Self::OperationEnabled, "operation enabled"),
+            (Self::QuickStopActive, "quick stop active"),
+            (Self::FaultReactionActive, "fault reaction active"),
+            (Self::Fault, "fault"),
+        ];
+    }
+    impl core::fmt::Display for State {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for State {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
+    }
+    impl State {
         /// Returns the state that these bits encode, or `None` if the bits match no state.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
@@ -2631,16 +2655,7 @@ pub mod types {
             self as u8
         }
         fn name(self) -> &'static str {
-            match self {
-                Self::NotReadyToSwitchOn => "not ready to switch on",
-                Self::SwitchOnDisabled => "switch on disabled",
-                Self::ReadyToSwitchOn => "ready to switch on",
-                Self::SwitchedOn => "switched on",
-                Self::OperationEnabled => "operation enabled",
-                Self::QuickStopActive => "quick stop active",
-                Self::FaultReactionActive => "fault reaction active",
-                Self::Fault => "fault",
-            }
+            Self::NAMES[self as usize].1
         }
         fn pattern(command: Command) -> (u32, u32) {
             (command.mask() as u32, command.value() as u32)
@@ -2696,6 +2711,29 @@ pub mod types {
         DisableOperation,
         /// fault reset: `xxxx xxxx 1xxx xxxx`.
         FaultReset,
+    }
+    impl Command {
+        /// All commands with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Shutdown, "shutdown"),
+            (Self::SwitchOn, "switch on"),
+            (Self::EnableOperation, "enable operation"),
+            (Self::DisableVoltage, "disable voltage"),
+            (Self::QuickStop, "quick stop"),
+            (Self::DisableOperation, "disable operation"),
+            (Self::FaultReset, "fault reset"),
+        ];
+    }
+    impl core::fmt::Display for Command {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for Command {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
     }
     impl Command {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
@@ -5003,6 +5041,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x92\x01\x02\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5015,6 +5054,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Bytes(b"\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5027,6 +5067,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x04"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5039,6 +5080,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5051,6 +5093,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5063,6 +5106,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5075,6 +5119,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5087,6 +5132,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x80\x00\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5101,6 +5147,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         initial: rt::table::RawInitial::Bytes(
             b"\x44\x65\x6d\x6f\x20\x44\x72\x69\x76\x65",
         ),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5113,6 +5160,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::Constant,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x31\x2e\x30"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5125,6 +5173,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5137,6 +5186,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01\x00\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5149,6 +5199,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::NodeId(0x80),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5161,6 +5212,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "ms",
@@ -5173,6 +5225,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x04"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5185,6 +5238,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x00\x00\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5197,6 +5251,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x21\x40\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5209,6 +5264,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x00\x00\x01\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5221,6 +5277,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5233,6 +5290,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5245,6 +5303,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::NodeId(0x200),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5257,6 +5316,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\xff"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5269,6 +5329,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5281,6 +5342,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::NodeId(0x300),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5293,6 +5355,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5305,6 +5368,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5317,6 +5381,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x10\x00\x40\x60"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5329,6 +5394,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5341,6 +5407,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x10\x00\x40\x60"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5353,6 +5420,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x20\x00\x7a\x60"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5365,6 +5433,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5377,6 +5446,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::NodeId(0x180),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5389,6 +5459,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\xff"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5401,6 +5472,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5413,6 +5485,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::NodeId(0x280),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5425,6 +5498,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5437,6 +5511,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x01"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5449,6 +5524,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x10\x00\x41\x60"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5461,6 +5537,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5473,6 +5550,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x10\x00\x41\x60"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5485,6 +5563,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x20\x00\x64\x60"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5497,6 +5576,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5509,6 +5589,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x61\x78\x69\x73"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5521,6 +5602,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::WriteOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5533,6 +5615,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5545,6 +5628,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5557,6 +5641,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5569,6 +5654,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5581,6 +5667,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::RPDO,
         initial: rt::table::RawInitial::Bytes(b"\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5593,6 +5680,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5605,6 +5693,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::PDO,
         initial: rt::table::RawInitial::Bytes(b"\x01"),
+        configured: None,
         low: rt::table::Bound::Signed(-128),
         high: rt::table::Bound::Signed(8),
         unit: "",
@@ -5617,6 +5706,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5629,6 +5719,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::TPDO,
         initial: rt::table::RawInitial::Unknown,
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5641,6 +5732,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::PDO,
         initial: rt::table::RawInitial::Bytes(b"\x00\x00\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Signed(-1000000),
         high: rt::table::Bound::Signed(1000000),
         unit: "",
@@ -5653,6 +5745,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadOnly,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x02"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5665,6 +5758,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\xc0\xbd\xf0\xff"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5677,6 +5771,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x40\x42\x0f\x00"),
+        configured: None,
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
         unit: "",
@@ -5689,6 +5784,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::PDO,
         initial: rt::table::RawInitial::Bytes(b"\xe8\x03\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unsigned(0),
         high: rt::table::Bound::Unsigned(500000),
         unit: "",
@@ -5701,6 +5797,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         access: rt::AccessRights::ReadWrite,
         flags: rt::Flags::NONE,
         initial: rt::table::RawInitial::Bytes(b"\x10\x27\x00\x00"),
+        configured: None,
         low: rt::table::Bound::Unsigned(1),
         high: rt::table::Bound::Unsigned(10000000),
         unit: "",

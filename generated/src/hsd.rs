@@ -9735,6 +9735,32 @@ pub mod types {
         Unused010,
     }
     impl InterpolationState {
+        /// All states with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::DefaultPacket, "default packet"),
+            (Self::SinglePacket, "single packet"),
+            (Self::FirstOfSeveralPackets, "first of several packets"),
+            (Self::NextOfSeveralPackets, "next of several packets"),
+            (Self::LastOfSeveralPackets, "last of several packets"),
+            (Self::InterpolatingSwitchHigh, "interpolating, switch high"),
+            (Self::InterpolatingSwitchLow, "interpolating, switch low"),
+            (Self::Latched, "latched"),
+            (Self::Unused000, "unused 000"),
+            (Self::Unused010, "unused 010"),
+        ];
+    }
+    impl core::fmt::Display for InterpolationState {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for InterpolationState {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
+    }
+    impl InterpolationState {
         /// Returns the state that these bits encode, or `None` if the bits match no state.
         pub const fn from_raw(raw: u8) -> Option<Self> {
             if raw & 0xF0 == 0xC0 {
@@ -9823,6 +9849,30 @@ pub mod types {
         Latch,
         /// unused: `010x xxxx`.
         Unused,
+    }
+    impl InterpolationCommand {
+        /// All commands with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::EmptyPacket, "empty packet"),
+            (Self::SinglePacket, "single packet"),
+            (Self::FirstOfSeveralPackets, "first of several packets"),
+            (Self::NextOfSeveralPackets, "next of several packets"),
+            (Self::LastOfSeveralPackets, "last of several packets"),
+            (Self::SetPoint, "set-point"),
+            (Self::Latch, "latch"),
+            (Self::Unused, "unused"),
+        ];
+    }
+    impl core::fmt::Display for InterpolationCommand {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for InterpolationCommand {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
     }
     impl InterpolationCommand {
         /// Returns the command that these bits encode, or `None` if the bits match no command.

@@ -149,6 +149,7 @@ mod tests {
         access: AccessRights::ReadWrite,
         flags: Flags::NONE,
         initial: RawInitial::Unknown,
+        configured: None,
         low: Bound::Signed(-2),
         high: Bound::Signed(300),
         unit: "",

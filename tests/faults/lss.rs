@@ -23,6 +23,7 @@ const ENTRIES: &[Entry] = &[Entry {
     access: AccessRights::ReadOnly,
     flags: Flags::NONE,
     initial: RawInitial::Bytes(&[0; 4]),
+    configured: None,
     low: Bound::Unlimited,
     high: Bound::Unlimited,
     unit: "",

@@ -13,6 +13,7 @@ pub const fn entry(index: u16, data_type: DataType) -> Entry {
         access: AccessRights::ReadWrite,
         flags: Flags::PDO,
         initial: RawInitial::Unknown,
+        configured: None,
         low: Bound::Unlimited,
         high: Bound::Unlimited,
         unit: "",

@@ -1229,6 +1229,30 @@ pub mod types {
         Fault,
     }
     impl State {
+        /// All states with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::NotReadyToSwitchOn, "not ready to switch on"),
+            (Self::SwitchOnDisabled, "switch on disabled"),
+            (Self::ReadyToSwitchOn, "ready to switch on"),
+            (Self::SwitchedOn, "switched on"),
+            (Self::OperationEnabled, "operation enabled"),
+            (Self::QuickStopActive, "quick stop active"),
+            (Self::FaultReactionActive, "fault reaction active"),
+            (Self::Fault, "fault"),
+        ];
+    }
+    impl core::fmt::Display for State {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for State {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
+    }
+    impl State {
         /// Returns the state that these bits encode, or `None` if the bits match no state.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
@@ -1382,16 +1406,7 @@ pub mod types {
             self as u8
         }
         fn name(self) -> &'static str {
-            match self {
-                Self::NotReadyToSwitchOn => "not ready to switch on",
-                Self::SwitchOnDisabled => "switch on disabled",
-                Self::ReadyToSwitchOn => "ready to switch on",
-                Self::SwitchedOn => "switched on",
-                Self::OperationEnabled => "operation enabled",
-                Self::QuickStopActive => "quick stop active",
-                Self::FaultReactionActive => "fault reaction active",
-                Self::Fault => "fault",
-            }
+            Self::NAMES[self as usize].1
         }
         fn pattern(command: Command) -> (u32, u32) {
             (command.mask() as u32, command.value() as u32)
@@ -1447,6 +1462,29 @@ pub mod types {
         DisableOperation,
         /// fault reset: `xxxx xxxx 1xxx xxxx`.
         FaultReset,
+    }
+    impl Command {
+        /// All commands with their names in the description, in the order of the variants.
+        pub const NAMES: &'static [(Self, &'static str)] = &[
+            (Self::Shutdown, "shutdown"),
+            (Self::SwitchOn, "switch on"),
+            (Self::EnableOperation, "enable operation"),
+            (Self::DisableVoltage, "disable voltage"),
+            (Self::QuickStop, "quick stop"),
+            (Self::DisableOperation, "disable operation"),
+            (Self::FaultReset, "fault reset"),
+        ];
+    }
+    impl core::fmt::Display for Command {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.pad(Self::NAMES[*self as usize].1)
+        }
+    }
+    impl core::str::FromStr for Command {
+        type Err = rt::UnknownName;
+        fn from_str(text: &str) -> Result<Self, rt::UnknownName> {
+            rt::find_name(Self::NAMES, text)
+        }
     }
     impl Command {
         /// Returns the command that these bits encode, or `None` if the bits match no command.

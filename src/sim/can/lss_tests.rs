@@ -18,6 +18,7 @@ const fn part(sub_index: u8, initial: &'static [u8]) -> Entry {
         access: AccessRights::ReadOnly,
         flags: Flags::NONE,
         initial: RawInitial::Bytes(initial),
+        configured: None,
         low: Bound::Unlimited,
         high: Bound::Unlimited,
         unit: "",

@@ -23,6 +23,7 @@ const fn entry(index: u16, sub_index: u8, data_type: DataType, initial: &'static
         access: AccessRights::ReadWrite,
         flags: Flags::PDO,
         initial: RawInitial::Bytes(initial),
+        configured: None,
         low: Bound::Unlimited,
         high: Bound::Unlimited,
         unit: "",

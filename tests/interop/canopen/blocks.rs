@@ -25,6 +25,7 @@ const fn domain(object: Object, access: AccessRights) -> Entry {
         access,
         flags: Flags::NONE,
         initial: RawInitial::Unknown,
+        configured: None,
         low: Bound::Unlimited,
         high: Bound::Unlimited,
         unit: "",

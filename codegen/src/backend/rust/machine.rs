@@ -54,6 +54,8 @@ pub(super) struct PatternsModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
+    /// Condition for `Display` and `FromStr`. `None` if the options do not request them.
+    pub texts: Option<Vec<String>>,
     /// Primitive integer that holds the bits.
     pub native: &'static str,
     pub patterns: Vec<PatternModel>,
@@ -356,6 +358,7 @@ fn patterns(
         name: name.to_owned(),
         docs: Vec::new(),
         derives: options.derives_of_integers(),
+        texts: RustOptions::gate(&options.debug),
         native,
         bits: bits.map(|model| (model.name.clone(), methods.map(str::to_owned))),
     })

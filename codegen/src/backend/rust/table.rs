@@ -21,6 +21,8 @@ pub(super) struct EntryModel {
     pub access: &'static str,
     pub flags: &'static str,
     pub initial: Doc,
+    /// Value that the description configures.
+    pub configured: Option<Doc>,
     pub low: String,
     pub high: String,
     pub unit: String,
@@ -103,7 +105,8 @@ fn entry(
             _ => "ReadWrite",
         },
         flags: flags(item),
-        initial: raw_initial(item, base, ty),
+        initial: raw_value(item.default.as_ref(), base, ty),
+        configured: item.configured_value().map(|value| raw_value(Some(value), base, ty)),
         low: bound(limits.low.as_ref(), base),
         high: bound(limits.high.as_ref(), base),
         unit: literal::string(unit),
@@ -143,16 +146,13 @@ fn data_type(ty: Type) -> String {
     name.to_owned()
 }
 
-/// Returns the default value as the bytes of an SDO upload.
-fn raw_initial(item: &Item, base: Type, ty: ValueType) -> Doc {
-    let formula = item.default.as_ref().and_then(|value| ty.formula(value));
+/// Returns a default value or configured value as the bytes of an SDO upload.
+fn raw_value(value: Option<&Value>, base: Type, ty: ValueType) -> Doc {
+    let formula = value.and_then(|value| ty.formula(value));
     if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {
         return Doc::from(format!("rt::table::RawInitial::NodeId({offset:#x})"));
     }
-    let bytes = match item.default.as_ref() {
-        Some(value) if ty.literal(value).is_some() => encoding::bytes(value, base),
-        _ => None,
-    };
+    let bytes = value.filter(|value| ty.literal(value).is_some()).and_then(|value| encoding::bytes(value, base));
     match bytes {
         Some(bytes) => call!("rt::table::RawInitial::Bytes", literal::bytes(&bytes)),
         None => Doc::from("rt::table::RawInitial::Unknown"),

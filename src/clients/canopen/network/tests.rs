@@ -29,6 +29,7 @@ const fn entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
         access: AccessRights::ReadWrite,
         flags: Flags::NONE,
         initial: RawInitial::Unknown,
+        configured: None,
         low: Bound::Unlimited,
         high: Bound::Unlimited,
         unit: "",

@@ -35,6 +35,8 @@ fn entry(code: &mut Code, entry: &EntryModel) {
     line!(code, "access: rt::AccessRights::", entry.access, ",");
     line!(code, "flags: ", entry.flags, ",");
     line!(code, "initial: ", entry.initial, ",");
+    let configured = entry.configured.as_ref().map_or(Doc::from("None"), |value| call!("Some", value.clone()));
+    line!(code, "configured: ", configured, ",");
     line!(code, "low: ", entry.low, ",");
     line!(code, "high: ", entry.high, ",");
     line!(code, "unit: ", entry.unit, ",");

@@ -116,11 +116,15 @@ fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     line!(code, "const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
     code.close("}");
     bit_field::format(code, gate, "Display", name, call!("rt::display_name", "*self", "f"));
+    from_str(code, gate, name, call!("rt::parse_name", "text"));
+}
+
+fn from_str(code: &mut Code, gate: &[String], name: &str, body: Doc) {
     code.lines(gate);
     open!(code, "impl core::str::FromStr for ", name, " {");
     line!(code, "type Err = rt::UnknownName;");
     open!(code, "fn from_str(text: &str) -> Result<Self, rt::UnknownName> {");
-    line!(code, "rt::parse_name(text)");
+    line!(code, body);
     code.close("}");
     code.close("}");
 }
@@ -194,11 +198,7 @@ fn machine_state(
     line!(code, "self as u8");
     code.close("}");
     open!(code, "fn name(self) -> &'static str {");
-    open!(code, "match self {");
-    for pattern in &states.patterns {
-        line!(code, "Self::", pattern.name, " => ", literal::string(&pattern.title), ",");
-    }
-    code.close("}");
+    line!(code, "Self::NAMES[self as usize].1");
     code.close("}");
     open!(code, "fn pattern(command: ", commands.name, ") -> (u32, u32) {");
     let cast = cast(commands.native, "u32");
@@ -207,19 +207,33 @@ fn machine_state(
     code.close("}");
 }
 
-fn patterns(code: &mut Code, patterns: &PatternsModel) {
+/// Writes the type of states or commands, and its names. `noun` is `states` or `commands`.
+fn patterns(code: &mut Code, patterns: &PatternsModel, noun: &str) {
+    let name = &patterns.name;
     code.docs(&patterns.docs);
     code.lines(&patterns.derives);
-    open!(code, "pub enum ", patterns.name, " {");
+    open!(code, "pub enum ", name, " {");
     for pattern in &patterns.patterns {
         code.doc(&pattern.docs);
         line!(code, pattern.name, ",");
     }
     code.close("}");
+    open!(code, "impl ", name, " {");
+    code.doc(&format!("All {noun} with their names in the description, in the order of the variants."));
+    let named = |pattern: &PatternModel| {
+        list("(", &[seq!["Self::", pattern.name], literal::string(&pattern.title).into()], ")")
+    };
+    let names: Vec<Doc> = patterns.patterns.iter().map(named).collect();
+    line!(code, "pub const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
+    code.close("}");
+    if let Some(gate) = &patterns.texts {
+        bit_field::format(code, gate, "Display", name, call!("f.pad", "Self::NAMES[*self as usize].1"));
+        from_str(code, gate, name, call!("rt::find_name", "Self::NAMES", "text"));
+    }
 }
 
 fn states(code: &mut Code, patterns: &PatternsModel) {
-    self::patterns(code, patterns);
+    self::patterns(code, patterns, "states");
     open!(code, "impl ", patterns.name, " {");
     code.doc("Returns the state that these bits encode, or `None` if the bits match no state.");
     decoder(code, patterns, patterns.patterns.iter());
@@ -271,7 +285,7 @@ fn arms(code: &mut Code, patterns: &PatternsModel, function: &str, number: impl 
 }
 
 fn commands(code: &mut Code, patterns: &PatternsModel) {
-    self::patterns(code, patterns);
+    self::patterns(code, patterns, "commands");
     open!(code, "impl ", patterns.name, " {");
     code.doc("Returns the command that these bits encode, or `None` if the bits match no command.");
     code.doc("");
