@@ -185,7 +185,7 @@ mod tests {
         "../codegen/tests/quirks_eds/everything.dcf",
     ];
 
-    /// The test `cli/tests/cli.rs` compares the output of the command line with the output of the build script.
+    /// The test `cli/tests/cli` compares the output of the command line with the output of the build script.
     #[test]
     fn the_macro_and_the_build_script_give_the_same_bytes() {
         for path in DICTIONARIES {
