@@ -44,6 +44,7 @@
 //! - Modbus: [`Device::read_words`] and related methods handle requests. A Modbus server can call these methods.
 //! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus, and a `CanBus` is a bus with
 //!   several nodes. The CANopen clients of this crate can use both.
+//! - Faults of the bus: a `FaultyCan` delays, loses, repeats or changes frames, and simulates bus-off and restarts.
 //! - Further axes: [`Device::with_axes`] adds further axes.
 //! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
 //! - Time: [`Device::step`] advances the simulated time.
@@ -62,6 +63,7 @@ mod device;
 mod drive;
 mod emergency;
 mod fault;
+mod faults;
 mod item_address;
 mod limits;
 mod modbus;
@@ -73,7 +75,7 @@ mod time;
 mod values;
 
 #[cfg(feature = "canopen")]
-pub use can::{CanBus, CanNode};
+pub use can::{CanBus, CanError, CanFault, CanNode, FaultyCan, SimulatedCan};
 pub use client::Connection;
 pub use device::{Device, DeviceAxis};
 pub use fault::{Exception, Fault};

@@ -58,8 +58,9 @@ fn matrix() {
         assert!(row.time <= 2 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.time);
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
-    // The table has one row for each client (SDO, LSS, node guarding, boot and serial) with each of six faults, blocking and asynchronous, and
-    // the rows for Modbus. The client for EtherCAT is only asynchronous, and has one more fault.
+    // The table has rows for each client with each fault, blocking and asynchronous: LSS and boot with nine faults, SDO and
+    // node guarding with the wrong toggle bit as well, and serial with six. The client for EtherCAT is only asynchronous,
+    // and has seven faults.
     let ethercat = if cfg!(all(feature = "ethercat", feature = "macros")) { 7 } else { 0 };
-    assert_eq!(rows.len(), 5 * 6 * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
+    assert_eq!(rows.len(), (2 * 9 + 2 * 10 + 6) * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
 }
