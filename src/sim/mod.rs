@@ -45,6 +45,7 @@
 //! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus, and a `CanBus` is a bus with
 //!   several nodes. The CANopen clients of this crate can use both.
 //! - Faults of the bus: a `FaultyCan` delays, loses, repeats or changes frames, and simulates bus-off and restarts.
+//!   A [`FaultyStream`] does the same with the messages on a byte stream, for Modbus and serial protocols.
 //! - Further axes: [`Device::with_axes`] adds further axes.
 //! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
 //! - Time: [`Device::step`] advances the simulated time.
@@ -71,6 +72,9 @@ mod parameters;
 mod process;
 mod slots;
 mod store;
+mod stream;
+#[cfg(feature = "modbus")]
+mod stream_async;
 mod time;
 mod values;
 
@@ -80,3 +84,4 @@ pub use client::Connection;
 pub use device::{Device, DeviceAxis};
 pub use fault::{Exception, Fault};
 pub use item_address::ItemAddress;
+pub use stream::{FaultyStream, StreamFault};

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use lexibus::clients::canopen::{CanPort, Node};
-use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device};
+use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device, StreamFault};
 use lexibus::{CanOpen, Client, Error, NodeId, Object};
 use lexibus_drives::demo_drive::types::State;
 use lexibus_drives::demo_drive::{objects, DemoDrive, ENTRIES};
@@ -112,12 +112,12 @@ async fn an_hour_over_modbus() {
         let (mut requests, mut errors) = (0, 0);
         while start.elapsed() < HOUR / 2 {
             world.lock().unwrap().fault = match random.below(40) {
-                0 => modbus::Fault::Late(Duration::from_millis(200 + random.below(190))),
-                1 => modbus::Fault::Lost,
-                2 => modbus::Fault::Duplicated,
-                3 => modbus::Fault::Truncated,
-                4 => modbus::Fault::Foreign,
-                _ => modbus::Fault::Nothing,
+                0 => Some(StreamFault::Late(Duration::from_millis(200 + random.below(190)))),
+                1 => Some(StreamFault::Lost),
+                2 => Some(StreamFault::Duplicated),
+                3 => Some(StreamFault::Truncated),
+                4 => Some(modbus::foreign(is_rtu)),
+                _ => None,
             };
             let kind = [modbus::Kind::Read, modbus::Kind::Write][random.below(2) as usize];
             errors += u32::from(modbus::request(&mut device, &world, requests, kind).await.is_err());
