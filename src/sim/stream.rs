@@ -69,7 +69,8 @@ impl StreamFault {
 ///
 /// With the traits of `std::io`, a late message blocks the device. `W` is the function that waits, by default
 /// `std::thread::sleep`. With the feature `modbus`, the stream also implements the traits of `tokio::io`. There, `write`
-/// returns at once. The device sends a late message while it reads, flushes the stream or writes the next message.
+/// returns at once. The device sends a late message while it reads, flushes the stream or writes the next message. The
+/// runtime needs timers.
 ///
 /// The crate `embedded-io-adapters` converts both to streams of `embedded-io`.
 pub struct FaultyStream<S, W = fn(Duration)> {
