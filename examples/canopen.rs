@@ -2,14 +2,14 @@
 //!
 //!     cargo run --example canopen --features std,canopen
 //!
-//! The node is simulated at the level of CAN frames, and behaves as a drive of CiA 402. For a real node, replace
-//! `CanNode` with a CAN interface such as `socketcan::CanSocket::open("can0")?`.
+//! The node is simulated at the level of CAN frames, and behaves as a drive of CiA 402. One of its replies is lost. For a
+//! real node, replace `FaultyCan` with a CAN interface such as `socketcan::CanSocket::open("can0")?`.
 
 use std::error::Error;
 use std::time::Duration;
 
 use lexibus::clients::canopen::{NmtCommand, NmtState, Node};
-use lexibus::sim::{CanNode, Device};
+use lexibus::sim::{CanFault, CanNode, Device, FaultyCan};
 use lexibus::NodeId;
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State};
 use lexibus_drives::demo_drive::{pdo, DemoDrive, ENTRIES};
@@ -21,13 +21,13 @@ const CYCLE: Duration = Duration::from_millis(50);
 /// Maximum number of SYNC cycles.
 const MOST_CYCLES: u32 = 100;
 
-type Drive = DemoDrive<Node<CanNode>>;
+type Drive = DemoDrive<Node<FaultyCan<CanNode>>>;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let id = NodeId::new(5).ok_or("a node-ID is 1 to 127")?;
     // Each CAN frame to the simulated node takes a millisecond of simulated time.
     let device = Device::new(ENTRIES).with_node_id(id).with_cia402().with_access_time(Duration::from_millis(1));
-    let mut drive = DemoDrive::new(Node::new(CanNode::new(device), id));
+    let mut drive = DemoDrive::new(Node::new(FaultyCan::new(CanNode::new(device)), id));
     drive.client().nmt(NmtCommand::ResetNode)?;
     drive.client().wait_for(NmtState::BootUp, PATIENCE)?;
     println!("node {id} has booted");
@@ -41,6 +41,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         Err(error) => println!("600000 is not sent: {error}"),
         Ok(()) => return Err("the range was not checked".into()),
     }
+    // The client aborts a transfer without a reply. The next transfer is right.
+    drive.client().port().inject_nth(CanFault::Lost, 1);
+    match drive.profile_velocity().read() {
+        Err(error) => println!("a reply is lost: {error}"),
+        Ok(_) => return Err("the reply was not lost".into()),
+    }
+    println!("the next reply: velocity {}", drive.profile_velocity().read()?);
     // Resets a fault if there is one, and enables the drive.
     drive.walk(State::OperationEnabled, PATIENCE)?;
     move_to(&mut drive, id, 50_000)
@@ -59,7 +66,7 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     for cycle in 0..MOST_CYCLES {
         let controlword = if cycle == 0 { new_set_point } else { enabled };
         // With a CAN interface, wait for the next cycle with a timer instead.
-        node.port().advance(CYCLE);
+        node.port().bus().advance(CYCLE);
         let output = pdo::RxPdo2 { controlword, target_position: target };
         node.send_pdo(pdo::RxPdo2::COB_ID, &output.pack())?;
         node.sync()?;

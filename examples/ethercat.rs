@@ -2,9 +2,10 @@
 //!
 //! `cargo run --example ethercat --features std,ethercat,macros`
 //!
-//! The drive is simulated in this process. For a real segment, replace `Segment::run` with
+//! The drive is simulated in this process. One of its mailbox replies is lost. For a real segment, replace `Segment::run` with
 //! `ethercrab::std::tx_rx_task`.
 
+use std::cell::Cell;
 use std::error::Error;
 use std::time::Duration;
 
@@ -42,14 +43,15 @@ async fn main() -> Result<(), Box<dyn Error>> {
     let maindevice = MainDevice::new(pdu_loop, timeouts, config);
 
     let servo = ethercat::SubDevice::new(&servo::DEVICE, ethercat::Servo::new());
+    let lost_replies = servo.lost_reads();
     let mut segment = ethercat::Segment::new(vec![servo]);
     tokio::select! {
         ended = segment.run(tx, rx) => Ok(ended?),
-        done = drive(&maindevice) => done,
+        done = drive(&maindevice, &lost_replies) => done,
     }
 }
 
-async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
+async fn drive(maindevice: &MainDevice<'_>, lost_replies: &Cell<u32>) -> Result<(), Box<dyn Error>> {
     // Go from the state "Init" to "Pre-Operational".
     let group = maindevice.init_single_group::<SUBDEVICES, PROCESS_DATA>(ethercat_now).await?;
     let found = group.iter(maindevice).position(|subdevice| is_a(&subdevice, &servo::IDENTITY));
@@ -61,6 +63,10 @@ async fn drive(maindevice: &MainDevice<'_>) -> Result<(), Box<dyn Error>> {
     let mut buffer = [0; 64];
     println!("{}", drive.device_name().read_into_async(&mut buffer).await?);
     println!("operating time {} ms", drive.operating_time().read_async().await?);
+    // The frame that contains the next reply is lost. The client requests the reply again with the repeat bit.
+    lost_replies.set(1);
+    let time = drive.operating_time().read_async().await?;
+    println!("operating time {time} ms, although {} reply was lost", 1 - lost_replies.get());
     drive.profile_velocity().write_async(250_000).await?;
     match drive.profile_velocity().write_async(2_000_000).await {
         Ok(()) => return Err("a velocity out of range was sent".into()),

@@ -2,13 +2,14 @@
 //! modbus --features macros,modbus`.
 //!
 //! The drive is simulated by a `tokio-modbus` server in this process. It has the registers of
-//! `examples/inverter.toml`.
+//! `examples/inverter.toml`. One of its replies is late.
 
 use std::time::Duration;
 
 use lexibus::clients::modbus::tokio_modbus::Slave;
 use lexibus::clients::modbus::{BlockingLink, ModbusClient};
 use lexibus::modbus::{Plan, RegisterClient};
+use lexibus::sim::{FaultyStream, StreamFault};
 use lexibus::RegisterTable::{Coil, DiscreteInput, Holding, Input};
 
 use inverter::types::{Control, Mode};
@@ -36,13 +37,21 @@ const _: () = {
     assert!(matches!(Plan::new(cycle, &inverter::MODBUS), Ok(plan) if plan.len() == 1));
 };
 
+const TIMEOUT: Duration = Duration::from_millis(500);
+/// Number of the reply that is late.
+const LATE: u64 = 7;
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let device = Device::new(simulated());
-    let server = Server::start(&device, Framing::Tcp)?;
+    let server = Server::start_with(&device, Framing::Tcp, |stream| {
+        let mut stream = FaultyStream::new(stream);
+        stream.inject_nth(StreamFault::Late(TIMEOUT * 3 / 2), LATE);
+        stream
+    })?;
 
     // Code for a real drive starts here. `MODBUS` contains the limits of the drive's requests. The link discards late
     // replies.
-    let link = BlockingLink::tcp(server.address(), Slave(1), Duration::from_secs(5))?;
+    let link = BlockingLink::tcp(server.address(), Slave(1), TIMEOUT)?;
     let client = ModbusClient::new(link).with_limits(inverter::MODBUS);
     let mut drive = Inverter::new(client);
 
@@ -55,6 +64,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("3001 rpm: {error}, nothing was sent");
     }
     show("written", &device);
+
+    // The link discards the late reply, so that the next request gets its own reply.
+    match drive.distance().read() {
+        Err(error) => println!("a reply is late: {error}"),
+        Ok(_) => return Err("the reply was in time".into()),
+    }
+    println!("the next reply: mode {:?}", drive.mode().read()?);
+    show("after a late reply", &device);
 
     // Read four measured values with one request.
     let (speed, current, position, temperature) =

@@ -2,7 +2,8 @@
 //!
 //!     cargo run --example profinet --features macros
 //!
-//! The drive is simulated in this program. For a real drive, replace `Servo` with an adapter for a controller library.
+//! The drive is simulated in this program. Its data is invalid in one cycle. For a real drive, replace `Servo` with an
+//! adapter for a controller library.
 
 use std::collections::BTreeMap;
 use std::error;
@@ -22,6 +23,11 @@ lexibus::dictionary! {
 
 use servo::submodules::module_access_point::LimitsRecord;
 use servo::submodules::standard_telegram_1::{Inputs, Outputs};
+
+/// Maximum number of consecutive cycles with invalid data.
+const MOST_INVALID: u32 = 1;
+/// Number of the cycle in which the simulated drive marks its data as invalid, from 0.
+const FAULTY_CYCLE: u32 = 3;
 
 type AnyResult = Result<(), Box<dyn error::Error>>;
 
@@ -70,13 +76,14 @@ fn parameters(drive: &mut Servo) -> AnyResult {
     Ok(())
 }
 
-/// Switches on the axis and turns it for a few cycles.
+/// Switches on the axis and turns it for a few cycles. Ignores invalid data, but not for several cycles.
 fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
     let axis = plan.submodule_io(1, 2).ok_or("no telegram")?;
     let (inputs_len, outputs_len) = plan.lengths();
     let (mut inputs, mut outputs) = (vec![0; inputs_len as usize], vec![0; outputs_len as usize]);
     plan.set_status(&mut outputs, IoStatus::GOOD)?;
-    for cycle in 0..4 {
+    let mut invalid = 0;
+    for cycle in 0..5 {
         let half = 1 << 13; // half of the reference speed, which is 2^14
         let data = Outputs {
             on: cycle > 0,
@@ -90,8 +97,14 @@ fn turn(plan: &Plan<8>, drive: &mut Servo) -> AnyResult {
         drive.cycle(&outputs, &mut inputs)?;
         let read = axis.read::<Inputs>(&inputs)?;
         if !read.provider.is_good() || !axis.consumer(&inputs).is_good() {
-            return Err("the drive doesn't exchange valid data".into());
+            invalid += 1;
+            println!("cycle {cycle}: the data of the drive is invalid and is ignored");
+            if invalid > MOST_INVALID {
+                return Err("the drive doesn't exchange valid data".into());
+            }
+            continue;
         }
+        invalid = 0;
         let Inputs { operation_enabled, nist_a, .. } = read.data;
         println!("cycle {cycle}: enabled {operation_enabled}, {} % of the reference speed", f32::from(nist_a) / 163.84);
     }
@@ -106,6 +119,7 @@ struct Servo {
     response: Vec<u8>,
     is_ready: bool,
     speed: i16,
+    cycles: u32,
 }
 
 impl Servo {
@@ -118,6 +132,7 @@ impl Servo {
             response: Vec::new(),
             is_ready: true,
             speed: 0,
+            cycles: 0,
         })
     }
 
@@ -186,7 +201,9 @@ impl ImageClient for Servo {
             control_requested: true,
             nist_a: self.speed,
         };
-        axis.write(inputs, data, IoStatus::GOOD)?;
+        let status = if self.cycles == FAULTY_CYCLE { IoStatus::BAD } else { IoStatus::GOOD };
+        self.cycles += 1;
+        axis.write(inputs, data, status)?;
         Ok(axis.set_consumer(inputs, outputs.provider)?)
     }
 }

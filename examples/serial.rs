@@ -1,8 +1,9 @@
 //! Sends messages to a drive on a serial line and accesses its parameters as items.
 //!
-//!     cargo run --example serial --features serial
+//!     cargo run --example serial --features std,serial
 //!
-//! The drive is simulated by a thread at the other end of a pseudo-terminal. For a real drive, use the port
+//! The drive is simulated by a thread at the other end of a pseudo-terminal. One of its replies is late. For a real
+//! drive, use the port
 //! `serialport::new("/dev/ttyUSB0", 115_200).timeout(…).open_native()`.
 
 #[cfg(unix)]
@@ -27,6 +28,7 @@ mod unix {
     use lexibus::clients::serial::{SerialError, SerialLine};
     use lexibus::framing::{Check, Delimited, Framing};
     use lexibus::message::WriteError;
+    use lexibus::sim::{FaultyStream, StreamFault};
     use lexibus::{
         AbortCode, AccessError, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter,
         ParameterMessages, Parameters, Range, Rw,
@@ -40,6 +42,10 @@ mod unix {
         .with_check(Check::Xor(0xFF))
         .with_max_data(MAX_DATA);
     const MAX_DATA: usize = 16;
+
+    const TIMEOUT: Duration = Duration::from_millis(500);
+    /// Number of the reply that is late.
+    const LATE: u64 = 6;
 
     const NODE: u8 = 1;
     /// Order codes for reading a parameter, changing a parameter, querying the state, and refusing a request.
@@ -57,8 +63,10 @@ mod unix {
 
     pub fn main() -> Result<(), Box<dyn error::Error>> {
         let (mut near, mut far) = TTYPort::pair()?;
-        near.set_timeout(Duration::from_secs(5))?;
+        near.set_timeout(TIMEOUT)?;
         far.set_timeout(Duration::from_secs(5))?;
+        let mut far = FaultyStream::new(far);
+        far.inject_nth(StreamFault::Late(TIMEOUT * 3 / 2), LATE);
         let drive = thread::spawn(move || Drive::default().serve(&mut far));
         talk(near)?;
         Ok(drive.join().map_err(|_| "the drive panicked")??)
@@ -75,6 +83,10 @@ mod unix {
         GAIN.at(&mut drive).write(300)?;
         POSITION.at(&mut drive).write(0x0203_1B00)?;
         println!("gain {}, position {:#010x}", GAIN.at(&mut drive).read()?, POSITION.at(&mut drive).read()?);
+        // Each read returns its reply, and never the late one.
+        let late: Option<AccessError<SerialError<_>>> = GAIN.at(&mut drive).read().err();
+        println!("a reply is late: {}", late.ok_or("it was in time")?);
+        println!("the next reply: position {:#010x}", POSITION.at(&mut drive).read()?);
         println!("gain 1001: {}", GAIN.at(&mut drive).write(1001).err().ok_or("it is out of range")?);
         let refused: Option<AccessError<SerialError<_>>> = MISSING.at(&mut drive).read().err();
         println!("parameter 0x0999: {}", refused.ok_or("it doesn't exist")?);
@@ -139,7 +151,7 @@ mod unix {
 
     impl Drive {
         /// Answers requests until the line is closed.
-        fn serve(&mut self, port: &mut TTYPort) -> Result<(), std::io::Error> {
+        fn serve(&mut self, port: &mut FaultyStream<TTYPort>) -> Result<(), std::io::Error> {
             let (mut decoder, mut data, mut frame) = (FRAMING.decoder(), [0; MAX_DATA], [0; 64]);
             let mut byte = [0];
             // After the client has closed the line, the pseudo-terminal returns an error or the end of the stream.

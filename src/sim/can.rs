@@ -1,6 +1,8 @@
 //! A simulated device as a node on a CAN bus.
 
 mod bus;
+mod fault;
+mod faulty;
 mod guard;
 mod layer_setting;
 mod nmt;
@@ -26,6 +28,8 @@ use crate::pdo::can_id;
 use crate::time::TimeOfDay;
 
 pub use self::bus::CanBus;
+pub use self::fault::{CanError, CanFault};
+pub use self::faulty::{FaultyCan, SimulatedCan};
 
 /// COB-ID of NMT commands (CiA 301 7.2.8.3.1).
 const NMT: u32 = 0x000;
@@ -164,6 +168,14 @@ impl CanNode {
     /// but its clock continues.
     pub fn set_connected(&mut self, is_connected: bool) {
         self.is_connected = is_connected;
+    }
+
+    /// Switches the node off and on. The node restarts with its stored values, and sends its boot-up message.
+    pub fn power_cycle(&mut self) {
+        self.lss.power_on();
+        self.adopt_node_id();
+        self.device.power_cycle();
+        self.boot();
     }
 
     /// Allows SDO block transfers, or refuses them with the abort code 0x05040001, as a device without block transfers

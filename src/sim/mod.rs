@@ -44,6 +44,8 @@
 //! - Modbus: [`Device::read_words`] and related methods handle requests. A Modbus server can call these methods.
 //! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus, and a `CanBus` is a bus with
 //!   several nodes. The CANopen clients of this crate can use both.
+//! - Faults of the bus: a `FaultyCan` delays, loses, repeats or changes frames, and simulates bus-off and restarts.
+//!   A [`FaultyStream`] does the same with the messages on a byte stream, for Modbus and serial protocols.
 //! - Further axes: [`Device::with_axes`] adds further axes.
 //! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
 //! - Time: [`Device::step`] advances the simulated time.
@@ -62,6 +64,7 @@ mod device;
 mod drive;
 mod emergency;
 mod fault;
+mod faults;
 mod item_address;
 mod limits;
 mod modbus;
@@ -69,12 +72,16 @@ mod parameters;
 mod process;
 mod slots;
 mod store;
+mod stream;
+#[cfg(feature = "modbus")]
+mod stream_async;
 mod time;
 mod values;
 
 #[cfg(feature = "canopen")]
-pub use can::{CanBus, CanNode};
+pub use can::{CanBus, CanError, CanFault, CanNode, FaultyCan, SimulatedCan};
 pub use client::Connection;
 pub use device::{Device, DeviceAxis};
 pub use fault::{Exception, Fault};
 pub use item_address::ItemAddress;
+pub use stream::{FaultyStream, StreamFault};

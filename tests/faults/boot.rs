@@ -1,14 +1,13 @@
 //! Tests the boot of a node with answers that are delayed, lost or corrupted.
 
-use std::convert::Infallible;
 use std::time::Duration;
 
 use lexibus::clients::canopen::{Boot, BootError, Booted, CanFrame, ErrorControl, NmtCommand, NmtState, Node};
-use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device};
 use lexibus::{Configuration, Error, NodeId, SdoWrite, Setting};
 use lexibus_drives::demo_drive::{ENTRIES, IDENTITY};
 
-use crate::faulty::{faults, Fault, Faulty, TIMEOUT};
+use crate::faulty::{faults, faulty, set, Faulty, TIMEOUT};
 use crate::matrix::Row;
 use crate::now::now;
 use crate::random::Random;
@@ -25,11 +24,11 @@ fn node() -> Node<Faulty> {
     let id = NodeId::new(5).expect("a node-ID");
     let mut bus = CanBus::new();
     bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id)));
-    Node::new(Faulty::new(bus), id)
+    Node::new(faulty(bus), id)
 }
 
 /// Boots the node, which is the right one. The result must be that, or an error of the bus.
-fn boot(node: &mut Node<Faulty>, is_async: bool) -> Result<Booted, BootError<Infallible>> {
+fn boot(node: &mut Node<Faulty>, is_async: bool) -> Result<Booted, BootError<CanError>> {
     let result = match is_async {
         true => now(node.boot_async(&BOOT)),
         false => node.boot(&BOOT),
@@ -37,18 +36,19 @@ fn boot(node: &mut Node<Faulty>, is_async: bool) -> Result<Booted, BootError<Inf
     match result {
         Ok(booted) => {
             assert_eq!((booted.device_type, booted.is_configured), (0x0002_0192, true));
-            assert_eq!(node.port().bus.nodes()[0].state(), NmtState::Operational);
+            assert_eq!(node.port().bus().nodes()[0].state(), NmtState::Operational);
         }
         Err(error) => drop(name(Err(error))),
     }
     result
 }
 
-fn name(result: Result<Booted, BootError<Infallible>>) -> &'static str {
+fn name(result: Result<Booted, BootError<CanError>>) -> &'static str {
     match result {
         Ok(_) => "right value",
         Err(BootError::Access { error: Error::Timeout, .. }) => "`Timeout`",
         Err(BootError::Configuration(error)) if error.error == Error::Timeout => "`Timeout`",
+        Err(BootError::Access { error: Error::Client(_), .. }) => "`Client`",
         Err(BootError::NotOperational { .. }) => "`NotOperational`",
         Err(other) => panic!("an error without a name in the table: {other:?}"),
     }
@@ -58,15 +58,16 @@ fn name(result: Result<Booted, BootError<Infallible>>) -> &'static str {
 fn a_fault_is_not_a_wrong_device() {
     let (mut node, mut random, mut failed) = (node(), Random::new(11), 0);
     for _ in 0..500 {
-        node.port().fault = match random.below(6) {
-            0 => Fault::Lost,
-            1 => Fault::Late(Duration::from_millis(random.below(950))),
-            2 => Fault::Duplicated,
-            3 => Fault::Truncated,
-            _ => Fault::Nothing,
+        let fault = match random.below(6) {
+            0 => Some(CanFault::Lost),
+            1 => Some(CanFault::Late(Duration::from_millis(random.below(950)))),
+            2 => Some(CanFault::Duplicated),
+            3 => Some(CanFault::Truncated),
+            _ => None,
         };
+        set(node.port(), fault);
         failed += u32::from(boot(&mut node, false).is_err());
-        node.port().fault = Fault::Nothing;
+        set(node.port(), None);
         node.nmt(NmtCommand::EnterPreOperational).expect("a bus");
     }
     println!("500 boots: {failed} errors, no wrong device");
@@ -80,13 +81,13 @@ pub fn rows() -> Vec<Row> {
     for (fault_name, fault) in faults(foreign) {
         for is_async in [false, true] {
             let mut node = node();
-            let start = node.port().time();
-            node.port().fault = fault;
+            let start = node.port().bus().now();
+            set(node.port(), fault);
             let result = name(boot(&mut node, is_async));
-            let middle = node.port().time();
-            node.port().fault = Fault::Nothing;
+            let middle = node.port().bus().now();
+            set(node.port(), None);
             boot(&mut node, is_async).expect("the next boot is right");
-            let (time, next) = (middle - start, node.port().time() - middle);
+            let (time, next) = (middle - start, node.port().bus().now() - middle);
             rows.push(Row { client: "boot", is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
         }
     }

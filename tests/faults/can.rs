@@ -1,4 +1,4 @@
-//! Tests SDO transfers with a simulated node whose replies are delayed, lost or corrupted.
+//! Tests SDO transfers with a simulated node and faults of the bus.
 
 mod bus;
 mod pdo;
@@ -7,23 +7,33 @@ use std::pin::pin;
 use std::task::Poll;
 use std::time::Duration;
 
-use lexibus::clients::canopen::Node;
+use lexibus::clients::canopen::{CanFrame, Node};
+use lexibus::sim::{CanFault, FaultyCan};
 use lexibus::{AsyncClient, Client, Error, NodeId};
 
 use self::bus::*;
+use crate::faulty::{faults, foreign, set, TIMEOUT};
 use crate::matrix::{name, Row};
 use crate::now::now;
 use crate::random::Random;
 
 pub use self::bus::poll_once;
 
+/// Each reply arrives just before the timeout.
+const SLOW: CanFault = CanFault::Late(TIMEOUT.saturating_sub(FRAME));
+
+/// Returns replies about another object, which arrive instead of the reply.
+fn other_object() -> CanFault {
+    foreign(CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame"))
+}
+
 /// Sends `count` requests with random faults. Returns the number of failed requests, and panics if a value is wrong.
-fn requests(mut node: Node<Bus>, count: u32, mut fault: impl FnMut(&mut Random) -> Fault) -> u32 {
+fn requests(mut node: Node<FaultyCan<Bus>>, count: u32, mut fault: impl FnMut(&mut Random) -> Option<CanFault>) -> u32 {
     let mut random = Random::new(28);
     let mut failed = 0;
     for number in 0..count {
-        node.port().count(number);
-        node.port().fault = fault(&mut random);
+        node.port().bus().count(number);
+        set(node.port(), fault(&mut random));
         let mut buffer = [0; 20];
         let result = match random.below(3) {
             0 => Client::read(&mut node, COUNT, &mut buffer[..4]).map(|length| {
@@ -33,7 +43,7 @@ fn requests(mut node: Node<Bus>, count: u32, mut fault: impl FnMut(&mut Random) 
                 assert_eq!(buffer[..length], text(number), "request {number}");
             }),
             _ => Client::write(&mut node, SETPOINT, &number.to_le_bytes()).map(|()| {
-                assert_eq!(node.port().objects.0[&SETPOINT], number.to_le_bytes(), "request {number}");
+                assert_eq!(node.port().bus().objects.0[&SETPOINT], number.to_le_bytes(), "request {number}");
             }),
         };
         match result {
@@ -51,9 +61,9 @@ fn late_replies_are_not_those_of_the_next_request() {
     let failed = requests(node(), 10_000, |random| match random.below(20) {
         0 => {
             late += 1;
-            Fault::Late(TIMEOUT + Duration::from_millis(random.below(450)))
+            Some(CanFault::Late(TIMEOUT + Duration::from_millis(random.below(450))))
         }
-        _ => Fault::Nothing,
+        _ => None,
     });
     println!("10,000 SDO transfers, {late} late: {failed} errors, no wrong value");
     assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
@@ -62,29 +72,31 @@ fn late_replies_are_not_those_of_the_next_request() {
 #[test]
 fn foreign_replies_dont_prolong_a_transfer() {
     let mut node = node();
-    node.port().count(1);
-    node.port().fault = Fault::Foreign;
+    node.port().bus().count(1);
+    set(node.port(), other_object());
     assert_eq!(Client::read(&mut node, COUNT, &mut [0; 4]), Err(Error::Timeout));
-    assert_eq!(node.port().now, TIMEOUT);
-    node.port().fault = Fault::Nothing;
+    assert_eq!(node.port().bus().now, TIMEOUT + FRAME, "with the time of the abort");
+    set(node.port(), None);
     let mut buffer = [0; 4];
     assert_eq!(Client::read(&mut node, COUNT, &mut buffer), Ok(4));
-    assert_eq!((buffer, node.port().now), ([1, 0, 0, 0], 2 * TIMEOUT + Duration::from_millis(1)));
+    assert_eq!((buffer, node.port().bus().now), ([1, 0, 0, 0], 2 * (TIMEOUT + FRAME)));
 }
 
 #[test]
 fn other_faults_end_in_time() {
-    for (fault, expected) in
-        [(Fault::Lost, Err(Error::Timeout)), (Fault::Truncated, Err(Error::Timeout)), (Fault::Duplicated, Ok(4))]
-    {
+    for (fault, expected) in [
+        (CanFault::Lost, Err(Error::Timeout)),
+        (CanFault::Truncated, Err(Error::Timeout)),
+        (CanFault::Duplicated, Ok(4)),
+    ] {
         let mut node = node();
-        node.port().count(0x0403_0201);
-        node.port().fault = fault;
+        node.port().bus().count(0x0403_0201);
+        set(node.port(), fault);
         let mut buffer = [0; 4];
         assert_eq!(Client::read(&mut node, COUNT, &mut buffer), expected, "{fault:?}");
-        assert!(node.port().now <= TIMEOUT, "{fault:?}");
-        node.port().fault = Fault::Nothing;
-        node.port().count(7);
+        assert!(node.port().bus().now <= TIMEOUT + FRAME, "{fault:?}");
+        set(node.port(), None);
+        node.port().bus().count(7);
         assert_eq!((Client::read(&mut node, COUNT, &mut buffer), buffer), (Ok(4), [7, 0, 0, 0]), "{fault:?}");
     }
 }
@@ -92,17 +104,17 @@ fn other_faults_end_in_time() {
 #[test]
 fn a_repeated_segment_isnt_data() {
     let mut node = node();
-    node.port().count(7);
-    node.port().fault = Fault::Duplicated;
+    node.port().bus().count(7);
+    set(node.port(), CanFault::Duplicated);
     assert_eq!(Client::read(&mut node, TEXT, &mut [0; 20]), Err(Error::UnexpectedReply));
-    node.port().fault = Fault::Nothing;
-    node.port().count(8);
+    set(node.port(), None);
+    node.port().bus().count(8);
     let mut buffer = [0; 20];
     assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
 }
 
 /// Length of a value that has 100 segments. Its transfer may take one timeout, plus one tenth of the timeout for each
-/// segment.
+/// segment. The last request and the abort take one frame each.
 const LONG: usize = 700;
 const LIMIT: Duration = Duration::from_millis(11 * 500);
 
@@ -111,17 +123,17 @@ fn a_node_that_replies_just_in_time_doesnt_block_for_ever() {
     let value = [7; LONG];
     let mut node = node();
     for writes in [false, true] {
-        node.port().objects.0.insert(TEXT, value.to_vec());
-        node.port().fault = Fault::Slow;
-        let (start, aborts) = (node.port().now, node.port().aborts);
+        node.port().bus().objects.0.insert(TEXT, value.to_vec());
+        set(node.port(), SLOW);
+        let (start, aborts) = (node.port().bus().now, node.port().bus().aborts);
         let result = match writes {
             false => Client::read(&mut node, TEXT, &mut [0; LONG]).map(|_| ()),
             true => Client::write(&mut node, TEXT, &value),
         };
-        assert_eq!((result, node.port().now - start), (Err(Error::Timeout), LIMIT));
-        assert_eq!(node.port().aborts - aborts, 1);
-        node.port().fault = Fault::Nothing;
-        node.port().count(8);
+        assert_eq!((result, node.port().bus().now - start), (Err(Error::Timeout), LIMIT + 2 * FRAME));
+        assert_eq!(node.port().bus().aborts - aborts, 1);
+        set(node.port(), None);
+        node.port().bus().count(8);
         let mut buffer = [0; 20];
         assert_eq!((Client::read(&mut node, TEXT, &mut buffer), &buffer[..]), (Ok(20), &text(8)[..]));
     }
@@ -131,18 +143,18 @@ fn a_node_that_replies_just_in_time_doesnt_block_for_ever() {
 fn async_transfers_have_the_same_limit() {
     let mut bus = Bus::new();
     bus.objects.0.insert(TEXT, vec![7; LONG]);
-    bus.fault = Fault::Slow;
-    let bus = AsyncBus { bus, pending_after: None };
+    let mut bus = AsyncBus { bus: FaultyCan::new(bus), pending_after: None };
+    set(&mut bus.bus, SLOW);
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut [0; LONG])), Err(Error::Timeout));
-    assert_eq!((node.port().bus.now, node.port().bus.aborts), (LIMIT, 1));
+    assert_eq!((node.port().bus.bus().now, node.port().bus.bus().aborts), (LIMIT + 2 * FRAME, 1));
 }
 
 #[test]
 fn slow_segments_within_the_limit_are_right() {
     let mut node = node();
-    node.port().objects.0.insert(TEXT, vec![7; LONG]);
-    node.port().fault = Fault::Late(TIMEOUT / 11);
+    node.port().bus().objects.0.insert(TEXT, vec![7; LONG]);
+    set(node.port(), CanFault::Late(TIMEOUT / 11));
     let mut buffer = [0; LONG];
     assert_eq!((Client::read(&mut node, TEXT, &mut buffer), buffer), (Ok(LONG), [7; LONG]));
     assert_eq!(Client::write(&mut node, TEXT, &buffer), Ok(()));
@@ -150,19 +162,19 @@ fn slow_segments_within_the_limit_are_right() {
 
 #[test]
 fn a_dropped_transfer_is_aborted_and_the_next_one_is_right() {
-    let bus = AsyncBus { bus: Bus::new(), pending_after: Some(0) };
+    let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: Some(0) };
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
-    node.port().bus.count(7);
+    node.port().bus.bus().count(7);
     let mut buffer = [0; 20];
     for object in [COUNT, TEXT] {
         let mut dropped = pin!(AsyncClient::read(&mut node, object, &mut buffer));
         assert_eq!(poll_once(dropped.as_mut()), Poll::Pending);
     }
-    assert_eq!(node.port().bus.aborts, 1, "the second transfer aborts the first one");
+    assert_eq!(node.port().bus.bus().aborts, 1, "the second transfer aborts the first one");
     node.port().pending_after = None;
-    node.port().bus.count(8);
+    node.port().bus.bus().count(8);
     assert_eq!(now(AsyncClient::read(&mut node, TEXT, &mut buffer)), Ok(20));
-    assert_eq!((&buffer[..], node.port().bus.aborts), (&text(8)[..], 1));
+    assert_eq!((&buffer[..], node.port().bus.bus().aborts), (&text(8)[..], 1));
 }
 
 /// Length of a value that is transferred in blocks.
@@ -175,25 +187,25 @@ fn block(count: u32) -> Vec<u8> {
 #[test]
 fn faults_in_block_transfers() {
     for (fault, expected) in [
-        (Fault::Nothing, Ok(BLOCK)),
-        (Fault::Duplicated, Ok(BLOCK)),
-        (Fault::Late(Duration::from_millis(50)), Ok(BLOCK)),
-        (Fault::Lost, Err(Error::Timeout)),
-        (Fault::Truncated, Err(Error::Timeout)),
-        (Fault::Late(TIMEOUT + Duration::from_millis(100)), Err(Error::Timeout)),
+        (None, Ok(BLOCK)),
+        (Some(CanFault::Duplicated), Ok(BLOCK)),
+        (Some(CanFault::Late(Duration::from_millis(50))), Ok(BLOCK)),
+        (Some(CanFault::Lost), Err(Error::Timeout)),
+        (Some(CanFault::Truncated), Err(Error::Timeout)),
+        (Some(CanFault::Late(TIMEOUT + Duration::from_millis(100))), Err(Error::Timeout)),
     ] {
         let (mut node, mut buffer) = (node(), vec![0; BLOCK]);
-        node.port().objects.0.insert(TEXT, block(1));
-        node.port().fault = fault;
+        node.port().bus().objects.0.insert(TEXT, block(1));
+        set(node.port(), fault);
         assert_eq!(Client::read(&mut node, TEXT, &mut buffer), expected, "{fault:?}");
         assert!(expected.is_err() || buffer == block(1), "{fault:?}");
         // Each acknowledgment of the node arrives twice. The client may notice it only at the end of the transfer.
         match Client::write(&mut node, SETPOINT, &block(2)) {
-            Ok(()) => assert_eq!(node.port().objects.0[&SETPOINT], block(2)),
-            result => assert!(expected.is_err() || fault == Fault::Duplicated, "{fault:?} {result:?}"),
+            Ok(()) => assert_eq!(node.port().bus().objects.0[&SETPOINT], block(2)),
+            result => assert!(expected.is_err() || fault == Some(CanFault::Duplicated), "{fault:?} {result:?}"),
         }
-        node.port().fault = Fault::Nothing;
-        node.port().objects.0.insert(TEXT, block(3));
+        set(node.port(), None);
+        node.port().bus().objects.0.insert(TEXT, block(3));
         assert_eq!(Client::read(&mut node, TEXT, &mut buffer), Ok(BLOCK), "{fault:?}");
         assert!(buffer == block(3), "{fault:?}");
     }
@@ -205,54 +217,50 @@ fn late_segments_are_discarded() {
     let reply = [0x4B, 0x00, 0x20, 0, 9, 9, 0, 0];
     let mut node = node();
     // Each segment of this value is a valid reply about the object `COUNT`, except for its first byte.
-    node.port().objects.0.insert(TEXT, reply[1..].iter().copied().cycle().take(BLOCK).collect());
-    node.port().fault = Fault::Late(TIMEOUT * 9 / 10);
+    node.port().bus().objects.0.insert(TEXT, reply[1..].iter().copied().cycle().take(BLOCK).collect());
+    set(node.port(), CanFault::Late(TIMEOUT * 9 / 10));
     let mut buffer = vec![0; BLOCK];
     let limited = Client::read(&mut node, TEXT, &mut buffer);
     assert_eq!(limited, Ok(BLOCK));
-    node.port().fault = Fault::Late(TIMEOUT / 2);
+    set(node.port(), CanFault::Late(TIMEOUT / 2));
     // The transfer is dropped after its first segment has been requested.
     let bus = AsyncBus { bus: node.into_port(), pending_after: Some(1) };
     let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
     assert_eq!(poll_once(pin!(AsyncClient::read(&mut node, TEXT, &mut buffer)).as_mut()), Poll::Pending);
-    (node.port().pending_after, node.port().bus.fault) = (None, Fault::Nothing);
-    node.port().bus.count(0x0403_0201);
+    node.port().pending_after = None;
+    set(&mut node.port().bus, None);
+    node.port().bus.bus().count(0x0403_0201);
     let mut number = [0; 4];
     assert_eq!(now(AsyncClient::read(&mut node, COUNT, &mut number)), Ok(4));
-    assert_eq!((number, node.port().bus.aborts), ([1, 2, 3, 4], 1));
+    assert_eq!((number, node.port().bus.bus().aborts), ([1, 2, 3, 4], 1));
 }
 
-/// Returns the rows for SDO transfers in the table of faults.
+/// Returns the rows for SDO transfers in the table of faults. Only a segmented transfer has toggle bits.
 pub fn rows() -> Vec<Row> {
-    let faults = [
-        ("late", Fault::Late(TIMEOUT + Duration::from_millis(100))),
-        ("lost", Fault::Lost),
-        ("duplicated", Fault::Duplicated),
-        ("truncated", Fault::Truncated),
-        ("foreign", Fault::Foreign),
-        ("noise", Fault::Noise),
-    ];
+    let frame = CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame");
+    let faults = faults(frame).into_iter().map(|(name, fault)| (name, fault, COUNT));
     let mut rows = Vec::new();
-    for (fault_name, fault) in faults {
+    for (fault_name, fault, object) in faults.chain([("wrong toggle", CanFault::WrongToggle, TEXT)]) {
         for is_async in [false, true] {
             let mut blocking = node();
-            let bus = AsyncBus { bus: Bus::new(), pending_after: None };
+            let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };
             let mut asynchronous = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
-            let mut read = |count: u32, fault| {
-                let bus = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
-                bus.count(count);
-                bus.fault = fault;
-                let (start, mut buffer) = (bus.now, [0; 4]);
+            let mut read = |count: u32, fault: Option<CanFault>| {
+                let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                port.bus().count(count);
+                set(port, fault);
+                let (start, mut buffer) = (port.bus().now, [0; 20]);
+                let buffer = if object == COUNT { &mut buffer[..4] } else { &mut buffer };
                 let result = match is_async {
-                    true => now(AsyncClient::read(&mut asynchronous, COUNT, &mut buffer)),
-                    false => Client::read(&mut blocking, COUNT, &mut buffer),
+                    true => now(AsyncClient::read(&mut asynchronous, object, buffer)),
+                    false => Client::read(&mut blocking, object, buffer),
                 };
-                assert!(result.is_err() || buffer == count.to_le_bytes(), "{fault:?}");
-                let bus = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
-                (result, bus.now - start)
+                let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                assert!(result.is_err() || *buffer == port.bus().objects.0[&object], "{fault:?}");
+                (result, port.bus().now - start)
             };
-            let (result, time) = read(1, fault);
-            let (second, next) = read(2, Fault::Nothing);
+            let (result, time) = read(1, Some(fault));
+            let (second, next) = read(2, None);
             second.expect("the next request is right");
             let (client, result, timeout) = ("SDO", name(&result), TIMEOUT);
             rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout });

@@ -1,13 +1,12 @@
 //! Tests node guarding with answers that are delayed, lost or corrupted.
 
-use std::convert::Infallible;
 use std::time::Duration;
 
 use lexibus::clients::canopen::{CanFrame, GuardError, Guarding, NmtCommand, NmtState, Node};
-use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device};
 use lexibus::NodeId;
 
-use crate::faulty::{faults, Fault, Faulty, TIMEOUT};
+use crate::faulty::{faults, faulty, set, Faulty, TIMEOUT};
 use crate::matrix::Row;
 use crate::now::now;
 use crate::random::Random;
@@ -18,24 +17,27 @@ fn node() -> Node<Faulty> {
     let id = NodeId::new(NODE).expect("a node-ID");
     let mut bus = CanBus::new();
     bus.add(CanNode::new(Device::new(&[]).with_node_id(id)));
-    Node::new(Faulty::new(bus), id)
+    Node::new(faulty(bus), id)
 }
 
-/// Runs one cycle. The result must be the state of the node, or an error.
-fn guard(node: &mut Node<Faulty>, guarding: &mut Guarding, is_async: bool) -> Result<NmtState, GuardError<Infallible>> {
+/// Runs one cycle. The result must be the state of the node, `BootUp` after a restart, or an error.
+fn guard(node: &mut Node<Faulty>, guarding: &mut Guarding, is_async: bool) -> Result<NmtState, GuardError<CanError>> {
     let result = match is_async {
         true => now(node.guard_async(guarding)),
         false => node.guard(guarding),
     };
-    let state = node.port().bus.nodes()[0].state();
-    assert!(result.is_err() || result == Ok(state), "{result:?} instead of {state:?}");
+    let state = node.port().bus().nodes()[0].state();
+    let is_right = result == Ok(state) || result == Ok(NmtState::BootUp);
+    assert!(result.is_err() || is_right, "{result:?} instead of {state:?}");
     result
 }
 
-fn name(result: Result<NmtState, GuardError<Infallible>>) -> &'static str {
+fn name(result: Result<NmtState, GuardError<CanError>>) -> &'static str {
     match result {
+        Ok(NmtState::BootUp) => "`BootUp`",
         Ok(_) => "right value",
         Err(GuardError::NoAnswer) => "`NoAnswer`",
+        Err(GuardError::Client(_)) => "`Client`",
         Err(GuardError::ToggleBit) => "`ToggleBit`",
         Err(other) => panic!("an error without a name in the table: {other:?}"),
     }
@@ -52,9 +54,11 @@ fn late_answers_are_not_those_of_the_next_cycle() {
         is_late = random.below(20) == 0 && !is_late;
         // The next cycle waits for a late answer for half of the guard time.
         let delay = TIMEOUT + Duration::from_millis(random.below(240));
-        node.port().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
+        set(node.port(), is_late.then_some(CanFault::Late(delay)));
         late += u32::from(is_late);
-        failed += u32::from(guard(&mut node, &mut guarding, false).is_err());
+        let state = guard(&mut node, &mut guarding, false);
+        assert_ne!(state, Ok(NmtState::BootUp));
+        failed += u32::from(state.is_err());
     }
     println!("5,000 cycles of node guarding, {late} late: {failed} errors, no wrong state");
     assert!(late > 200 && failed <= late, "{failed} errors for {late} late answers");
@@ -64,18 +68,20 @@ fn late_answers_are_not_those_of_the_next_cycle() {
 pub fn rows() -> Vec<Row> {
     let foreign = CanFrame::new(0x706, &[4]).expect("a frame");
     let mut rows = Vec::new();
-    for (fault_name, fault) in faults(foreign) {
+    for (fault_name, fault) in faults(foreign).into_iter().chain([("wrong toggle", CanFault::WrongToggle)]) {
         for is_async in [false, true] {
             let (mut node, mut guarding) = (node(), Guarding::new(TIMEOUT, 3));
             guard(&mut node, &mut guarding, is_async).expect("a state");
-            let start = node.port().time();
-            node.port().fault = fault;
+            let start = node.port().bus().now();
+            set(node.port(), fault);
             let result = name(guard(&mut node, &mut guarding, is_async));
-            let middle = node.port().time();
-            node.port().fault = Fault::Nothing;
+            assert_eq!(result == "`BootUp`", fault == CanFault::Restart);
+            let middle = node.port().bus().now();
+            // A node that doesn't toggle the bit once has all later bits inverted.
+            set(node.port(), (fault == CanFault::WrongToggle).then_some(fault));
             node.nmt(NmtCommand::Start).expect("a bus");
             guard(&mut node, &mut guarding, is_async).expect("the next cycle is right");
-            let (time, next) = (middle - start, node.port().time() - middle);
+            let (time, next) = (middle - start, node.port().bus().now() - middle);
             rows.push(Row {
                 client: "node guarding",
                 is_async,

@@ -1,14 +1,13 @@
 //! Tests the LSS master with slaves whose answers are delayed, lost or corrupted.
 
-use std::convert::Infallible;
 use std::time::Duration;
 
 use lexibus::clients::canopen::{CanFrame, LssMaster};
 use lexibus::lss::{IdentityPart, LssAddress, LssError, LssState};
-use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device};
 use lexibus::{AccessRights, Bound, DataType, Entry, Flags, NodeId, Object, RawInitial};
 
-use crate::faulty::{faults, Fault, Faulty, TIMEOUT};
+use crate::faulty::{faults, faulty, foreign, set, Faulty, TIMEOUT};
 use crate::matrix::Row;
 use crate::now::now;
 use crate::random::Random;
@@ -33,7 +32,7 @@ const ENTRIES: &[Entry] = &[Entry {
 fn master() -> LssMaster<Faulty> {
     let mut bus = CanBus::new();
     bus.add(CanNode::without_node_id(Device::new(ENTRIES)));
-    LssMaster::new(Faulty::new(bus)).with_timeout(TIMEOUT)
+    LssMaster::new(faulty(bus)).with_timeout(TIMEOUT)
 }
 
 fn id(node: u8) -> NodeId {
@@ -41,12 +40,12 @@ fn id(node: u8) -> NodeId {
 }
 
 fn set_serial(master: &mut LssMaster<Faulty>, serial: u32) {
-    let node = &mut master.port().bus.nodes()[0];
+    let node = &mut master.port().bus().nodes()[0];
     node.device().set_bytes(SERIAL, &serial.to_le_bytes()).expect("an object");
 }
 
 /// Inquires the serial number, which is different for each request.
-fn inquire(master: &mut LssMaster<Faulty>, is_async: bool, serial: u32) -> Result<u32, LssError<Infallible>> {
+fn inquire(master: &mut LssMaster<Faulty>, is_async: bool, serial: u32) -> Result<u32, LssError<CanError>> {
     set_serial(master, serial);
     let result = match is_async {
         true => now(master.inquire_async(IdentityPart::SerialNumber)),
@@ -56,10 +55,11 @@ fn inquire(master: &mut LssMaster<Faulty>, is_async: bool, serial: u32) -> Resul
     result
 }
 
-fn name(result: Result<u32, LssError<Infallible>>) -> &'static str {
+fn name(result: Result<u32, LssError<CanError>>) -> &'static str {
     match result {
         Ok(_) => "right value",
         Err(LssError::Timeout) => "`Timeout`",
+        Err(LssError::Client(_)) => "`Client`",
         Err(LssError::SeveralAnswers) => "`SeveralAnswers`",
         Err(other) => panic!("an error without a name in the table: {other:?}"),
     }
@@ -72,7 +72,7 @@ fn late_answers_are_not_those_of_the_next_request() {
     for serial in 0..2000 {
         let is_late = random.below(20) == 0;
         let delay = TIMEOUT + Duration::from_millis(random.below(450));
-        master.port().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
+        set(master.port(), is_late.then_some(CanFault::Late(delay)));
         late += u32::from(is_late);
         failed += u32::from(inquire(&mut master, false, serial).is_err());
     }
@@ -87,11 +87,12 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
     for _ in 0..80 {
         let (mut master, serial) = (master(), random.below(1 << 32) as u32);
         set_serial(&mut master, serial);
-        master.port().fault = match random.below(3) {
-            0 => Fault::Late(Duration::from_millis(random.below(60))),
-            1 => Fault::Duplicated,
-            _ => Fault::Nothing,
+        let fault = match random.below(3) {
+            0 => Some(CanFault::Late(Duration::from_millis(random.below(60)))),
+            1 => Some(CanFault::Duplicated),
+            _ => None,
         };
+        set(master.port(), fault);
         match master.fast_scan() {
             Ok(Some(address)) => {
                 assert_eq!(address, LssAddress { serial_number: serial, ..LssAddress::default() });
@@ -102,7 +103,7 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
             other => panic!("{other:?}"),
         }
         // Wait for the answers of the scan that are still on the way.
-        master.port().fault = Fault::Nothing;
+        set(master.port(), None);
         assert_eq!(master.switch_global(LssState::Waiting), Ok(()));
         assert_eq!(master.configure_node_id(id(5)), Err(LssError::Timeout));
         assert_eq!(master.fast_scan().map(|address| address.map(|it| it.serial_number)), Ok(Some(serial)));
@@ -113,18 +114,18 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
 
 /// Returns the active node-IDs after the next scan.
 fn node_ids(master: &mut LssMaster<Faulty>) -> Vec<Option<NodeId>> {
-    master.port().fault = Fault::Nothing;
+    set(master.port(), None);
     let _ = master.fast_scan();
-    master.port().bus.nodes().iter().map(CanNode::node_id).collect()
+    master.port().bus().nodes().iter().map(CanNode::node_id).collect()
 }
 
 #[test]
 fn a_node_id_that_was_not_confirmed_is_not_used() {
-    for fault in [Fault::Lost, Fault::Late(TIMEOUT * 2), Fault::Duplicated] {
+    for fault in [CanFault::Lost, CanFault::Late(TIMEOUT * 2), CanFault::Duplicated] {
         for is_async in [false, true] {
             let mut master = master();
             master.switch_global(LssState::Configuration).expect("a bus");
-            master.port().fault = fault;
+            set(master.port(), fault);
             let result = match is_async {
                 true => now(master.configure_node_id_async(id(5))),
                 false => master.configure_node_id(id(5)),
@@ -141,7 +142,7 @@ fn a_second_slave_that_answers_later_is_noticed() {
     let mut master = master();
     master.switch_global(LssState::Configuration).expect("a bus");
     // The same answer arrives again after 200 ms, which is longer than the window.
-    master.port().fault = Fault::Foreign(answer(0x11));
+    set(master.port(), foreign(answer(0x11)));
     assert_eq!(master.configure_node_id(id(5)), Err(LssError::SeveralAnswers));
     assert_eq!(node_ids(&mut master), [None]);
 }
@@ -149,27 +150,31 @@ fn a_second_slave_that_answers_later_is_noticed() {
 #[test]
 fn a_lost_or_late_answer_doesnt_end_the_search() {
     let mut master = master();
-    master.port().fault = Fault::Late(Duration::from_millis(100));
+    set(master.port(), CanFault::Late(Duration::from_millis(100)));
     assert_eq!(master.fast_scan(), Err(LssError::Inconclusive));
-    master.port().fault = Fault::LostOnce;
+    set(master.port(), None);
+    master.port().inject_nth(CanFault::Lost, 1);
     assert_eq!(master.fast_scan(), Ok(Some(LssAddress::default())));
 }
 
 /// Returns the rows for LSS in the table of faults.
 pub fn rows() -> Vec<Row> {
-    let foreign = CanFrame::new(0x7E4, &[0x5A, 9, 9, 9, 9, 0, 0, 0]).expect("a frame");
+    let frame = CanFrame::new(0x7E4, &[0x5A, 9, 9, 9, 9, 0, 0, 0]).expect("a frame");
     let mut rows = Vec::new();
-    for (fault_name, fault) in faults(foreign) {
+    for (fault_name, fault) in faults(frame) {
         for is_async in [false, true] {
             let mut master = master();
             master.switch_global(LssState::Configuration).expect("a bus");
-            let start = master.port().time();
-            master.port().fault = fault;
+            let start = master.port().bus().now();
+            set(master.port(), fault);
             let result = name(inquire(&mut master, is_async, 1));
-            let middle = master.port().time();
-            master.port().fault = Fault::Nothing;
+            let middle = master.port().bus().now();
+            set(master.port(), None);
+            if fault == CanFault::Restart {
+                master.switch_global(LssState::Configuration).expect("a bus");
+            }
             inquire(&mut master, is_async, 2).expect("the next request is right");
-            let (time, next) = (middle - start, master.port().time() - middle);
+            let (time, next) = (middle - start, master.port().bus().now() - middle);
             rows.push(Row { client: "LSS", is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
         }
     }

@@ -12,6 +12,7 @@ mod coe;
 #[allow(dead_code, unused_imports)] // the application of the servo
 mod ethercat;
 mod faulty;
+mod faulty_stream;
 mod guarding;
 #[path = "../support/lane.rs"]
 mod lane;

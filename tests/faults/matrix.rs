@@ -32,6 +32,50 @@ pub fn name<T, E: Debug>(result: &Result<T, Error<E>>) -> &'static str {
     }
 }
 
+/// Names of the faults in the tables of the book. Some names are only the start of a cell.
+const BOOK_NAMES: [(&str, &str); 11] = [
+    ("late", "reply too late"),
+    ("lost", "reply lost"),
+    ("lost datagram", "reply lost"),
+    ("duplicated", "reply repeated"),
+    ("truncated", "reply truncated"),
+    ("foreign", "reply to another request"),
+    ("noise", "noise"),
+    ("wrong toggle", "wrong toggle bit"),
+    ("restart", "restart"),
+    ("bus-off", "bus-off"),
+    ("error frame", "error frame"),
+];
+
+/// Returns the result that the tables of the book contain, or `None` if they have no column for the client.
+fn book_result(row: &Row) -> Option<&'static str> {
+    const BOOK: &str = include_str!("../../docs/src/buses.md");
+    let (_, name) = BOOK_NAMES.into_iter().find(|(name, _)| *name == row.fault).expect("a fault of the book");
+    let mut column = None;
+    for line in BOOK.lines() {
+        let mut cells = line.trim_matches('|').split('|').map(str::trim);
+        match cells.clone().next() {
+            Some("fault") => column = cells.position(|cell| cell.contains(row.client)),
+            Some(fault) if line.starts_with('|') && fault.starts_with(name) => return cells.nth(column?),
+            _ => {}
+        }
+    }
+    panic!("the book has no fault {name:?}");
+}
+
+/// Checks that the book contains the result of a row.
+fn check_book(row: &Row) -> bool {
+    let is_right = book_result(row).map(|cell| match (cell, row.result) {
+        // The right reply either follows or does not.
+        ("ignored", result) => ["right value", "`Timeout`"].contains(&result),
+        // A blocking stream reports its timeout as an error.
+        (cell, "`Client`") if cell.contains("timeout of the stream") => true,
+        (cell, result) => cell.contains(result),
+    });
+    assert!(is_right != Some(false), "the book: {} {}: {}", row.client, row.fault, row.result);
+    is_right.is_some()
+}
+
 #[test]
 fn matrix() {
     #[cfg(all(feature = "ethercat", feature = "macros"))]
@@ -58,8 +102,13 @@ fn matrix() {
         assert!(row.time <= 2 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.time);
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
-    // The table has one row for each client (SDO, LSS, node guarding, boot and serial) with each of six faults, blocking and asynchronous, and
-    // the rows for Modbus. The client for EtherCAT is only asynchronous, and has one more fault.
+    let in_book = rows.iter().filter(|row| check_book(row)).count();
+    // The table has rows for each client with each fault, blocking and asynchronous: LSS and boot with nine faults, SDO and
+    // node guarding with the wrong toggle bit as well, and serial with six. The client for EtherCAT is only asynchronous,
+    // and has seven faults.
     let ethercat = if cfg!(all(feature = "ethercat", feature = "macros")) { 7 } else { 0 };
-    assert_eq!(rows.len(), 5 * 6 * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
+    assert_eq!(rows.len(), (2 * 9 + 2 * 10 + 6) * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
+    // SDO has ten faults in the tables of the book, Modbus RTU, Modbus TCP and serial have six, LSS and boot three, and
+    // node guarding four.
+    assert_eq!(in_book, (10 + 3 * 6 + 2 * 3 + 4) * 2 + ethercat);
 }

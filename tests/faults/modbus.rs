@@ -1,4 +1,4 @@
-//! Tests Modbus RTU and TCP with a simulated device whose replies are delayed, lost or corrupted, in simulated time.
+//! Tests Modbus RTU and TCP with a simulated device and faults of the line, in simulated time.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -8,10 +8,12 @@ use lexibus::clients::modbus::tokio_modbus::Slave;
 use lexibus::clients::modbus::{BlockingLink, Link, ModbusClient};
 use lexibus::framing::Check;
 use lexibus::modbus::{AsyncRegisterClient, Limits, TableLimits};
+use lexibus::sim::{FaultyStream, StreamFault};
 use lexibus::{AsyncClient, Client, Error, Flags, Item, OnModbus, Register, Rw};
 use tokio::io::{duplex, AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt, DuplexStream};
 use tokio::time::{sleep, timeout, Instant};
 
+use crate::faulty_stream::set;
 use crate::random::Random;
 
 pub const DEVICE: u8 = 5;
@@ -41,31 +43,18 @@ const KINDS: [Kind; 4] = [Kind::Read, Kind::Write, Kind::Mask, Kind::Exchange];
 const LIMITS: Limits =
     Limits { holding: TableLimits { functions: &[3, 6, 16, 22, 23], ..TableLimits::HOLDING }, ..Limits::STANDARD };
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fault {
-    Nothing,
-    Late(Duration),
-    Lost,
-    Duplicated,
-    Truncated,
-    /// A reply from another device (RTU) or to another transaction (TCP) arrives before the expected reply.
-    Foreign,
-    Noise,
-    /// Noise arrives for a minute instead of the reply, one byte every 10 ms.
-    EndlessNoise,
-}
-
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct World {
     pub count: u32,
     pub setpoint: u16,
-    pub fault: Fault,
+    /// Fault of each reply.
+    pub fault: Option<StreamFault>,
 }
 
 pub type Shared = Arc<Mutex<World>>;
 
 pub fn world() -> Shared {
-    Arc::new(Mutex::new(World { count: 0, setpoint: 0, fault: Fault::Nothing }))
+    Arc::new(Mutex::new(World { count: 0, setpoint: 0, fault: None }))
 }
 
 fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8> {
@@ -77,6 +66,21 @@ fn frame(is_rtu: bool, transaction: [u8; 2], device: u8, data: &[u8]) -> Vec<u8>
     }
     let [high, low] = (frame.len() as u16).to_be_bytes();
     [&transaction[..], &[0, 0, high, low], &frame].concat()
+}
+
+/// Returns a reply from another device (RTU) or to another transaction (TCP), which arrives before the expected reply.
+pub fn foreign(is_rtu: bool) -> StreamFault {
+    StreamFault::Noise(frame(is_rtu, [0xAB, 0xCD], DEVICE + 1, &[3, 4, 9, 9, 9, 9]))
+}
+
+/// Returns noise that arrives before the reply.
+pub fn noise() -> StreamFault {
+    StreamFault::Noise(vec![0xFF; 40])
+}
+
+/// Returns noise that arrives for a minute instead of the reply, one byte every 10 ms.
+fn endless_noise() -> StreamFault {
+    StreamFault::Foreign { bytes: vec![0xFF], count: 6000, period: Duration::from_millis(10) }
 }
 
 /// Receives a request. Returns the transaction on TCP, the unit ID and the data.
@@ -99,9 +103,10 @@ async fn receive(line: &mut (impl AsyncRead + Unpin), is_rtu: bool) -> std::io::
 
 /// Simulates a device that answers requests that use function 3, 6, 22 or 23. The device executes broadcasts. After a
 /// broadcast, only a faulty device replies.
-async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, world: Shared) {
+async fn serve(line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, world: Shared) {
+    let mut line = FaultyStream::new(line);
     while let Ok((transaction, unit, data)) = receive(&mut line, is_rtu).await {
-        let World { count, setpoint, fault } = *world.lock().unwrap();
+        let World { count, setpoint, fault } = world.lock().unwrap().clone();
         let word = |at: usize| u16::from_be_bytes([data[at], data[at + 1]]);
         let values = |function: u8| [&[function, 4][..], &count.to_be_bytes()].concat();
         let (written, reply) = match data[0] {
@@ -111,32 +116,12 @@ async fn serve(mut line: impl AsyncRead + AsyncWrite + Unpin, is_rtu: bool, worl
             _ => (word(3), data.clone()),
         };
         world.lock().unwrap().setpoint = written;
-        if unit == 0 && fault == Fault::Nothing {
+        if unit == 0 && fault.is_none() {
             continue;
         }
-        let good = frame(is_rtu, transaction, DEVICE, &reply);
-        let foreign = frame(is_rtu, [0xAB, 0xCD], DEVICE + 1, &reply);
         sleep(Duration::from_millis(1)).await;
-        let sent = match fault {
-            Fault::Nothing => good,
-            Fault::Late(delay) => {
-                sleep(delay).await;
-                good
-            }
-            Fault::Lost => continue,
-            Fault::Duplicated => [&good[..], &good].concat(),
-            Fault::Truncated => good[..good.len() - 3].to_vec(),
-            Fault::Foreign => [foreign, good].concat(),
-            Fault::Noise => [&[0xFF; 40], &good[..]].concat(),
-            Fault::EndlessNoise => {
-                for _ in 0..6000 {
-                    line.write_all(&[0xFF]).await.unwrap();
-                    sleep(Duration::from_millis(10)).await;
-                }
-                continue;
-            }
-        };
-        line.write_all(&sent).await.unwrap();
+        set(&mut line, fault);
+        line.write_all(&frame(is_rtu, transaction, DEVICE, &reply)).await.unwrap();
     }
 }
 
@@ -199,7 +184,7 @@ async fn late_replies_are_not_those_of_the_next_request() {
             let is_late = random.below(20) == 0;
             late += u32::from(is_late);
             let delay = Duration::from_millis(200 + random.below(190));
-            world.lock().unwrap().fault = if is_late { Fault::Late(delay) } else { Fault::Nothing };
+            world.lock().unwrap().fault = is_late.then_some(StreamFault::Late(delay));
             let kind = KINDS[random.below(4) as usize];
             match request(&mut device, &world, number, kind).await {
                 Ok(()) => {}
@@ -215,31 +200,31 @@ async fn late_replies_are_not_those_of_the_next_request() {
 
 #[tokio::test(start_paused = true)]
 async fn after_each_fault_the_next_request_is_right() {
-    let faults = [
-        Fault::Late(TIMEOUT),
-        Fault::Lost,
-        Fault::Duplicated,
-        Fault::Truncated,
-        Fault::Foreign,
-        Fault::Noise,
-        Fault::EndlessNoise,
-    ];
     for is_rtu in [true, false] {
+        let faults = [
+            StreamFault::Late(TIMEOUT),
+            StreamFault::Lost,
+            StreamFault::Duplicated,
+            StreamFault::Truncated,
+            foreign(is_rtu),
+            noise(),
+            endless_noise(),
+        ];
         for fault in faults {
             let world = world();
             let mut device = client(link(is_rtu, &world));
-            world.lock().unwrap().fault = fault;
+            world.lock().unwrap().fault = Some(fault.clone());
             let start = Instant::now();
             let first = request(&mut device, &world, 1, Kind::Read).await;
             let longest = start.elapsed();
             assert!(longest <= TIMEOUT + Duration::from_millis(10), "{fault:?}: {longest:?}");
-            if fault == Fault::EndlessNoise {
+            if fault == endless_noise() {
                 let start = Instant::now();
                 assert!(matches!(request(&mut device, &world, 2, Kind::Read).await, Err(Error::Timeout)));
                 assert!(start.elapsed() <= 4 * TIMEOUT, "{:?}", start.elapsed());
                 sleep(Duration::from_secs(60)).await;
             }
-            world.lock().unwrap().fault = Fault::Nothing;
+            world.lock().unwrap().fault = None;
             let start = Instant::now();
             let second = request(&mut device, &world, 3, Kind::Read).await;
             println!("rtu {is_rtu} {fault:?}: {first:?} in {longest:?}, then {second:?} in {:?}", start.elapsed());
@@ -262,7 +247,7 @@ async fn late_replies_on_a_pseudo_terminal() {
     for number in 0..200 {
         let is_late = number % 20 == 7;
         late += u32::from(is_late);
-        world.lock().unwrap().fault = if is_late { Fault::Late(TIMEOUT * 5 / 4) } else { Fault::Nothing };
+        world.lock().unwrap().fault = is_late.then_some(StreamFault::Late(TIMEOUT * 5 / 4));
         failed += u32::from(request(&mut device, &world, number, Kind::Read).await.is_err());
     }
     println!("200 Modbus RTU requests on a pseudo-terminal, {late} late: {failed} errors, no wrong value");
@@ -274,10 +259,10 @@ async fn after_a_dropped_call_the_next_one_is_right() {
     for is_rtu in [true, false] {
         let world = world();
         let mut device = client(link(is_rtu, &world));
-        world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
+        world.lock().unwrap().fault = Some(StreamFault::Late(Duration::from_millis(100)));
         let dropped = timeout(Duration::from_millis(20), request(&mut device, &world, 1, Kind::Read)).await;
         assert!(dropped.is_err());
-        world.lock().unwrap().fault = Fault::Nothing;
+        world.lock().unwrap().fault = None;
         request(&mut device, &world, 2, Kind::Read).await.expect("the reply");
     }
 }
@@ -287,9 +272,9 @@ fn blocking_calls_after_a_late_reply() {
     for is_rtu in [true, false] {
         let world = world();
         let mut device = blocking(is_rtu, &world);
-        world.lock().unwrap().fault = Fault::Late(TIMEOUT);
+        world.lock().unwrap().fault = Some(StreamFault::Late(TIMEOUT));
         assert!(matches!(Client::read(&mut device, COUNT, &mut [0; 4]), Err(Error::Timeout)));
-        world.lock().unwrap().fault = Fault::Nothing;
+        world.lock().unwrap().fault = None;
         world.lock().unwrap().count = 7;
         let mut buffer = [0; 4];
         assert_eq!(Client::read(&mut device, COUNT, &mut buffer).expect("a value"), 4);
@@ -326,9 +311,9 @@ async fn a_timeout_of_any_length_is_valid() {
         let link = if is_rtu { Link::rtu } else { Link::tcp };
         let mut device = ModbusClient::new(link(line, Slave(DEVICE), Duration::MAX));
         request(&mut device, &world, 1, Kind::Read).await.expect("the reply");
-        world.lock().unwrap().fault = Fault::Late(Duration::from_millis(100));
+        world.lock().unwrap().fault = Some(StreamFault::Late(Duration::from_millis(100)));
         assert!(timeout(Duration::from_millis(20), request(&mut device, &world, 2, Kind::Read)).await.is_err());
-        world.lock().unwrap().fault = Fault::Nothing;
+        world.lock().unwrap().fault = None;
         request(&mut device, &world, 3, Kind::Read).await.expect("the reply");
     }
 }
@@ -340,9 +325,9 @@ async fn contexts_without_a_link_are_out_of_step() {
     let (line, device) = duplex(0x1_0000);
     tokio::spawn(serve(device, false, world.clone()));
     let mut device = ModbusClient::new(tcp::attach_slave(line, Slave(DEVICE)));
-    world.lock().unwrap().fault = Fault::Late(TIMEOUT);
+    world.lock().unwrap().fault = Some(StreamFault::Late(TIMEOUT));
     assert!(timeout(TIMEOUT, request(&mut device, &world, 1, Kind::Read)).await.is_err());
-    world.lock().unwrap().fault = Fault::Nothing;
+    world.lock().unwrap().fault = None;
     sleep(TIMEOUT).await;
     let mut failed = 0;
     for number in 2..12 {

@@ -6,20 +6,26 @@ use lexibus::clients::modbus::tokio_modbus::prelude::SlaveContext;
 use lexibus::clients::modbus::tokio_modbus::Slave;
 use lexibus::clients::modbus::{BlockingLink, ModbusError, TURNAROUND};
 use lexibus::modbus::RegisterClient;
+use lexibus::sim::StreamFault;
 use lexibus::{AsyncClient, Client, Error};
 use tokio::time::Instant;
 
 use crate::matrix::{name, Row};
-use crate::modbus::{client, link, request, world, Fault, Kind, Shared, COUNT, DEVICE, SETPOINT, TIMEOUT};
+use crate::modbus::{client, foreign, link, noise, request, world, Kind, Shared, COUNT, DEVICE, SETPOINT, TIMEOUT};
 
-const FAULTS: [(&str, Fault); 6] = [
-    ("late", Fault::Late(TIMEOUT)),
-    ("lost", Fault::Lost),
-    ("duplicated", Fault::Duplicated),
-    ("truncated", Fault::Truncated),
-    ("foreign", Fault::Foreign),
-    ("noise", Fault::Noise),
-];
+/// Number of faults.
+const FAULTS: usize = 6;
+
+fn faults(is_rtu: bool) -> [(&'static str, StreamFault); FAULTS] {
+    [
+        ("late", StreamFault::Late(TIMEOUT)),
+        ("lost", StreamFault::Lost),
+        ("duplicated", StreamFault::Duplicated),
+        ("truncated", StreamFault::Truncated),
+        ("foreign", foreign(is_rtu)),
+        ("noise", noise()),
+    ]
+}
 
 /// Names of the requests in the table, for RTU and for TCP.
 const CLIENTS: [(Kind, [&str; 2]); 3] = [
@@ -29,20 +35,20 @@ const CLIENTS: [(Kind, [&str; 2]); 3] = [
 ];
 
 /// Number of rows.
-pub const COUNT_OF_ROWS: usize = CLIENTS.len() * 2 * FAULTS.len() * 2 + 2 * FAULTS.len();
+pub const COUNT_OF_ROWS: usize = CLIENTS.len() * 2 * FAULTS * 2 + 2 * FAULTS;
 
 /// Returns the rows for Modbus in the table of faults.
 pub fn rows() -> Vec<Row> {
     let mut rows = Vec::new();
     for (kind, names) in CLIENTS {
         for (client, is_rtu) in names.into_iter().zip([true, false]) {
-            for (fault_name, fault) in FAULTS {
+            for (fault_name, fault) in faults(is_rtu) {
                 for is_async in [false, true] {
                     let world = world();
                     let (first, next) = if is_async {
-                        twice(is_rtu, &world, fault, kind)
+                        twice(is_rtu, &world, &fault, kind)
                     } else {
-                        blocking_twice(is_rtu, &world, fault, kind)
+                        blocking_twice(is_rtu, &world, &fault, kind)
                     };
                     let (result, time) = first;
                     rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
@@ -50,12 +56,13 @@ pub fn rows() -> Vec<Row> {
             }
         }
     }
-    for (fault_name, fault) in FAULTS {
+    for (fault_name, fault) in faults(true) {
         // A device that replies to a broadcast violates the standard. The link discards replies within the turnaround
         // delay only.
-        let fault = if fault == Fault::Late(TIMEOUT) { Fault::Late(TURNAROUND / 2) } else { fault };
+        let is_late = fault == StreamFault::Late(TIMEOUT);
+        let fault = if is_late { StreamFault::Late(TURNAROUND / 2) } else { fault };
         for is_async in [false, true] {
-            let ((result, time), next) = if is_async { broadcast(fault) } else { blocking_broadcast(fault) };
+            let ((result, time), next) = if is_async { broadcast(&fault) } else { blocking_broadcast(&fault) };
             let client = "Modbus RTU, broadcast";
             rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
         }
@@ -66,14 +73,14 @@ pub fn rows() -> Vec<Row> {
 type Twice = ((&'static str, Duration), Duration);
 
 /// Returns the result and duration of a request with a fault, and the duration of the next request, which must succeed.
-fn twice(is_rtu: bool, world: &Shared, fault: Fault, kind: Kind) -> Twice {
+fn twice(is_rtu: bool, world: &Shared, fault: &StreamFault, kind: Kind) -> Twice {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
     runtime.expect("a runtime").block_on(async {
         let mut device = client(link(is_rtu, world));
-        world.lock().unwrap().fault = fault;
+        world.lock().unwrap().fault = Some(fault.clone());
         let start = Instant::now();
         let first = (name(&request(&mut device, world, 1, kind).await), start.elapsed());
-        world.lock().unwrap().fault = Fault::Nothing;
+        world.lock().unwrap().fault = None;
         let start = Instant::now();
         request(&mut device, world, 2, kind).await.expect("the next request is right");
         (first, start.elapsed())
@@ -96,11 +103,11 @@ fn blocking(is_rtu: bool, world: &Shared) -> (BlockingLink<tokio::io::DuplexStre
     (link.expect("a link"), now)
 }
 
-fn blocking_twice(is_rtu: bool, world: &Shared, fault: Fault, kind: Kind) -> Twice {
+fn blocking_twice(is_rtu: bool, world: &Shared, fault: &StreamFault, kind: Kind) -> Twice {
     let (link, now) = blocking(is_rtu, world);
     let mut device = client(link);
-    let mut send = |number: u32, fault| {
-        (world.lock().unwrap().count, world.lock().unwrap().fault) = (number, fault);
+    let mut send = |number: u32, fault: Option<StreamFault>| {
+        (world.lock().unwrap().count, world.lock().unwrap().fault) = (number, fault.clone());
         let (mut buffer, word) = ([0; 4], number as u16);
         let start = now();
         let result = match kind {
@@ -117,23 +124,23 @@ fn blocking_twice(is_rtu: bool, world: &Shared, fault: Fault, kind: Kind) -> Twi
         assert!(result.is_err() || kind == Kind::Read || world.lock().unwrap().setpoint == word, "{fault:?}");
         (result, now() - start)
     };
-    let (first, time) = send(1, fault);
-    let (second, next) = send(2, Fault::Nothing);
+    let (first, time) = send(1, Some(fault.clone()));
+    let (second, next) = send(2, None);
     second.expect("the next request is right");
     ((name(&first), time), next)
 }
 
 /// Returns the result and duration of a broadcast to a device that replies wrongly, and the duration of the next read.
-fn broadcast(fault: Fault) -> Twice {
+fn broadcast(fault: &StreamFault) -> Twice {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
     runtime.expect("a runtime").block_on(async {
         let world = world();
         let mut device = client(link(true, &world));
-        world.lock().unwrap().fault = fault;
+        world.lock().unwrap().fault = Some(fault.clone());
         device.context().set_slave(Slave::broadcast());
         let start = Instant::now();
         let first = (name(&request(&mut device, &world, 1, Kind::Write).await), start.elapsed());
-        world.lock().unwrap().fault = Fault::Nothing;
+        world.lock().unwrap().fault = None;
         device.context().set_slave(Slave(DEVICE));
         let start = Instant::now();
         request(&mut device, &world, 2, Kind::Read).await.expect("the next request is right");
@@ -141,17 +148,17 @@ fn broadcast(fault: Fault) -> Twice {
     })
 }
 
-fn blocking_broadcast(fault: Fault) -> Twice {
+fn blocking_broadcast(fault: &StreamFault) -> Twice {
     let world = world();
     let (link, now) = blocking(true, &world);
     let mut device = client(link);
-    world.lock().unwrap().fault = fault;
+    world.lock().unwrap().fault = Some(fault.clone());
     device.context().set_slave(Slave::broadcast());
     let start = now();
     let result = Client::write(&mut device, SETPOINT, &[7, 0]);
     let first = (name(&result), now() - start);
     assert_eq!(world.lock().unwrap().setpoint, 7);
-    (world.lock().unwrap().count, world.lock().unwrap().fault) = (2, Fault::Nothing);
+    (world.lock().unwrap().count, world.lock().unwrap().fault) = (2, None);
     device.context().set_slave(Slave(DEVICE));
     let (start, mut buffer) = (now(), [0; 4]);
     Client::read(&mut device, COUNT, &mut buffer).expect("the next request is right");
@@ -215,9 +222,9 @@ async fn unit_0_on_tcp() {
     let mut device = client(link(false, &world).with_turnaround(TURNAROUND));
     device.context().set_slave(Slave::broadcast());
     request(&mut device, &world, 2, Kind::Write).await.expect("no reply is expected");
-    world.lock().unwrap().fault = Fault::Foreign;
+    world.lock().unwrap().fault = Some(foreign(false));
     request(&mut device, &world, 3, Kind::Write).await.expect("replies of the gateway are discarded");
-    world.lock().unwrap().fault = Fault::Nothing;
+    world.lock().unwrap().fault = None;
     device.context().set_slave(Slave(DEVICE));
     request(&mut device, &world, 4, Kind::Read).await.expect("the reply");
 }

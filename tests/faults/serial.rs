@@ -1,8 +1,8 @@
-//! Tests serial lines with a simulated device whose replies are delayed, lost or corrupted, in simulated time.
+//! Tests serial lines with a simulated device and faults of the line, in simulated time.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Write};
 use std::pin::pin;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex};
@@ -11,11 +11,13 @@ use std::time::Duration;
 
 use lexibus::clients::serial::{embedded_io, embedded_io_async, SerialError, SerialLine};
 use lexibus::framing::{Check, Delimited, Framing};
+use lexibus::sim::{FaultyStream, StreamFault};
 use lexibus::{AsyncExchange, Error, Exchange};
 use tokio::io::{duplex, AsyncReadExt, AsyncWriteExt, DuplexStream};
 use tokio::time::{sleep, timeout, Instant, Sleep};
 
 use crate::can::poll_once;
+use crate::faulty_stream::set;
 use crate::matrix::{name, Row};
 use crate::random::Random;
 
@@ -27,48 +29,64 @@ const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
 /// Timeout of a read from the stream, and of a whole exchange.
 const TIMEOUT: Duration = Duration::from_millis(100);
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Fault {
-    Nothing,
-    Late(Duration),
-    Lost,
-    /// The reply arrives twice.
-    Duplicated,
-    Truncated,
-    /// A frame with a wrong checksum arrives instead of the reply.
-    Foreign,
-    Noise,
-    /// Noise arrives for a minute instead of the reply, one byte every 10 ms.
-    EndlessNoise,
+/// Time that a reply takes.
+const SOON: Duration = Duration::from_millis(1);
+
+/// Returns noise that arrives for a minute instead of the reply, one byte every 10 ms.
+fn endless_noise() -> StreamFault {
+    StreamFault::Foreign { bytes: vec![0x41], count: 6000, period: Duration::from_millis(10) }
 }
 
-const FAULTS: [Fault; 5] =
-    [Fault::Late(Duration::from_millis(150)), Fault::Lost, Fault::Truncated, Fault::Noise, Fault::EndlessNoise];
+fn noise() -> StreamFault {
+    StreamFault::Noise(vec![0xFF, 0x03, 0x41])
+}
 
-/// Returns the bytes that the device sends after a request, with their delays.
-fn reply(count: u32, fault: Fault) -> Vec<(Duration, u8)> {
-    let mut frame = [0; 64];
+const LATE: StreamFault = StreamFault::Late(Duration::from_millis(150));
+
+fn faults() -> [StreamFault; 5] {
+    [LATE, StreamFault::Lost, StreamFault::Truncated, noise(), endless_noise()]
+}
+
+/// Returns the reply to a request.
+fn reply(count: u32) -> Vec<u8> {
+    let mut frame = vec![0; 64];
     let length = FRAMING.encode(&count.to_le_bytes(), &mut frame).expect("it fits");
-    let soon = Duration::from_millis(1);
-    let at = |delay| frame[..length].iter().map(move |byte| (delay, *byte));
-    match fault {
-        Fault::Nothing => at(soon).collect(),
-        Fault::Late(delay) => at(delay).collect(),
-        Fault::Lost => Vec::new(),
-        Fault::Duplicated => at(soon).chain(at(soon)).collect(),
-        Fault::Truncated => at(soon).take(length - 2).collect(),
-        Fault::Foreign => [0x02, 0x41, 0x41, 0x41, 0x03].map(|byte| (soon, byte)).into(),
-        Fault::Noise => [0xFF, 0x03, 0x41].map(|byte| (soon, byte)).into_iter().chain(at(soon)).collect(),
-        Fault::EndlessNoise => (1..6000).map(|at| (at * 10 * soon, 0x41)).collect(),
+    frame.truncate(length);
+    frame
+}
+
+/// The device's end of a line in simulated time.
+struct Wire {
+    /// Time at which the device sends the next byte.
+    time: Rc<Cell<Duration>>,
+    bytes: VecDeque<(Duration, u8)>,
+}
+
+impl Write for Wire {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.bytes.extend(bytes.iter().map(|byte| (self.time.get(), *byte)));
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
     }
 }
 
 /// A stream with a read timeout, and a device that answers each frame with the number of the request.
 struct Port {
     now: Rc<Cell<Duration>>,
-    bytes: VecDeque<(Duration, u8)>,
+    device: FaultyStream<Wire, Box<dyn FnMut(Duration)>>,
     count: u32,
-    fault: Fault,
+}
+
+impl Port {
+    fn new(now: Rc<Cell<Duration>>) -> Self {
+        let time = Rc::new(Cell::new(Duration::ZERO));
+        let device = FaultyStream::new(Wire { time: time.clone(), bytes: VecDeque::new() });
+        let wait: Box<dyn FnMut(Duration)> = Box::new(move |pause| time.set(time.get() + pause));
+        Self { now, device: device.with_wait(wait), count: 0 }
+    }
 }
 
 #[derive(Debug)]
@@ -95,9 +113,10 @@ impl embedded_io::ErrorType for Port {
 impl embedded_io::Read for Port {
     fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Late> {
         let end = self.now.get() + TIMEOUT;
-        match self.bytes.front() {
+        let bytes = &mut self.device.inner().bytes;
+        match bytes.front() {
             Some(&(at, byte)) if at <= end => {
-                self.bytes.pop_front();
+                bytes.pop_front();
                 self.now.set(at.max(self.now.get()));
                 buffer[0] = byte;
                 Ok(1)
@@ -112,14 +131,16 @@ impl embedded_io::Read for Port {
 
 impl embedded_io::ReadReady for Port {
     fn read_ready(&mut self) -> Result<bool, Late> {
-        Ok(self.bytes.front().is_some_and(|(at, _)| *at <= self.now.get()))
+        Ok(self.device.inner().bytes.front().is_some_and(|(at, _)| *at <= self.now.get()))
     }
 }
 
 impl embedded_io::Write for Port {
     fn write(&mut self, bytes: &[u8]) -> Result<usize, Late> {
-        let start = self.bytes.back().map_or(Duration::ZERO, |(at, _)| *at).max(self.now.get());
-        self.bytes.extend(reply(self.count, self.fault).into_iter().map(|(delay, byte)| (start + delay, byte)));
+        let wire = self.device.inner();
+        let start = wire.bytes.back().map_or(Duration::ZERO, |(at, _)| *at).max(self.now.get());
+        wire.time.set(start + SOON);
+        self.device.write_all(&reply(self.count)).expect("no error");
         Ok(bytes.len())
     }
 
@@ -132,14 +153,18 @@ type Outcome = Result<(), Error<SerialError<Late>>>;
 
 fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
     let now = Rc::new(Cell::new(Duration::ZERO));
-    let port = Port { now: now.clone(), bytes: VecDeque::new(), count: 0, fault: Fault::Nothing };
     let clock = now.clone();
-    (SerialLine::new(port, FRAMING).with_time(move || clock.get(), TIMEOUT), now)
+    (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(move || clock.get(), TIMEOUT), now)
 }
 
-/// Performs one exchange. Panics if the reply is wrong.
-fn once<T: lexibus::Clock>(line: &mut SerialLine<Port, Delimited, 64, T>, count: u32, fault: Fault) -> Outcome {
-    (line.stream().count, line.stream().fault) = (count, fault);
+/// Performs one exchange whose reply has a fault. Panics if the reply is wrong.
+fn once<T: lexibus::Clock>(
+    line: &mut SerialLine<Port, Delimited, 64, T>,
+    count: u32,
+    fault: impl Into<Option<StreamFault>>,
+) -> Outcome {
+    line.stream().count = count;
+    set(&mut line.stream().device, fault);
     let mut reply = [0; 20];
     let length = Exchange::exchange(line, &[1], &mut reply)?;
     assert_eq!(reply[..length], count.to_le_bytes(), "exchange {count}");
@@ -154,8 +179,8 @@ fn late_replies_are_not_those_of_the_next_request() {
     for count in 0..10_000 {
         let is_late = random.below(20) == 0;
         late += u32::from(is_late);
-        let fault = Fault::Late(Duration::from_millis(101 + random.below(90)));
-        failed += u32::from(once(&mut line, count, if is_late { fault } else { Fault::Nothing }).is_err());
+        let fault = StreamFault::Late(Duration::from_millis(101 + random.below(90)));
+        failed += u32::from(once(&mut line, count, is_late.then_some(fault)).is_err());
     }
     println!("10,000 exchanges on a serial line, {late} late: {failed} errors, no wrong reply");
     assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
@@ -165,25 +190,25 @@ fn late_replies_are_not_those_of_the_next_request() {
 fn a_repeated_reply_isnt_that_of_the_next_request() {
     let mut line = blocking().0.draining();
     for count in 0..10 {
-        once(&mut line, count, Fault::Duplicated).expect("the reply");
+        once(&mut line, count, StreamFault::Duplicated).expect("the reply");
     }
 }
 
 #[test]
 fn after_each_fault_the_next_request_is_right() {
-    for fault in FAULTS {
+    for fault in faults() {
         let (mut line, now) = blocking();
-        let first = once(&mut line, 1, fault);
+        let first = once(&mut line, 1, fault.clone());
         assert!(now.get() <= 2 * TIMEOUT, "{fault:?}: {:?}", now.get());
-        assert_eq!(first.is_ok(), fault == Fault::Noise, "{fault:?}: {first:?}");
-        if fault == Fault::EndlessNoise {
+        assert_eq!(first.is_ok(), fault == noise(), "{fault:?}: {first:?}");
+        if fault == endless_noise() {
             let start = now.get();
-            once(&mut line, 2, Fault::Lost).expect_err("noise");
+            once(&mut line, 2, StreamFault::Lost).expect_err("noise");
             assert!(now.get() - start <= 3 * TIMEOUT);
-            line.stream().bytes.clear();
+            line.stream().device.inner().bytes.clear();
         }
         let start = now.get();
-        once(&mut line, 3, Fault::Nothing).expect("the reply");
+        once(&mut line, 3, None).expect("the reply");
         assert!(now.get() - start <= 2 * TIMEOUT, "{fault:?}");
     }
 }
@@ -226,27 +251,26 @@ impl embedded_io_async::Write for AsyncPort {
     }
 }
 
-type World = Arc<Mutex<(u32, Fault)>>;
+type World = Arc<Mutex<(u32, Option<StreamFault>)>>;
 
-async fn serve(mut line: DuplexStream, world: World) {
+async fn serve(line: DuplexStream, world: World) {
+    let mut line = FaultyStream::new(line);
     let (mut decoder, mut request) = (FRAMING.decoder(), [0; 20]);
     while let Ok(byte) = line.read_u8().await {
         if !matches!(FRAMING.decode(&mut decoder, byte, &mut request), Ok(Some(_))) {
             continue;
         }
-        let (count, fault) = *world.lock().unwrap();
-        let start = Instant::now();
-        for (delay, byte) in reply(count, fault) {
-            tokio::time::sleep_until(start + delay).await;
-            line.write_all(&[byte]).await.unwrap();
-        }
+        let (count, fault) = world.lock().unwrap().clone();
+        set(&mut line, fault);
+        sleep(SOON).await;
+        line.write_all(&reply(count)).await.unwrap();
     }
 }
 
 type AsyncLine = SerialLine<AsyncPort, Delimited, 64, fn(Duration) -> Sleep>;
 
 fn asynchronous() -> (AsyncLine, World) {
-    let world = Arc::new(Mutex::new((0, Fault::Nothing)));
+    let world = Arc::new(Mutex::new((0, None)));
     let (line, device) = duplex(0x1_0000);
     tokio::spawn(serve(device, world.clone()));
     let sleep: fn(Duration) -> Sleep = sleep;
@@ -257,9 +281,9 @@ async fn once_async<T: lexibus::Timer>(
     line: &mut SerialLine<AsyncPort, Delimited, 64, T>,
     world: &World,
     count: u32,
-    fault: Fault,
+    fault: impl Into<Option<StreamFault>>,
 ) -> Outcome {
-    *world.lock().unwrap() = (count, fault);
+    *world.lock().unwrap() = (count, fault.into());
     let mut reply = [0; 20];
     let length = AsyncExchange::exchange(line, &[1], &mut reply).await?;
     assert_eq!(reply[..length], count.to_le_bytes(), "exchange {count}");
@@ -274,9 +298,8 @@ async fn async_late_replies_are_not_those_of_the_next_request() {
     for count in 0..10_000 {
         let is_late = random.below(20) == 0;
         late += u32::from(is_late);
-        let fault = Fault::Late(Duration::from_millis(101 + random.below(90)));
-        let fault = if is_late { fault } else { Fault::Nothing };
-        failed += u32::from(once_async(&mut line, &world, count, fault).await.is_err());
+        let fault = StreamFault::Late(Duration::from_millis(101 + random.below(90)));
+        failed += u32::from(once_async(&mut line, &world, count, is_late.then_some(fault)).await.is_err());
     }
     println!("10,000 async exchanges on a serial line, {late} late: {failed} errors, no wrong reply");
     assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
@@ -285,20 +308,20 @@ async fn async_late_replies_are_not_those_of_the_next_request() {
 #[tokio::test(start_paused = true)]
 async fn async_after_each_fault_the_next_request_is_right() {
     let soon = Duration::from_millis(5);
-    for fault in FAULTS {
+    for fault in faults() {
         let (mut line, world) = asynchronous();
         let start = Instant::now();
-        let first = once_async(&mut line, &world, 1, fault).await;
+        let first = once_async(&mut line, &world, 1, fault.clone()).await;
         assert!(start.elapsed() <= TIMEOUT + soon, "{fault:?}: {:?}", start.elapsed());
-        assert_eq!(first.is_ok(), fault == Fault::Noise, "{fault:?}: {first:?}");
-        if fault == Fault::EndlessNoise {
+        assert_eq!(first.is_ok(), fault == noise(), "{fault:?}: {first:?}");
+        if fault == endless_noise() {
             let start = Instant::now();
-            once_async(&mut line, &world, 2, Fault::Lost).await.expect_err("noise");
+            once_async(&mut line, &world, 2, StreamFault::Lost).await.expect_err("noise");
             assert!(start.elapsed() <= 2 * TIMEOUT + soon);
             sleep(Duration::from_secs(60)).await;
         }
         let start = Instant::now();
-        once_async(&mut line, &world, 3, Fault::Nothing).await.expect("the reply");
+        once_async(&mut line, &world, 3, None).await.expect("the reply");
         assert!(start.elapsed() <= 2 * TIMEOUT + soon, "{fault:?}: {:?}", start.elapsed());
     }
 }
@@ -306,28 +329,29 @@ async fn async_after_each_fault_the_next_request_is_right() {
 #[tokio::test(start_paused = true)]
 async fn after_a_dropped_exchange_the_next_one_is_right() {
     let (mut line, world) = asynchronous();
-    let late = Fault::Late(Duration::from_millis(50));
+    let late = StreamFault::Late(Duration::from_millis(50));
     assert!(timeout(Duration::from_millis(20), once_async(&mut line, &world, 1, late)).await.is_err());
-    once_async(&mut line, &world, 2, Fault::Nothing).await.expect("the reply");
+    once_async(&mut line, &world, 2, None).await.expect("the reply");
 }
 
 /// Returns the rows for serial lines in the table of faults.
 pub fn rows() -> Vec<Row> {
     let faults = [
-        ("late", Fault::Late(Duration::from_millis(150))),
-        ("lost", Fault::Lost),
-        ("duplicated", Fault::Duplicated),
-        ("truncated", Fault::Truncated),
-        ("foreign", Fault::Foreign),
-        ("noise", Fault::Noise),
+        ("late", LATE),
+        ("lost", StreamFault::Lost),
+        ("duplicated", StreamFault::Duplicated),
+        ("truncated", StreamFault::Truncated),
+        // A frame with a wrong checksum.
+        ("foreign", StreamFault::Foreign { bytes: vec![0x02, 0x41, 0x41, 0x41, 0x03], count: 1, period: SOON }),
+        ("noise", noise()),
     ];
     let mut rows = Vec::new();
     for (fault_name, fault) in faults {
         let (line, now) = blocking();
         let mut line = line.draining();
-        let result = name(&once(&mut line, 1, fault));
+        let result = name(&once(&mut line, 1, fault.clone()));
         let time = now.get();
-        once(&mut line, 2, Fault::Nothing).expect("the next request is right");
+        once(&mut line, 2, None).expect("the next request is right");
         let (client, timeout, next) = ("serial", TIMEOUT, now.get() - time);
         rows.push(Row { client, is_async: false, fault: fault_name, result, time, next, timeout });
 
@@ -336,9 +360,9 @@ pub fn rows() -> Vec<Row> {
             let (line, world) = asynchronous();
             let mut line = line.draining();
             let start = Instant::now();
-            let result = name(&once_async(&mut line, &world, 1, fault).await);
+            let result = name(&once_async(&mut line, &world, 1, fault.clone()).await);
             let time = start.elapsed();
-            once_async(&mut line, &world, 2, Fault::Nothing).await.expect("the next request is right");
+            once_async(&mut line, &world, 2, None).await.expect("the next request is right");
             Row { client, is_async: true, fault: fault_name, result, time, next: start.elapsed() - time, timeout }
         }));
     }

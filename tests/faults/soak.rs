@@ -1,20 +1,21 @@
 //! Soak test: an hour of simulated time with random faults, over the clients for SDO and Modbus and the state machine
 //! walker. No value may be wrong, and no buffer may grow.
 
-use std::convert::Infallible;
 use std::time::Duration;
 
-use lexibus::clients::canopen::{CanPort, NmtCommand, Node};
-use lexibus::sim::{CanBus, CanNode, Device};
+use lexibus::clients::canopen::{CanPort, Node};
+use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device, StreamFault};
 use lexibus::{CanOpen, Client, Error, NodeId, Object};
 use lexibus_drives::demo_drive::types::State;
 use lexibus_drives::demo_drive::{objects, DemoDrive, ENTRIES};
 
-use crate::faulty::{Fault, Faulty, TIMEOUT};
+use crate::faulty::{faulty, set, Faulty, TIMEOUT};
 use crate::lane;
 use crate::modbus;
 use crate::random::Random;
 
+/// Time that a frame takes.
+const FRAME: Duration = Duration::from_millis(1);
 const HOUR: Duration = Duration::from_secs(3600);
 
 /// A node whose client waits in simulated time.
@@ -22,28 +23,35 @@ struct Simulated(Node<Faulty>);
 
 impl Client for Simulated {
     type Bus = CanOpen;
-    type Error = Infallible;
+    type Error = CanError;
 
-    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<CanError>> {
         Client::read(&mut self.0, object, buffer)
     }
 
-    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Infallible>> {
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<CanError>> {
         Client::write(&mut self.0, object, data)
     }
 
-    fn wait(&mut self, time: Duration) -> Result<(), Error<Infallible>> {
+    fn wait(&mut self, time: Duration) -> Result<(), Error<CanError>> {
         CanPort::receive(self.0.port(), time, &mut |_| false).map(|_| ()).map_err(Error::Client)
     }
 }
 
-fn fault(random: &mut Random) -> Fault {
-    match random.below(40) {
-        0 => Fault::Late(TIMEOUT + Duration::from_millis(random.below(450))),
-        1 => Fault::Lost,
-        2 => Fault::Duplicated,
-        3 => Fault::Truncated,
-        _ => Fault::Nothing,
+fn fault(random: &mut Random) -> Option<CanFault> {
+    match random.below(500) {
+        0 => return Some(CanFault::Restart),
+        1 => return Some(CanFault::BusOff),
+        _ => {}
+    }
+    match random.below(60) {
+        0 => Some(CanFault::Late(TIMEOUT + Duration::from_millis(random.below(450)))),
+        1 => Some(CanFault::Lost),
+        2 => Some(CanFault::Duplicated),
+        3 => Some(CanFault::Truncated),
+        4 => Some(CanFault::WrongToggle),
+        5 => Some(CanFault::ErrorFrame),
+        _ => None,
     }
 }
 
@@ -54,34 +62,32 @@ fn an_hour_over_can() {
     }
     let id = NodeId::new(5).expect("a node-ID");
     let mut bus = CanBus::new();
-    bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id).with_cia402()));
-    let mut drive = DemoDrive::new(Simulated(Node::new(Faulty::new(bus), id)));
+    bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id).with_cia402().with_access_time(FRAME)));
+    let mut drive = DemoDrive::new(Simulated(Node::new(faulty(bus), id)));
     let mut random = Random::new(28);
     let (mut requests, mut errors, mut walks, mut longest, mut restarts) = (0_u32, 0, 0, 0, 0);
-    while drive.client().0.port().time() < HOUR {
+    while drive.client().0.port().bus().now() < Some(HOUR) {
         requests += 1;
         let value = requests % 50_000;
         let port = drive.client().0.port();
-        port.fault = fault(&mut random);
-        if random.below(500) == 0 {
-            restarts += 1;
-            port.bus.nodes()[0].handle(&NmtCommand::ResetNode.frame(None));
-        }
+        let fault = fault(&mut random);
+        restarts += u32::from(fault == Some(CanFault::Restart));
+        set(port, fault);
         let is_right = match random.below(20) {
             0 => {
                 walks += 1;
                 let target = [State::OperationEnabled, State::SwitchOnDisabled][random.below(2) as usize];
                 let result = drive.walk(target, Duration::from_secs(2));
-                let status = drive.client().0.port().bus.nodes()[0].device().get(objects::STATUSWORD);
+                let status = drive.client().0.port().bus().nodes()[0].device().get(objects::STATUSWORD);
                 result.map(|_| assert_eq!(status.map(|status| status.state()), Ok(Some(target)))).is_ok()
             }
             1..=10 => {
-                let device = drive.client().0.port().bus.nodes()[0].device();
+                let device = drive.client().0.port().bus().nodes()[0].device();
                 device.set(objects::PROFILE_VELOCITY, value).expect("an object");
                 drive.profile_velocity().read().map(|read| assert_eq!(read, value, "request {requests}")).is_ok()
             }
             _ => drive.profile_velocity().write(value).is_ok_and(|()| {
-                let device = drive.client().0.port().bus.nodes()[0].device();
+                let device = drive.client().0.port().bus().nodes()[0].device();
                 assert_eq!(device.get(objects::PROFILE_VELOCITY), Ok(value), "request {requests}");
                 true
             }),
@@ -106,12 +112,12 @@ async fn an_hour_over_modbus() {
         let (mut requests, mut errors) = (0, 0);
         while start.elapsed() < HOUR / 2 {
             world.lock().unwrap().fault = match random.below(40) {
-                0 => modbus::Fault::Late(Duration::from_millis(200 + random.below(190))),
-                1 => modbus::Fault::Lost,
-                2 => modbus::Fault::Duplicated,
-                3 => modbus::Fault::Truncated,
-                4 => modbus::Fault::Foreign,
-                _ => modbus::Fault::Nothing,
+                0 => Some(StreamFault::Late(Duration::from_millis(200 + random.below(190)))),
+                1 => Some(StreamFault::Lost),
+                2 => Some(StreamFault::Duplicated),
+                3 => Some(StreamFault::Truncated),
+                4 => Some(modbus::foreign(is_rtu)),
+                _ => None,
             };
             let kind = [modbus::Kind::Read, modbus::Kind::Write][random.below(2) as usize];
             errors += u32::from(modbus::request(&mut device, &world, requests, kind).await.is_err());

@@ -9,7 +9,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
 use lexibus::RegisterTable;
-use tokio::net::TcpListener;
+use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::oneshot;
 use tokio_modbus::server::{rtu_over_tcp, tcp, Service};
 use tokio_modbus::{ExceptionCode, Request, Response};
@@ -179,13 +180,30 @@ impl Server {
     ///
     /// Returns an error if the port cannot be opened or the runtime cannot be started.
     pub fn start<S: Registers>(device: &Device<S>, framing: Framing) -> io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
+        Self::start_with(device, framing, |stream| stream)
+    }
+
+    /// Starts a server that converts each connection to another stream, such as one with faults.
+    ///
+    /// # Errors
+    ///
+    /// Returns an error if the port cannot be opened or the runtime cannot be started.
+    pub fn start_with<S, T>(
+        device: &Device<S>,
+        framing: Framing,
+        convert: impl Fn(TcpStream) -> T + Send + 'static,
+    ) -> io::Result<Self>
+    where
+        S: Registers,
+        T: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0"))?;
         let address = listener.local_addr()?;
         let (stop, stopped) = oneshot::channel::<()>();
         let device = device.clone();
         let thread = std::thread::spawn(move || {
-            let connected = |stream, _| ready(Ok(Some((device.clone(), stream))));
+            let connected = |stream, _| ready(Ok(Some((device.clone(), convert(stream)))));
             let stopped = async { drop(stopped.await) };
             let failed = |error| eprintln!("a connection ended: {error}");
             let ended = match framing {

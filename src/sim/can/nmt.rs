@@ -64,12 +64,7 @@ impl CanNode {
             Some(NmtCommand::Start) => self.enter(NmtState::Operational),
             Some(NmtCommand::Stop) => self.enter(NmtState::Stopped),
             Some(NmtCommand::EnterPreOperational) => self.enter(NmtState::PreOperational),
-            Some(NmtCommand::ResetNode) => {
-                self.lss.power_on();
-                self.adopt_node_id();
-                self.device.power_cycle();
-                self.boot();
-            }
+            Some(NmtCommand::ResetNode) => self.power_cycle(),
             Some(NmtCommand::ResetCommunication) => {
                 self.lss.restart();
                 self.restart_communication();

@@ -1,6 +1,6 @@
-//! A simulated CAN bus with one node, whose replies are delayed, lost or corrupted.
+//! A simulated CAN bus with one node, which has values of any length.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::convert::Infallible;
 use std::future::Future;
 use std::pin::Pin;
@@ -10,33 +10,19 @@ use std::time::Duration;
 
 use lexibus::clients::canopen::{AsyncCanPort, CanFrame, CanPort, Node};
 use lexibus::sdo::Server;
+use lexibus::sim::{CanError, FaultyCan, SimulatedCan};
 use lexibus::{AbortCode, NodeId, Object};
 
+use crate::faulty::TIMEOUT;
+
 pub const NODE: u8 = 5;
-pub const TIMEOUT: Duration = Duration::from_millis(500);
+/// Time that a sent frame takes.
+pub const FRAME: Duration = Duration::from_millis(1);
 /// Object that contains the number of the current request.
 pub const COUNT: Object = Object::new(0x2000, 0);
 /// Object that contains the same number as a text of 20 bytes, which needs a segmented transfer.
 pub const TEXT: Object = Object::new(0x2001, 0);
 pub const SETPOINT: Object = Object::new(0x2002, 0);
-
-/// A fault in the replies to one request.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fault {
-    Nothing,
-    /// The replies arrive with this delay.
-    Late(Duration),
-    Lost,
-    Duplicated,
-    /// The replies are truncated to four bytes.
-    Truncated,
-    /// Replies about another object arrive repeatedly instead of the reply.
-    Foreign,
-    /// A thousand frames of other nodes arrive before the reply.
-    Noise,
-    /// Each reply arrives just before the timeout.
-    Slow,
-}
 
 pub struct Objects(pub HashMap<Object, Vec<u8>>);
 
@@ -53,14 +39,13 @@ impl lexibus::sdo::Objects for Objects {
     }
 }
 
-/// A CAN bus with one node. The simulated time advances only while a client waits for a frame.
+/// A CAN bus with one node. The simulated time advances while a client waits for a frame, and with each sent frame.
 pub struct Bus {
     pub server: Server<8192>,
     pub objects: Objects,
     pub now: Duration,
-    /// Frames that have not been received, with their arrival times.
-    pub frames: Vec<(Duration, CanFrame)>,
-    pub fault: Fault,
+    /// Frames that have not been received.
+    pub frames: VecDeque<CanFrame>,
     pub aborts: usize,
     /// Number of received SYNC messages. The node sends this number in its PDO.
     pub sample: u32,
@@ -70,7 +55,7 @@ impl Bus {
     pub fn new() -> Self {
         let server = Server::new();
         let objects = Objects(HashMap::new());
-        Self { server, objects, now: Duration::ZERO, frames: Vec::new(), fault: Fault::Nothing, aborts: 0, sample: 0 }
+        Self { server, objects, now: Duration::ZERO, frames: VecDeque::new(), aborts: 0, sample: 0 }
     }
 
     /// Sets both objects that contain the number of the current request.
@@ -78,26 +63,12 @@ impl Bus {
         self.objects.0.insert(COUNT, count.to_le_bytes().to_vec());
         self.objects.0.insert(TEXT, text(count));
     }
+}
 
-    pub fn reply(&mut self, reply: CanFrame) {
-        let soon = self.now + Duration::from_millis(1);
-        match self.fault {
-            Fault::Nothing => self.frames.push((soon, reply)),
-            Fault::Late(delay) => self.frames.push((self.now + delay, reply)),
-            Fault::Lost => {}
-            Fault::Slow => self.frames.push((self.now + TIMEOUT - Duration::from_millis(1), reply)),
-            Fault::Duplicated => self.frames.extend([(soon, reply), (soon, reply)]),
-            Fault::Truncated => self.frames.extend(CanFrame::new(reply.id(), &reply.data()[..4]).map(|it| (soon, it))),
-            Fault::Noise => {
-                let other = CanFrame::new(0x123, &[1, 2, 3]).expect("a frame");
-                self.frames.extend([(soon, other); 1000]);
-                self.frames.push((soon, reply));
-            }
-            Fault::Foreign => {
-                let foreign = CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame");
-                self.frames.extend((1..300).map(|at| (self.now + at * TIMEOUT * 2 / 5, foreign)));
-            }
-        }
+impl SimulatedCan for Bus {
+    fn power_cycle(&mut self) {
+        self.server = Server::new();
+        self.frames.push_back(CanFrame::new(0x700 + u32::from(NODE), &[0]).expect("a boot-up message"));
     }
 }
 
@@ -105,9 +76,10 @@ impl CanPort for Bus {
     type Error = Infallible;
 
     fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
+        self.now += FRAME;
         if frame.id() == 0x080 {
             self.sample = self.sample.wrapping_add(1);
-            self.reply(CanFrame::new(0x185, &self.sample.to_le_bytes()).expect("a frame"));
+            self.frames.push_back(CanFrame::new(0x185, &self.sample.to_le_bytes()).expect("a frame"));
             return Ok(true);
         }
         let data: [u8; 8] = frame.data().try_into().expect("an SDO message");
@@ -116,7 +88,7 @@ impl CanPort for Bus {
             self.server.handle(&data, Duration::ZERO, &mut self.objects);
         }
         while let Some(reply) = self.server.next() {
-            self.reply(CanFrame::new(0x580 + u32::from(NODE), &reply).expect("a frame"));
+            self.frames.push_back(CanFrame::new(0x580 + u32::from(NODE), &reply).expect("a frame"));
         }
         Ok(true)
     }
@@ -126,20 +98,14 @@ impl CanPort for Bus {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Infallible> {
-        let end = self.now + patience;
-        loop {
-            let first = (0..self.frames.len()).min_by_key(|&at| self.frames[at].0);
-            let Some(first) = first.filter(|&at| self.frames[at].0 <= end) else {
-                self.now = end;
-                return Ok(None);
-            };
-            let (at, frame) = self.frames.remove(first);
-            self.now = self.now.max(at);
+        while let Some(frame) = self.frames.pop_front() {
             let frame = frame.at(Some(self.now));
             if wanted(&frame) {
                 return Ok(Some(frame));
             }
         }
+        self.now += patience;
+        Ok(None)
     }
 
     fn now(&mut self) -> Option<Duration> {
@@ -149,30 +115,30 @@ impl CanPort for Bus {
 
 /// An asynchronous port of the bus.
 pub struct AsyncBus {
-    pub bus: Bus,
+    pub bus: FaultyCan<Bus>,
     /// Number of frames that the port still receives; `None` if it is unlimited.
     pub pending_after: Option<usize>,
 }
 
 impl AsyncCanPort for AsyncBus {
-    type Error = Infallible;
+    type Error = CanError;
 
-    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
-        self.bus.send(frame, patience)
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, CanError> {
+        CanPort::send(&mut self.bus, frame, patience)
     }
 
     async fn receive(
         &mut self,
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, Infallible> {
+    ) -> Result<Option<CanFrame>, CanError> {
         if self.pending_after == Some(0) && !patience.is_zero() {
             std::future::pending::<()>().await;
         }
         if let Some(left) = &mut self.pending_after {
             *left = left.saturating_sub(usize::from(!patience.is_zero()));
         }
-        self.bus.receive(patience, wanted)
+        CanPort::receive(&mut self.bus, patience, wanted)
     }
 
     fn now(&mut self) -> Option<Duration> {
@@ -193,6 +159,6 @@ pub fn text(count: u32) -> Vec<u8> {
     format!("{count:020}").into_bytes()
 }
 
-pub fn node() -> Node<Bus> {
-    Node::new(Bus::new(), NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT)
+pub fn node() -> Node<FaultyCan<Bus>> {
+    Node::new(FaultyCan::new(Bus::new()), NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT)
 }

@@ -1,12 +1,13 @@
 //! Tests that clients get the newest PDO.
 
-use std::convert::Infallible;
 use std::time::Duration;
 
 use lexibus::clients::canopen::{sync, AsyncCanPort, Buffered, CanFrame, CanPort, Node};
+use lexibus::sim::{CanError, FaultyCan};
 use lexibus::{AsyncClient, Client, CobId, NodeId};
 
 use super::bus::*;
+use crate::faulty::TIMEOUT;
 use crate::now::now;
 
 const PDO: CobId = CobId::from_node(0x180);
@@ -19,7 +20,7 @@ fn behind() -> Node<Buffered<AsyncBus, 16>> {
     }
     bus.now = Duration::from_secs(1);
     bus.count(7);
-    let bus = AsyncBus { bus, pending_after: None };
+    let bus = AsyncBus { bus: FaultyCan::new(bus), pending_after: None };
     Node::new(Buffered::new(bus), NodeId::new(NODE).expect("a node-ID"))
 }
 
@@ -40,7 +41,7 @@ fn a_pdo_after_clear_and_sync_is_new() {
         AsyncClient::read(&mut node, COUNT, &mut [0; 4]).await.expect("a value");
         node.port().clear_async().await?;
         assert_eq!(node.latest_pdo_async(PDO).await, Ok(None));
-        Ok::<(), Infallible>(())
+        Ok::<(), CanError>(())
     })
     .expect("no fault");
     let mut node = Node::new(Buffered::<_, 16>::new(behind().into_port().into_inner().bus), NodeId::new(NODE).unwrap());
@@ -69,15 +70,15 @@ fn the_latest_pdo_has_the_time_at_which_it_was_taken_from_the_interface() {
     let mut node = behind();
     let start = node.port().now();
     assert_eq!(time(now(node.latest_pdo_async(PDO))), start, "the PDOs were in the queue of the interface");
-    // The PDO arrives 1 ms after SYNC, during an SDO transfer, and is kept in the buffer.
+    // At the start of the SDO transfer, the PDO is taken and kept in the buffer.
     now(node.sync_async()).expect("it is sent");
     now(AsyncClient::read(&mut node, TEXT, &mut [0; 20])).expect("a value");
-    let (arrival, after) = (start.map(|start| start + Duration::from_millis(1)), node.port().now());
+    let (arrival, after) = (start.map(|start| start + FRAME), node.port().now());
     assert!(arrival < after);
     assert_eq!(time(now(node.latest_pdo_async(PDO))), arrival);
     let bus = node.into_port().into_inner().bus;
     let mut node = Node::new(Buffered::<_, 16>::new(bus), NodeId::new(NODE).expect("a node-ID"));
     node.sync().expect("it is sent");
     Client::read(&mut node, TEXT, &mut [0; 20]).expect("a value");
-    assert_eq!(time(node.latest_pdo(PDO)), after.map(|after| after + Duration::from_millis(1)));
+    assert_eq!(time(node.latest_pdo(PDO)), after.map(|after| after + FRAME));
 }

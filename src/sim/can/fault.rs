@@ -1,0 +1,89 @@
+//! Faults of a simulated CAN bus.
+
+use core::error;
+use core::fmt;
+use core::time::Duration;
+use std::vec::Vec;
+
+use crate::clients::canopen::CanFrame;
+
+/// A fault of a frame that a client receives from a simulated CAN bus. [`FaultyCan`](super::FaultyCan) injects it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CanFault {
+    /// The frame arrives with this delay.
+    Late(Duration),
+    /// The frame doesn't arrive.
+    Lost,
+    /// The frame arrives twice.
+    Duplicated,
+    /// The frame arrives with the first half of its data.
+    Truncated,
+    /// Another frame arrives repeatedly instead of the frame, such as the reply to another request.
+    Foreign {
+        /// The frame that arrives.
+        frame: CanFrame,
+        /// Number of times that the frame arrives.
+        count: u32,
+        /// Time before each of these frames.
+        period: Duration,
+    },
+    /// This number of frames with the CAN-ID 0x123 arrives before the frame. The predefined connection set (CiA 301 7.3.3)
+    /// doesn't use this CAN-ID.
+    Noise(u32),
+    /// The frame arrives with the wrong toggle bit: bit 7 of a frame of one byte (node guarding), and bit 4 of an SDO
+    /// segment. Other frames have no toggle bit and are not changed. In block transfers, the sequence number is wrong.
+    WrongToggle,
+    /// The frame is lost, because all devices on the bus restart, as after a power failure.
+    Restart,
+    /// The interface goes to the state bus-off. The frame and all others are lost, and each call returns
+    /// [`CanError::BusOff`], until [`recover`](super::FaultyCan::recover) is called.
+    BusOff,
+    /// The interface receives an error frame, and the call returns [`CanError::ErrorFrame`]. The frame arrives after
+    /// that, because the sender repeats it.
+    ErrorFrame,
+}
+
+/// Error of a simulated CAN interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum CanError {
+    /// The interface is in the state bus-off: it neither sends nor receives.
+    BusOff,
+    /// The interface received an error frame.
+    ErrorFrame,
+}
+
+impl fmt::Display for CanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::BusOff => "the simulated CAN interface is bus-off",
+            Self::ErrorFrame => "the simulated CAN interface received an error frame",
+        })
+    }
+}
+
+impl error::Error for CanError {}
+
+/// Returns the frame with the first half of its data.
+pub(super) fn truncated(frame: &CanFrame) -> CanFrame {
+    let data = frame.data();
+    data.get(..data.len() / 2).and_then(|half| CanFrame::new(frame.id(), half)).unwrap_or(*frame)
+}
+
+/// Returns the frame with an inverted toggle bit if it has one.
+pub(super) fn toggled(frame: &CanFrame) -> CanFrame {
+    /// Toggle bits of an answer of node guarding (CiA 301 7.2.8.3.2.1) and of an SDO segment (7.2.4.3.6).
+    const GUARDING: u8 = 1 << 7;
+    const SEGMENT: u8 = 1 << 4;
+    let mut data: Vec<u8> = frame.data().to_vec();
+    let length = data.len();
+    let Some(first) = data.first_mut() else { return *frame };
+    // The command specifier of a segment or of its confirmation is 0 or 1.
+    *first ^= match (length, *first >> 5) {
+        (1, _) => GUARDING,
+        (8, 0 | 1) => SEGMENT,
+        _ => 0,
+    };
+    CanFrame::new(frame.id(), &data).unwrap_or(*frame)
+}

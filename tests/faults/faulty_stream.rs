@@ -1,0 +1,11 @@
+//! Faults of byte streams in the table of faults.
+
+use lexibus::sim::{FaultyStream, StreamFault};
+
+/// Gives the next message that the device sends this fault, or none.
+pub fn set<S, W>(stream: &mut FaultyStream<S, W>, fault: impl Into<Option<StreamFault>>) {
+    stream.clear_faults();
+    if let Some(fault) = fault.into() {
+        stream.inject_nth(fault, 1);
+    }
+}
