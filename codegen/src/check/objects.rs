@@ -3,7 +3,7 @@
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
-use crate::ir::{excluded, stated, AxisStep, Device, Format, Group, Item, ObjectCode, Value};
+use crate::ir::{excluded, stated, AxisStep, Device, Fact, FactOrigin, Format, Group, Item, ObjectCode, Rule, Value};
 use crate::text::{count_of, more};
 
 /// Reports contradictory objects and missing mandatory objects.
@@ -130,7 +130,9 @@ fn highest_sub(group: &Group, index: u16, format: Format, diagnostics: &mut Diag
 }
 
 fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
-    let Some(sub0) = sub0(group) else { return };
+    // CiA 306 defines the access rights of sub-index 0 if the sub-indices are compact.
+    let is_compact = |item: &&Item| item.origins.get(Fact::Access) == Some(&FactOrigin::Rule(Rule::CompactObject));
+    let Some(sub0) = sub0(group).filter(|item| !is_compact(item)) else { return };
     let entries_writable =
         described_items(group).any(|item| !matches!(sub_of(item), 0 | 0xFF) && item.access.writable());
     let message = match (sub0.access.writable(), entries_writable) {

@@ -168,7 +168,7 @@ impl Mapping<'_, '_> {
         if !item.mappable.any() {
             self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
         }
-        if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
+        if item.access == Access::ReadWrite && item.mappable.rpdo && item.mappable.tpdo {
             let message = format!(
                 "{object} has the access type rw, which does not state whether the object can be mapped into {}",
                 pdo_name(self.direction)

@@ -294,14 +294,15 @@ codes! {
     EDS060 SUB0_ACCESS Lint Allow "sub-index 0 is writable and the other sub-indices are not, or the reverse"
         "Sub-index 0 is writable only if the number of valid entries can change, as in a PDO mapping or an error list. \
         In such an object, the entries are writable too, or writing 0 clears the list. Lexibus keeps the access \
-        rights. This lint is off by default. Compare the access rights with the manual."
+        rights. Many devices have such access rights on purpose, so this lint is off by default. Compare the access \
+        rights with the manual."
     EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 contradicts `[DeviceInfo]`"
         "VendorNumber, ProductNumber and RevisionNumber are the default values of 0x1018, sub-indices 1 to 3. A master \
         that checks the identity of a node would reject the device, or accept another one. Lexibus uses \
         `[DeviceInfo]`. Read 0x1018 from the device and correct the file."
     EDS062 MISSING_ENTRY Lint Allow "a mandatory entry is missing"
-        "CiA 306 requires the entry. Lexibus assumes the same default as most tools. This lint is off by default. Add \
-        the entry if another tool requires it."
+        "CiA 306 requires the entry. Lexibus leaves the fact empty. Most tools do not need the entry, so this lint is \
+        off by default. Add the entry if another tool requires it."
     EDS063 MISSING_MANDATORY_OBJECT Lint Warn "a mandatory object is missing"
         "Every CANopen device has the objects 0x1000, 0x1001 and 0x1018 (CiA 301, 7.5.2). Lexibus generates code \
         without the missing object. Check that the file is complete, and add the object."
@@ -328,11 +329,15 @@ codes! {
         may reject the file."
     EDS070 NOT_ALLOWED_ENTRY Lint Allow "an entry has no meaning in its section"
         "CiA 306 defines the key, but not for this kind of object. Examples are DataType for an object with \
-        sub-indices, and SubNumber for a single value. Lexibus keeps the entry as an extension attribute. This lint is \
-        off by default. Delete the entry, or correct ObjectType."
+        sub-indices, and SubNumber for a single value. Lexibus keeps the entry as an extension attribute. Tools \
+        often repeat the type at the object, so this lint is off by default. Delete the entry, or correct ObjectType."
     EDS071 HEX_COUNT Lint Warn "the number of list entries is hexadecimal"
         "Many tools read the number of entries of a list only as decimal, and then see an empty list. Lexibus reads \
         hexadecimal too. Write the number in decimal."
+    EDS072 MISSPELLED_KEY Lint Warn "a key is similar to a key that is missing"
+        "The key of an entry is not defined in CiA 306 and differs in at most two letters from a key that the object \
+        lacks. Lexibus keeps the entry as an extension attribute and does not use its value. Correct the key if it is \
+        misspelled."
     XML001 MALFORMED_XML Error Deny "the XML is not well-formed"
         "A tag is not closed, an attribute is not quoted, or the file is cut off. Lexibus cannot read beyond this \
         position and rejects the file. Correct the XML, or get a complete copy of the file."
@@ -369,8 +374,8 @@ codes! {
         UINT."
     ESI011 TYPE_ALIAS Lint Allow "a base data type has the name from another standard"
         "ESI calls the base data types USINT, UINT, UDINT and so on. This file uses the name of the same type in CiA \
-        301 or C, such as UNSIGNED16. Lexibus reads the name as the base data type. This lint is off by default. Use \
-        the ESI name if another tool requires it."
+        301 or C, such as UNSIGNED16. Lexibus reads the name as the base data type of the same size, so this lint is off \
+        by default. Use the ESI name if another tool requires it."
     ESI012 GUESSED_TYPE Repair Warn "a data type was guessed from the beginning of its name"
         "The name begins with the name of a base data type, as in `UINT_hex`. The sizes agree, and no DataType \
         has this name. Lexibus uses the base data type. Define the type, or use the name of the base data type."
@@ -472,8 +477,8 @@ codes! {
         "An object, template or text refers to an element by its uniqueID, and no element has it. Lexibus ignores the \
         reference, so the content of the target is missing. Correct the uniqueID, or add the element."
     XDD005 UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in CiA 311"
-        "Lexibus keeps the element or attribute as an extension attribute if it has a value. This lint is off by \
-        default. Turn the lint on to find misspelled names."
+        "Lexibus keeps the element or attribute as an extension attribute if it has a value. Tools add attributes of their \
+        own to objects, so this lint is off by default. Turn the lint on to find misspelled names."
     XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
         "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
         a prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if \
@@ -495,9 +500,9 @@ codes! {
         "Engineering tools look for names such as `GSDML-V2.35-Vendor-Device-20200131.xml`, with the version of the \
         schema after `V`. Some tools reject other names. Lexibus recognizes the file by its content, so this lint is \
         off by default. Rename the file if you use it in such a tool."
-    GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute is not defined in GSDML V2.35"
-        "Lexibus keeps the element or attribute as an extension attribute. Files of later versions have such elements, \
-        so this lint is off by default. Turn the lint on to find misspelled names."
+    GSD004 UNKNOWN_GSDML_ELEMENT Lint Warn "an element or attribute is not defined in GSDML V2.35"
+        "Lexibus keeps the element or attribute as an extension attribute and does not use its content. Correct the name \
+        or the position. Allow this code if the file follows a later version of the schema."
     GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
         "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
         Lexibus reads the value if it is unambiguous. Otherwise, it leaves the value out. Correct the value."
@@ -609,8 +614,8 @@ codes! {
         Lexibus uses the entries with a value. Correct sub-index 0, or fill the entries."
     PDO017 UNCLEAR_DIRECTION Lint Allow "the access type of a mapped object does not state the PDO direction"
         "CiA 306 defines rwr for objects in a TPDO and rww for objects in an RPDO. The access type rw allows both \
-        directions, and a tool cannot know which one the device means. This lint is off by default. Write rwr or rww \
-        if the object can be mapped in only one direction."
+        directions, and a tool cannot know which one the device means. Many files use rw for all mapped objects, so this \
+        lint is off by default. Write rwr or rww if the object can be mapped in only one direction."
     PDO018 DEFAULT_PDOS_CONFLICT Lint Warn "two PDOs that exclude each other are both assigned by default"
         "A PDO with the attribute Sm is assigned by default. Both PDOs have Sm, but one excludes the other, so the \
         slave rejects this assignment. Lexibus puts the first PDO into the default process image. The other PDO stays \

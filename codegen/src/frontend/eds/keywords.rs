@@ -1,9 +1,11 @@
 //! Keywords of an object, and the assignment of section entries to keywords.
 
 use super::reader::Reader;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Extensions;
 use crate::source::Origin;
 use crate::syntax::ini::{Entry, Section};
+use crate::text::edit_distance;
 
 /// Keyword of an object. The discriminant is the position in [`Raw`].
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -29,6 +31,27 @@ pub(super) enum Key {
 
 /// Number of keywords in [`Key`].
 const KEYS: usize = 17;
+
+/// All keywords with their names, in the order of [`Key`].
+const NAMES: [(&str, Key); KEYS] = [
+    ("ParameterName", Key::ParameterName),
+    ("ObjectType", Key::ObjectType),
+    ("SubNumber", Key::SubNumber),
+    ("DataType", Key::DataType),
+    ("AccessType", Key::AccessType),
+    ("DefaultValue", Key::DefaultValue),
+    ("PDOMapping", Key::PdoMapping),
+    ("LowLimit", Key::LowLimit),
+    ("HighLimit", Key::HighLimit),
+    ("ObjFlags", Key::ObjFlags),
+    ("CompactSubObj", Key::CompactSubObj),
+    ("ParameterValue", Key::ParameterValue),
+    ("Denotation", Key::Denotation),
+    ("UploadFile", Key::UploadFile),
+    ("DownloadFile", Key::DownloadFile),
+    ("SRDOMapping", Key::SrdoMapping),
+    ("InvertedSRAD", Key::InvertedSrad),
+];
 
 /// Returns the keyword that is spelled `key`, ignoring case. The length and the first letter of `key` leave at most two
 /// candidate keywords.
@@ -103,6 +126,7 @@ impl Reader<'_, '_> {
             Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };
         let Some(first) = sections.first() else { return raw };
         raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
+        let mut unknown = Vec::new();
         for section in sections {
             for entry in self.doc.entries(section) {
                 let key = self.doc.key(&entry);
@@ -112,6 +136,7 @@ impl Reader<'_, '_> {
                         Some(position) => &mut raw.more[position],
                         None => {
                             self.extension(&entry, &mut raw.extensions);
+                            unknown.push(entry);
                             continue;
                         }
                     },
@@ -121,7 +146,29 @@ impl Reader<'_, '_> {
                 }
             }
         }
+        unknown.iter().for_each(|entry| self.misspelled(entry, &raw));
         raw
+    }
+
+    /// Reports an entry whose unknown key differs in at most two letters from a keyword that the object lacks.
+    fn misspelled(&mut self, entry: &Entry, raw: &Raw) {
+        let key = self.doc.key(entry);
+        if self.doc.is_comment(entry) {
+            return;
+        }
+        let distance = |name: &str| edit_distance(&name.to_ascii_lowercase(), &key.to_ascii_lowercase());
+        let is_missing =
+            |(name, keyword): &(&str, Key)| raw.get(*keyword).is_none() && name.len().abs_diff(key.len()) <= 2;
+        let similar = NAMES.iter().copied().filter(is_missing).map(|(name, _)| (distance(name), name)).min();
+        if let Some((1..=2, name)) = similar {
+            let message = format!("CiA 306 does not define the key `{key}`");
+            let found = Diagnostic::new(&codes::MISSPELLED_KEY, self.doc.key_span(entry), message);
+            self.diagnostics.push(
+                found
+                    .label("kept as an extension attribute")
+                    .help(format!("if the value is that of {name}, correct the key")),
+            );
+        }
     }
 }
 
@@ -131,26 +178,7 @@ mod tests {
 
     #[test]
     fn keywords_in_any_case_and_nothing_else() {
-        const ALL: [(&str, Key); KEYS] = [
-            ("ParameterName", Key::ParameterName),
-            ("ObjectType", Key::ObjectType),
-            ("SubNumber", Key::SubNumber),
-            ("DataType", Key::DataType),
-            ("AccessType", Key::AccessType),
-            ("DefaultValue", Key::DefaultValue),
-            ("PDOMapping", Key::PdoMapping),
-            ("LowLimit", Key::LowLimit),
-            ("HighLimit", Key::HighLimit),
-            ("ObjFlags", Key::ObjFlags),
-            ("CompactSubObj", Key::CompactSubObj),
-            ("ParameterValue", Key::ParameterValue),
-            ("Denotation", Key::Denotation),
-            ("UploadFile", Key::UploadFile),
-            ("DownloadFile", Key::DownloadFile),
-            ("SRDOMapping", Key::SrdoMapping),
-            ("InvertedSRAD", Key::InvertedSrad),
-        ];
-        for (position, (name, key)) in ALL.iter().enumerate() {
+        for (position, (name, key)) in NAMES.iter().enumerate() {
             assert_eq!(*key as usize, position);
             for spelling in [name.to_string(), name.to_lowercase(), name.to_uppercase()] {
                 assert!(keyword(&spelling) == Some(*key), "{spelling}");

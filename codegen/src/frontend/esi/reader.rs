@@ -22,6 +22,8 @@ pub(super) struct Esi<'a, 'd> {
 impl xml::Format for Esi<'_, '_> {
     const STANDARD: &'static str = "ETG.2000";
     const UNKNOWN: &'static Code = &codes::ESI_UNKNOWN_ELEMENT;
+    const KEPT: &'static [&'static str] =
+        &["CheckRevisionNo", "Crc32", "ModulePdoGroup", "SRA_ParameterSupported", "TcSmClass", "Watchdog"];
     const VALUE: &'static Code = &codes::ESI_VALUE;
     const ELEMENT_IN_KEY: bool = true;
     const ENGLISH: (&'static str, &'static str) = ("LcId", "1033");

@@ -207,7 +207,10 @@ impl<'t, 'a> Types<'t, 'a> {
         match known {
             Some((Basic::Type(basic), Spelling::Prefix)) if ty.bits.is_some() && bits(basic) != ty.bits => {}
             Some((Basic::Type(basic), spelling)) => {
-                spelled(reader.diagnostics, spelling, &ty.name, basic);
+                // A name of another standard is right if the file defines it with the same size.
+                if ty.bits.is_none() || ty.bits != bits(basic) || spelling != Spelling::Alias {
+                    spelled(reader.diagnostics, spelling, &ty.name, basic);
+                }
                 let basic = self.sized(reader, basic, ty);
                 return (Shape::Alias(basic), ty.bits.or(basic.bits()));
             }
