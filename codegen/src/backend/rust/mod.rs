@@ -59,6 +59,7 @@ mod scope;
 mod simulation;
 mod slot_dependency;
 mod table;
+mod target;
 mod value_type;
 mod variant;
 mod walk;
@@ -71,6 +72,7 @@ pub use options::{Presence, RustOptions};
 pub use profinet::{profinet_program, ProfinetData, ProfinetProgram};
 pub use program::{program, Program, ProgramCia402, ProgramItem, ProgramMachine};
 pub use simulation::Simulation;
+pub use target::NoTarget;
 
 use std::collections::HashMap;
 

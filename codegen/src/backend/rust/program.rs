@@ -12,6 +12,7 @@ use super::options::RustOptions;
 use super::route::RouteBus;
 use super::scope::Scope;
 use super::simulation::{self, Simulation};
+use super::target::{NoTarget, Path};
 use super::walk::{self, WalkModel};
 use super::{cia402::Cia402Model, example};
 use crate::facts::words::PLAIN;
@@ -25,8 +26,8 @@ pub struct Program {
     pub driver: String,
     /// Bus of the program: CANopen, EtherCAT or Modbus.
     pub bus: Bus,
-    /// State machine that the program leads to a state.
-    pub machine: Option<ProgramMachine>,
+    /// State machine that the program leads to its operating state, or the reason why it cannot.
+    pub machine: Option<Result<ProgramMachine, NoTarget>>,
     /// Operations of CiA 402.
     pub cia402: Option<ProgramCia402>,
     /// A number that the program reads, preferably a measured value.
@@ -44,7 +45,8 @@ pub struct ProgramMachine {
     pub states: String,
     /// Path of the constant of the status item.
     pub status: String,
-    /// State to which the program leads the device: "Operation enabled", or the state farthest from the state after power-on.
+    /// State to which the program leads the device: its operating state. No fault state is on the path from the state after
+    /// power-on.
     pub target: String,
     /// Behavior of a simulated device. `None` if `lexibus::sim` provides it, which applies to the objects of CiA 402.
     pub simulation: Option<Simulation>,
@@ -100,7 +102,7 @@ pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Pro
     let usable = || possible().find(|route| parts.read(*route).is_some() || parts.write(*route).is_some());
     let (route, machine) = with_machine.or_else(|| Some((usable()?, None)))?;
     let cia402 = Cia402Model::new(&constants, &walks)
-        .filter(|_| machine.as_ref().is_some_and(|machine| machine.simulation.is_none()));
+        .filter(|_| matches!(&machine, Some(Ok(machine)) if machine.simulation.is_none()));
     Some(Program {
         driver,
         bus: route.of_items(),
@@ -120,10 +122,11 @@ struct Parts<'p, 'a> {
 }
 
 impl Parts<'_, '_> {
-    /// Returns the first state machine whose items can be accessed on a bus.
-    fn machine(&self, types: &Types, bus: RouteBus) -> Option<ProgramMachine> {
+    /// Returns the first state machine with an operating state whose items can be accessed on a bus. Without such a machine,
+    /// returns the reason that concerns the first machine of the bus.
+    fn machine(&self, types: &Types, bus: RouteBus) -> Option<Result<ProgramMachine, NoTarget>> {
         let machines = self.context.names.types.machines.iter().zip(&types.machines);
-        machines.into_iter().find_map(|(named, model)| {
+        let mut on_bus = machines.filter_map(|(named, model)| {
             let walk = self.walks.iter().find(|walk| walk.states == named.states)?;
             let is_on = |path: &str, writes| self.item_of(path).is_some_and(|item| self.is_on(item, bus, writes));
             if !is_on(&walk.status, false) || !is_on(&walk.control, true) {
@@ -132,15 +135,21 @@ impl Parts<'_, '_> {
             let is_at =
                 |object, path: &str| self.constants.object(object).is_some_and(|it: Constant<'_>| it.path == path);
             let is_cia402 = is_at((0x6040, 0), &walk.control) && is_at((0x6041, 0), &walk.status);
-            let simulated = simulation::of(named, model, walk)?;
-            Some(ProgramMachine {
+            let path = match Path::to_operation(named.machine, model) {
+                Ok(path) => path,
+                Err(reason) => return Some(Err(reason)),
+            };
+            let simulated = simulation::of(model, walk, &path)?;
+            Some(Ok(ProgramMachine {
                 walk: walk.method.clone(),
                 states: walk.states.clone(),
                 status: walk.status.clone(),
-                target: walk.energized.clone().unwrap_or_else(|| simulated.farthest()),
+                target: path.target.to_owned(),
                 simulation: (!is_cia402).then_some(simulated),
-            })
-        })
+            }))
+        });
+        let first = on_bus.next()?;
+        Some(first.or_else(|reason| on_bus.find_map(Result::ok).ok_or(reason)))
     }
 
     fn cia402(&self, model: &Cia402Model, bus: RouteBus) -> ProgramCia402 {
