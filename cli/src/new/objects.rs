@@ -39,7 +39,8 @@ struct Example<'e> {
     library: &'e str,
     bus: &'e BusNames,
     machine: Option<&'e Machine<'e>>,
-    is_positioning: bool,
+    /// Raw position to which the program moves the axis.
+    target: Option<i128>,
     /// Statement that reads the actual position.
     position: Option<String>,
     items: &'e [Item],
@@ -162,7 +163,8 @@ pub(super) fn write(package: &Package, device: &Device, bus: Option<Bus>, files:
         runtime_import,
     };
     files.text("src/lib.rs", render(&lib)?);
-    let example = Example { library, bus, machine, is_positioning, position, items: &items };
+    let target = cia402.filter(|cia402| cia402.positioning).and_then(|cia402| cia402.target);
+    let example = Example { library, bus, machine, target, position, items: &items };
     files.text("examples/simulated.rs", render(&example)?);
     files.text("tests/support/mod.rs", render(&Support { library, machine, simulation, commands_import })?);
     let runtime_import = imports([&[bus.type_name][..], &of_machine(&["MachineState", "StateWord"])].concat());

@@ -115,3 +115,73 @@ fn a_simulated_device_changes_its_state_like_the_real_one() {
     assert_eq!(moves("Operating"), ["Down Warm"]);
     assert_eq!(moves("Alarm"), ["Reset Warm"]);
 }
+
+/// Returns the value that a program reads in a test, and the value that it writes, for a device with these rows.
+fn samples(rows: &[&str]) -> [Option<(String, i128)>; 2] {
+    let rows = rows.join("\n");
+    let table = format!(
+        "lexibus = 1\n[device]\nname = \"D\"\nbuses = [\"modbus\"]\n[spaces.holding]\nmodbus = {{ table = \"holding\", first = 0 }}\n\
+         [[chapters]]\ntitle = \"Operation\"\nspace = \"holding\"\ndefaults = {{ unit = \"mm\", type = \"i16\" }}\n[chapters.registers]\n\
+         {rows}\nother = {{ reg = 9, type = \"u16\", access = \"ro\" }}\n"
+    );
+    let program = program_of(table);
+    let written = program.write.map(|(item, value)| (item.name, value));
+    [program.read.map(|item| (item.name, item.sample)), written]
+}
+
+#[test]
+fn values_that_a_program_reads_are_possible() {
+    let read = |row: &str| samples(&[row])[0].clone().expect("a value");
+    for (row, sample) in [
+        ("height = { reg = 1, access = \"ro\" }", 1),
+        ("height = { reg = 1, access = \"ro\", max = -3 }", -3),
+        ("height = { reg = 1, access = \"ro\", min = 50, max = 60 }", 50),
+        ("height = { reg = 1, access = \"ro\", min = 50, max = 60, allowed = [\"52..58\"] }", 52),
+        ("height = { reg = 1, access = \"ro\", allowed = [0, 5] }", 0),
+    ] {
+        assert_eq!(read(row), ("height".to_owned(), sample), "{row}");
+    }
+    // No value of the type is within the limits.
+    assert_eq!(read("height = { reg = 1, access = \"ro\", min = 40000, max = 50000 }").0, "other");
+    assert_eq!(read("height = { reg = 1, access = \"ro\", min = 4, max = 3 }").0, "other");
+}
+
+#[test]
+fn a_program_moves_to_a_possible_position() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-drive.eds");
+    let eds = std::fs::read_to_string(file).expect("the description").replace("\r\n", "\n");
+    for (low, high, target) in
+        [(-1_000_000, 1_000_000, Some(100)), (-5, 50, Some(1)), (200, 300, Some(200)), (5, 4, None)]
+    {
+        let limits = format!("LowLimit={low}\nHighLimit={high}");
+        let limited = eds.replacen("LowLimit=-1000000\nHighLimit=1000000", &limits, 1);
+        let compilation = check(Source::new("drive.eds", limited.into_bytes()), &Options::default());
+        let catalog = compilation.catalog.as_ref().expect("a catalog");
+        let program = program(&catalog.devices[0], &catalog.files[0], None).expect("a program");
+        assert_eq!(program.cia402.and_then(|cia402| cia402.target), target, "{limits}");
+    }
+}
+
+#[test]
+fn values_that_a_program_writes_are_possible() {
+    let possible = "speed = { reg = 2, access = \"rw\", min = 1, max = 9, default = 7 }";
+    let written = |row: &str| samples(&[row, possible])[1].clone();
+    let speed = Some(("speed".to_owned(), 7));
+    assert_eq!(
+        written("ramp = { reg = 1, access = \"rw\", min = 1, max = 9, default = 2 }"),
+        Some(("ramp".to_owned(), 2))
+    );
+    assert_eq!(
+        written("ramp = { reg = 1, access = \"rw\", allowed = [2, 4], default = 2 }"),
+        Some(("ramp".to_owned(), 2))
+    );
+    for row in [
+        "ramp = { reg = 1, access = \"rw\", min = 1, max = 9, default = 10 }",
+        "ramp = { reg = 1, access = \"rw\", allowed = [2, 4], default = 3 }",
+        "ramp = { reg = 1, access = \"rw\", writable = [2, 4], default = 3 }",
+        "ramp = { reg = 1, access = \"rw\", default = 40000 }",
+        "ramp = { reg = 1, access = \"ro\", default = 2 }",
+    ] {
+        assert_eq!(written(row), speed, "{row}");
+    }
+}
