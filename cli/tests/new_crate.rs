@@ -310,6 +310,92 @@ fn without_an_operating_state_there_is_no_enable() {
     }
 }
 
+/// Returns a GSDML file with two access points. "Coupler A" has a fixed module in slot 1. The first modules with data do not fit: one
+/// belongs in slot 1, and one has too much data. The submodules with the data of "Drive" must be plugged.
+fn couplers() -> String {
+    let names = ["Coupler A", "Coupler B", "Power", "Late", "Big", "Drive", "Settings", "Telegram", "Small", "Value"];
+    let info = |name: &str| format!("<ModuleInfo><Name TextId=\"{name}\"/><InfoText TextId=\"{name}\"/></ModuleInfo>");
+    let point = |id: &str, ident: u32, name: &str, uses: &str| {
+        format!(
+            "<DeviceAccessPointItem ID=\"{id}\" PNIO_Version=\"V2.35\" PhysicalSlots=\"0..3\" FixedInSlots=\"0\" \
+             ModuleIdentNumber=\"0x{ident:08X}\" MinDeviceInterval=\"32\" DNS_CompatibleName=\"coupler\">{}\
+             <IOConfigData MaxInputLength=\"20\" MaxOutputLength=\"20\"/><UseableModules>{uses}</UseableModules>\
+             </DeviceAccessPointItem>",
+            info(name)
+        )
+    };
+    let usage = |module: &str, slots: &str| format!("<ModuleItemRef ModuleItemTarget=\"{module}\" {slots}/>");
+    let first = [
+        usage("Power", "FixedInSlots=\"1\""),
+        usage("Late", "UsedInSlots=\"1\""),
+        usage("Big", "AllowedInSlots=\"2..3\""),
+        usage("Drive", "AllowedInSlots=\"3\""),
+    ];
+    let points = [
+        point("DAP1", 1, "Coupler A", &first.concat()),
+        point("DAP2", 2, "Coupler B", &usage("Small", "AllowedInSlots=\"2\"")),
+    ];
+    let data = |ty: &str, length: &str| {
+        format!("<IOData><Input><DataItem DataType=\"{ty}\" {length} TextId=\"Value\"/></Input></IOData>")
+    };
+    let module = |name: &str, ident: u32, subslots: &str, uses: &str, data: &str| {
+        format!(
+            "<ModuleItem ID=\"{name}\" ModuleIdentNumber=\"0x{ident:08X}\"{subslots}>{0}{uses}<VirtualSubmoduleList>\
+             <VirtualSubmoduleItem ID=\"V{ident}\" SubmoduleIdentNumber=\"0x{ident:08X}\">{data}{0}</VirtualSubmoduleItem>\
+             </VirtualSubmoduleList></ModuleItem>",
+            info(name)
+        )
+    };
+    let word = data("Unsigned16", "");
+    let uses = "<UseableSubmodules><SubmoduleItemRef SubmoduleItemTarget=\"Settings\" AllowedInSubslots=\"2..4\"/>\
+                <SubmoduleItemRef SubmoduleItemTarget=\"Telegram\" AllowedInSubslots=\"3..4\"/></UseableSubmodules>";
+    let modules = [
+        module("Power", 0x10, "", "", "<IOData/>"),
+        module("Late", 0x11, "", "", &word),
+        module("Big", 0x12, "", "", &data("OctetString", "Length=\"50\"")),
+        module("Drive", 0x13, " PhysicalSubslots=\"1..4\"", uses, "<IOData/>"),
+        module("Small", 0x14, "", "", &word),
+    ];
+    let submodule = |name: &str, ident: u32, data: &str| {
+        format!(
+            "<SubmoduleItem ID=\"{name}\" SubmoduleIdentNumber=\"0x{ident:08X}\">{data}{}</SubmoduleItem>",
+            info(name)
+        )
+    };
+    let submodules = [submodule("Settings", 0x20, "<IOData/>"), submodule("Telegram", 0x21, &word)];
+    let texts: String = names.iter().map(|name| format!("<Text TextId=\"{name}\" Value=\"{name}\"/>")).collect();
+    format!(
+        "<ISO15745Profile xmlns=\"http://www.profibus.com/GSDML/2003/11/DeviceProfile\"><ProfileBody>\
+         <DeviceIdentity VendorID=\"0x1234\" DeviceID=\"0x5678\"><InfoText TextId=\"Value\"/><VendorName Value=\"Example\"/>\
+         </DeviceIdentity><DeviceFunction><Family MainFamily=\"I/O\" ProductFamily=\"Example\"/></DeviceFunction>\
+         <ApplicationProcess><DeviceAccessPointList>{}</DeviceAccessPointList><ModuleList>{}</ModuleList>\
+         <SubmoduleList>{}</SubmoduleList><ExternalTextList><PrimaryLanguage>{texts}</PrimaryLanguage></ExternalTextList>\
+         </ApplicationProcess></ProfileBody></ISO15745Profile>",
+        points.concat(),
+        modules.concat(),
+        submodules.concat()
+    )
+}
+
+#[test]
+fn modules_and_submodules_are_plugged_only_where_they_fit() {
+    let file = temporary().join("couplers.gsdml.xml");
+    std::fs::write(&file, couplers()).expect("a description");
+    let first = ["plan.plug(3, &bindings::modules::drive::MODULE)?;", "plan.plug_submodule("];
+    let second = ["plan.plug(2, &bindings::modules::small::MODULE)?;"];
+    let cases = [("Coupler A", &first[..], "slot 3, subslot 0x0003: submodule 0x00000021"), ("Coupler B", &second, "")];
+    for (device, plugged, line) in cases {
+        let folder = create("new-coupler", &file, &["--device", device]);
+        cargo(&folder, &["fmt", "--check"]);
+        let library = std::fs::read_to_string(folder.join("src/lib.rs")).expect("the library");
+        assert_eq!(library.matches("plan.plug").count(), plugged.len(), "{library}");
+        assert!(plugged.iter().all(|call| library.contains(call)), "{library}");
+        if !lane::skips("the crates of couplers") {
+            try_out(&folder, 2, if line.is_empty() { &[] } else { std::slice::from_ref(&line) });
+        }
+    }
+}
+
 /// A table whose names have `length` letters.
 fn with_names_of(length: usize) -> String {
     let name = |start: &str, word: &str| format!("{start}_{}", word.repeat(length))[..length].to_owned();
