@@ -43,14 +43,22 @@ pub fn profinet_program(catalog: &Catalog) -> Option<ProfinetProgram> {
     let [point] = scope.access_points.as_slice() else { return None };
     let mut plan = Plan { scope: &scope, point, slots: BTreeMap::new() };
     plan.add_defaults();
-    let found = plan.data().map(|data| (None, false, data));
-    let found = found.or_else(|| Some((None, true, plan.plug_any_submodule()?))).or_else(|| plan.plug());
+    let found = plan.data().map(|data| Exchange { plugged: None, plugs_submodule: false, data });
+    let found = found.or_else(|| plan.plug_any_submodule()).or_else(|| plan.plug());
     let places = plan.slots.values().map(|slot| slot.submodules.len().max(1)).sum();
-    let (plugged, plugs_submodule, data) = match found {
-        Some((plugged, plugs_submodule, data)) => (plugged, plugs_submodule, Some(data)),
-        None => (None, false, None),
-    };
-    Some(ProfinetProgram { places, plugged, plugs_submodule, data })
+    Some(match found {
+        Some(Exchange { plugged, plugs_submodule, data }) => {
+            ProfinetProgram { places, plugged, plugs_submodule, data: Some(data) }
+        }
+        None => ProfinetProgram { places, plugged: None, plugs_submodule: false, data: None },
+    })
+}
+
+/// Cyclic data, and the elements that the program plugs for them.
+struct Exchange {
+    plugged: Option<(u16, String)>,
+    plugs_submodule: bool,
+    data: ProfinetData,
 }
 
 /// The submodules of a module, by subslot.
@@ -109,7 +117,7 @@ impl<'s> Plan<'s> {
 
     /// Plugs the first module with cyclic data into a free slot that accepts it. The data are those of a fixed submodule or, if there
     /// is none, of a submodule that is also plugged.
-    fn plug(&mut self) -> Option<(Option<(u16, String)>, bool, ProfinetData)> {
+    fn plug(&mut self) -> Option<Exchange> {
         let AccessPoint { device, settings, .. } = self.point;
         for usage in &device.modules {
             let Some((module, name)) = self.module(usage, false) else { continue };
@@ -118,8 +126,8 @@ impl<'s> Plan<'s> {
             let data = module.submodules.iter().find_map(|(subslot, id)| self.data_of(slot, *subslot, *id));
             self.slots.insert(slot, module);
             let fixed = data.filter(|_| self.has_room()).map(|data| (false, data));
-            if let Some((also, data)) = fixed.or_else(|| Some((true, self.plug_submodule(slot)?))) {
-                return Some((Some((slot, name.to_owned())), also, data));
+            if let Some((plugs_submodule, data)) = fixed.or_else(|| Some((true, self.plug_submodule(slot)?))) {
+                return Some(Exchange { plugged: Some((slot, name.to_owned())), plugs_submodule, data });
             }
             self.slots.remove(&slot);
         }
@@ -127,9 +135,10 @@ impl<'s> Plan<'s> {
     }
 
     /// Plugs the first submodule with cyclic data into a free subslot of any module.
-    fn plug_any_submodule(&mut self) -> Option<ProfinetData> {
+    fn plug_any_submodule(&mut self) -> Option<Exchange> {
         let slots: Vec<u16> = self.slots.keys().copied().collect();
-        slots.into_iter().find_map(|slot| self.plug_submodule(slot))
+        let data = slots.into_iter().find_map(|slot| self.plug_submodule(slot))?;
+        Some(Exchange { plugged: None, plugs_submodule: true, data })
     }
 
     /// Plugs the first submodule with cyclic data into a free subslot of the module in `slot`.
