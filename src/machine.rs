@@ -45,11 +45,18 @@ impl<C: Copy> Step<C> {
     /// path that starts with a command is preferred.
     #[must_use]
     pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {
-        Self::toward_without(transitions, state, target, &[])
+        Self::toward_without(transitions, state, target, &[], &[])
     }
 
-    /// Returns the first step of the shortest path that doesn't pass through the states `avoided`, except the target.
-    pub(crate) fn toward_without(transitions: &[Transition<C>], state: u8, target: u8, avoided: &[u8]) -> Self {
+    /// Returns the first step of the shortest path that doesn't pass through the states `avoided`, and doesn't enter one of the
+    /// states `faults` from a state without a fault. The target is excepted.
+    pub(crate) fn toward_without(
+        transitions: &[Transition<C>],
+        state: u8,
+        target: u8,
+        avoided: &[u8],
+        faults: &[u8],
+    ) -> Self {
         if state == target {
             return Step::Reached;
         }
@@ -61,7 +68,8 @@ impl<C: Copy> Step<C> {
             for (at, transition) in transitions.iter().enumerate() {
                 let goes_on =
                     |(next, other): (usize, &Transition<C>)| leads >> next & 1 == 1 && transition.to == other.from;
-                let is_avoided = avoided.contains(&transition.to);
+                let enters_fault = faults.contains(&transition.to) && !faults.contains(&transition.from);
+                let is_avoided = enters_fault || avoided.contains(&transition.to);
                 if transition.to == target || (!is_avoided && transitions.iter().enumerate().any(goes_on)) {
                     more |= 1 << at;
                 }

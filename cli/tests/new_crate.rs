@@ -63,6 +63,86 @@ to = "off"
 command = "stop"
 "#;
 
+/// A press with an alarm, which is the last state. The press enters the alarm without a command. The command that tests the alarm is
+/// on the shortest path from `off` to `ready`.
+const PRESS: &str = r#"lexibus = 1
+
+[device]
+name = "Press"
+vendor = "Example"
+buses = ["modbus"]
+
+[spaces.holding]
+modbus = { table = "holding", first = 0 }
+
+[[chapters]]
+title = "Operation"
+space = "holding"
+
+[chapters.registers]
+status  = { reg = 0, type = "u16", access = "ro" }
+control = { reg = 1, type = "u16", access = "rw" }
+
+[machines.press]
+status = "status"
+control = "control"
+faults = ["alarm"]
+
+[machines.press.states]
+off = { mask = 0x7, value = 0 }
+warming = { mask = 0x7, value = 1 }
+warm = { mask = 0x7, value = 2 }
+ready = { mask = 0x7, value = 3 }
+operating = { mask = 0x7, value = 4 }
+alarm = { mask = 0x7, value = 5 }
+
+[machines.press.commands]
+stop = { mask = 0x7, value = 0 }
+heat = { mask = 0x7, value = 1 }
+release = { mask = 0x7, value = 2 }
+start = { mask = 0x7, value = 3 }
+test_alarm = { mask = 0x7, value = 4 }
+reset = { mask = 0x7, value = 5 }
+
+[[machines.press.transitions]]
+from = ["off", "operating"]
+to = "alarm"
+command = "test_alarm"
+
+[[machines.press.transitions]]
+from = ["ready", "operating"]
+to = "alarm"
+
+[[machines.press.transitions]]
+from = "alarm"
+to = "ready"
+command = "reset"
+
+[[machines.press.transitions]]
+from = "off"
+to = "warming"
+command = "heat"
+
+[[machines.press.transitions]]
+from = "warming"
+to = "warm"
+
+[[machines.press.transitions]]
+from = "warm"
+to = "ready"
+command = "release"
+
+[[machines.press.transitions]]
+from = "ready"
+to = "operating"
+command = "start"
+
+[[machines.press.transitions]]
+from = ["ready", "operating"]
+to = "off"
+command = "stop"
+"#;
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -172,6 +252,148 @@ fn a_table_becomes_a_crate_with_its_own_state_machine() {
     std::fs::write(&table, LIFT).expect("a table");
     let folder = create("new-lift", &table, &[]);
     try_out(&folder, 3, &["state: Moving", "height (unit mm): 0", "speed (unit mm/s): 200"]);
+}
+
+#[test]
+fn enable_leads_to_the_operating_state_and_through_no_fault_state() {
+    let table = temporary().join("press.toml");
+    std::fs::write(&table, PRESS).expect("a table");
+    let folder = create("new-press", &table, &[]);
+    let library = std::fs::read_to_string(folder.join("src/lib.rs")).expect("the library");
+    assert!(library.contains("let target = State::Operating;"), "{library}");
+    if lane::skips("the crate of a press") {
+        return;
+    }
+    let test = folder.join("tests/simulated.rs");
+    let own = std::fs::read_to_string(&test).expect("the tests");
+    std::fs::write(&test, own + ALARM_TEST).expect("a test");
+    try_out(&folder, 3, &["state: Operating"]);
+}
+
+/// The press must not receive the command that tests the alarm.
+const ALARM_TEST: &str = r#"
+#[test]
+fn no_command_causes_an_alarm() -> Result<(), Box<dyn Error>> {
+    let sent = std::sync::Arc::new(std::sync::Mutex::new(Vec::new()));
+    let mut device = support::device()?;
+    let list = sent.clone();
+    device.on_write(objects::CONTROL, move |_, control| {
+        let mut list = list.lock().expect("the list");
+        list.push(StateWord::bits(control));
+        Ok(())
+    })?;
+    Driver::new(device.client::<Modbus>()).enable(Duration::from_secs(5))?;
+    assert_eq!(*sent.lock().expect("the list"), [1, 2, 3]);
+    Ok(())
+}
+"#;
+
+#[test]
+fn without_an_operating_state_there_is_no_enable() {
+    let table = temporary().join("nameless.toml");
+    let nameless = PRESS.replace("operating", "phase");
+    let without_way = PRESS.replace("to = \"operating\"", "to = \"ready\"");
+    let faulty = PRESS.replace("[\"alarm\"]", "[\"alarm\", \"operating\"]");
+    for (text, reason) in [
+        (without_way, "no commands lead from `Off` to `Operating` without a fault"),
+        (faulty, "no state without a fault has"),
+        (nameless, "no state without a fault has a name such as"),
+    ] {
+        std::fs::write(&table, text).expect("a table");
+        let folder = create("new-nameless", &table, &[]);
+        cargo(&folder, &["fmt", "--check"]);
+        let library = std::fs::read_to_string(folder.join("src/lib.rs")).expect("the library");
+        assert!(library.contains(reason) && !library.contains("fn enable"), "{reason}: {library}");
+    }
+    if !lane::skips("a crate without an operating state") {
+        try_out(&temporary().join("new-nameless"), 1, &[]);
+    }
+}
+
+/// Returns a GSDML file with two access points. "Coupler A" has a fixed module in slot 1. The first modules with data do not fit: one
+/// belongs in slot 1, and one has too much data. The submodules with the data of "Drive" must be plugged.
+fn couplers() -> String {
+    let names = ["Coupler A", "Coupler B", "Power", "Late", "Big", "Drive", "Settings", "Telegram", "Small", "Value"];
+    let info = |name: &str| format!("<ModuleInfo><Name TextId=\"{name}\"/><InfoText TextId=\"{name}\"/></ModuleInfo>");
+    let point = |id: &str, ident: u32, name: &str, uses: &str| {
+        format!(
+            "<DeviceAccessPointItem ID=\"{id}\" PNIO_Version=\"V2.35\" PhysicalSlots=\"0..3\" FixedInSlots=\"0\" \
+             ModuleIdentNumber=\"0x{ident:08X}\" MinDeviceInterval=\"32\" DNS_CompatibleName=\"coupler\">{}\
+             <IOConfigData MaxInputLength=\"20\" MaxOutputLength=\"20\"/><UseableModules>{uses}</UseableModules>\
+             </DeviceAccessPointItem>",
+            info(name)
+        )
+    };
+    let usage = |module: &str, slots: &str| format!("<ModuleItemRef ModuleItemTarget=\"{module}\" {slots}/>");
+    let first = [
+        usage("Power", "FixedInSlots=\"1\""),
+        usage("Late", "UsedInSlots=\"1\""),
+        usage("Big", "AllowedInSlots=\"2..3\""),
+        usage("Drive", "AllowedInSlots=\"3\""),
+    ];
+    let points = [
+        point("DAP1", 1, "Coupler A", &first.concat()),
+        point("DAP2", 2, "Coupler B", &usage("Small", "AllowedInSlots=\"2\"")),
+    ];
+    let data = |ty: &str, length: &str| {
+        format!("<IOData><Input><DataItem DataType=\"{ty}\" {length} TextId=\"Value\"/></Input></IOData>")
+    };
+    let module = |name: &str, ident: u32, subslots: &str, uses: &str, data: &str| {
+        format!(
+            "<ModuleItem ID=\"{name}\" ModuleIdentNumber=\"0x{ident:08X}\"{subslots}>{0}{uses}<VirtualSubmoduleList>\
+             <VirtualSubmoduleItem ID=\"V{ident}\" SubmoduleIdentNumber=\"0x{ident:08X}\">{data}{0}</VirtualSubmoduleItem>\
+             </VirtualSubmoduleList></ModuleItem>",
+            info(name)
+        )
+    };
+    let word = data("Unsigned16", "");
+    let uses = "<UseableSubmodules><SubmoduleItemRef SubmoduleItemTarget=\"Settings\" AllowedInSubslots=\"2..4\"/>\
+                <SubmoduleItemRef SubmoduleItemTarget=\"Telegram\" AllowedInSubslots=\"3..4\"/></UseableSubmodules>";
+    let modules = [
+        module("Power", 0x10, "", "", "<IOData/>"),
+        module("Late", 0x11, "", "", &word),
+        module("Big", 0x12, "", "", &data("OctetString", "Length=\"50\"")),
+        module("Drive", 0x13, " PhysicalSubslots=\"1..4\"", uses, "<IOData/>"),
+        module("Small", 0x14, "", "", &word),
+    ];
+    let submodule = |name: &str, ident: u32, data: &str| {
+        format!(
+            "<SubmoduleItem ID=\"{name}\" SubmoduleIdentNumber=\"0x{ident:08X}\">{data}{}</SubmoduleItem>",
+            info(name)
+        )
+    };
+    let submodules = [submodule("Settings", 0x20, "<IOData/>"), submodule("Telegram", 0x21, &word)];
+    let texts: String = names.iter().map(|name| format!("<Text TextId=\"{name}\" Value=\"{name}\"/>")).collect();
+    format!(
+        "<ISO15745Profile xmlns=\"http://www.profibus.com/GSDML/2003/11/DeviceProfile\"><ProfileBody>\
+         <DeviceIdentity VendorID=\"0x1234\" DeviceID=\"0x5678\"><InfoText TextId=\"Value\"/><VendorName Value=\"Example\"/>\
+         </DeviceIdentity><DeviceFunction><Family MainFamily=\"I/O\" ProductFamily=\"Example\"/></DeviceFunction>\
+         <ApplicationProcess><DeviceAccessPointList>{}</DeviceAccessPointList><ModuleList>{}</ModuleList>\
+         <SubmoduleList>{}</SubmoduleList><ExternalTextList><PrimaryLanguage>{texts}</PrimaryLanguage></ExternalTextList>\
+         </ApplicationProcess></ProfileBody></ISO15745Profile>",
+        points.concat(),
+        modules.concat(),
+        submodules.concat()
+    )
+}
+
+#[test]
+fn modules_and_submodules_are_plugged_only_where_they_fit() {
+    let file = temporary().join("couplers.gsdml.xml");
+    std::fs::write(&file, couplers()).expect("a description");
+    let first = ["plan.plug(3, &bindings::modules::drive::MODULE)?;", "plan.plug_submodule("];
+    let second = ["plan.plug(2, &bindings::modules::small::MODULE)?;"];
+    let cases = [("Coupler A", &first[..], "slot 3, subslot 0x0003: submodule 0x00000021"), ("Coupler B", &second, "")];
+    for (device, plugged, line) in cases {
+        let folder = create("new-coupler", &file, &["--device", device]);
+        cargo(&folder, &["fmt", "--check"]);
+        let library = std::fs::read_to_string(folder.join("src/lib.rs")).expect("the library");
+        assert_eq!(library.matches("plan.plug").count(), plugged.len(), "{library}");
+        assert!(plugged.iter().all(|call| library.contains(call)), "{library}");
+        if !lane::skips("the crates of couplers") {
+            try_out(&folder, 2, if line.is_empty() { &[] } else { std::slice::from_ref(&line) });
+        }
+    }
 }
 
 /// A table whose names have `length` letters.

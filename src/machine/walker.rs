@@ -45,6 +45,7 @@ pub trait MachineState: Copy + 'static {
 ///   clears the bit for one cycle.
 /// - The walker waits for automatic transitions of the device.
 /// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
+/// - The walker sends no command that leads to a fault state, unless the state is its target.
 /// - The walker enters an energized state, such as "Operation enabled", only if the state is its target.
 /// - In the target state, the control word contains no command that leads away from it.
 /// - A device that leaves the target state without a command stops the walker. To continue, create a new walker.
@@ -158,7 +159,7 @@ impl<S: MachineState> Walker<S> {
         if self.was_reached && state.number() != self.target.number() {
             return Err(Stopped::Left(state));
         }
-        let step = Step::toward_without(S::TRANSITIONS, state.number(), self.target.number(), S::ENERGIZED);
+        let step = Step::toward_without(S::TRANSITIONS, state.number(), self.target.number(), S::ENERGIZED, S::FAULTS);
         // A status word of 0, which a process image contains before the first cycle, can encode a state of the start-up.
         self.was_healthy |= !state.is_fault() && !matches!(step, Step::Wait);
         match step {
@@ -334,9 +335,33 @@ mod tests {
             [Transition::new(3, 1, Some('e')), Transition::new(1, 0, Some('d')), Transition::new(3, 2, Some('v'))];
         let all = [both[0], both[1], both[2], Transition::new(2, 4, Some('s')), Transition::new(4, 0, Some('t'))];
         assert_eq!(Step::toward(&all, 3, 0), Step::Command('e'));
-        assert_eq!(Step::toward_without(&all, 3, 0, &[1]), Step::Command('v'));
-        assert_eq!(Step::toward_without(&all, 3, 1, &[1]), Step::Command('e'));
-        assert_eq!(Step::toward_without(&both, 3, 0, &[1]), Step::Unreachable);
+        assert_eq!(Step::toward_without(&all, 3, 0, &[1], &[]), Step::Command('v'));
+        assert_eq!(Step::toward_without(&all, 3, 1, &[1], &[]), Step::Command('e'));
+        assert_eq!(Step::toward_without(&both, 3, 0, &[1], &[]), Step::Unreachable);
+    }
+
+    /// The command `t` tests the fault state 4, which the device also enters without a command. The commands `h`, `r` and `s` lead to the
+    /// state 3. The shortest path to the state 2 leads through the fault.
+    #[test]
+    fn fault_states_are_no_path() {
+        let all = [
+            Transition::new(0, 4, Some('t')),
+            Transition::new(3, 4, None),
+            Transition::new(4, 5, None),
+            Transition::new(5, 2, Some('x')),
+            Transition::new(0, 1, Some('h')),
+            Transition::new(1, 6, Some('r')),
+            Transition::new(6, 7, Some('R')),
+            Transition::new(7, 2, Some('Q')),
+            Transition::new(2, 3, Some('s')),
+        ];
+        let toward = |state, target| Step::toward_without(&all, state, target, &[], &[4, 5]);
+        assert_eq!(toward(0, 2), Step::Command('h'));
+        // The device does not wait for a fault.
+        assert_eq!(toward(3, 2), Step::Unreachable);
+        // A fault that is already active is reset.
+        assert_eq!((toward(4, 3), toward(5, 3)), (Step::Wait, Step::Command('x')));
+        assert_eq!((toward(0, 4), toward(3, 4)), (Step::Command('t'), Step::Wait));
     }
 
     #[test]

@@ -21,6 +21,8 @@ struct Library<'l> {
     driver: &'l str,
     bus: &'l BusNames,
     machine: Option<&'l Machine<'l>>,
+    /// Reason why the driver does not enable the device.
+    not_enabled: Option<String>,
     /// Method that returns the operations of CiA 402.
     motion: Option<&'l str>,
     /// Expression that changes the mode of operation.
@@ -37,7 +39,8 @@ struct Example<'e> {
     library: &'e str,
     bus: &'e BusNames,
     machine: Option<&'e Machine<'e>>,
-    is_positioning: bool,
+    /// Raw position to which the program moves the axis.
+    target: Option<i128>,
     /// Statement that reads the actual position.
     position: Option<String>,
     items: &'e [Item],
@@ -124,7 +127,12 @@ pub(super) fn write(package: &Package, device: &Device, bus: Option<Bus>, files:
         ir::Bus::Modbus => &MODBUS,
         _ => &CANOPEN,
     };
-    let machine = program.machine.as_ref().map(Machine::new);
+    let (found, not_enabled) = match &program.machine {
+        Some(Ok(machine)) => (Some(machine), None),
+        Some(Err(reason)) => (None, Some(reason.to_string())),
+        None => (None, None),
+    };
+    let machine = found.map(Machine::new);
     let machine = machine.as_ref();
     let cia402 = program.cia402.as_ref();
     let is_positioning = cia402.is_some_and(|cia402| cia402.positioning);
@@ -136,15 +144,27 @@ pub(super) fn write(package: &Package, device: &Device, bus: Option<Bus>, files:
         layout::chain(At(4, "let position = "), "driver", &calls, ";")
     });
     let set_mode = chain(&format!("{}()", motion.unwrap_or_default()), "set_mode(mode, deadline)");
-    let simulation = program.machine.as_ref().and_then(|machine| machine.simulation.as_ref());
+    let simulation = found.and_then(|machine| machine.simulation.as_ref());
     let commands_import = simulation.map_or_else(String::new, |simulation| import(&simulation.commands, "Command"));
     let title = doc(&package.title);
     let of_machine = |names: &[&'static str]| machine.map_or(Vec::new(), |_| names.to_vec());
     let access = if items.is_empty() { &[][..] } else { &["AccessError"] };
     let runtime_import = imports([access, &["Client", bus.type_name], &of_machine(&["WalkError"])].concat());
-    let lib = Library { title, driver, bus, machine, motion, set_mode, is_positioning, items: &items, runtime_import };
+    let lib = Library {
+        title,
+        driver,
+        bus,
+        machine,
+        not_enabled,
+        motion,
+        set_mode,
+        is_positioning,
+        items: &items,
+        runtime_import,
+    };
     files.text("src/lib.rs", render(&lib)?);
-    let example = Example { library, bus, machine, is_positioning, position, items: &items };
+    let target = cia402.filter(|cia402| cia402.positioning).and_then(|cia402| cia402.target);
+    let example = Example { library, bus, machine, target, position, items: &items };
     files.text("examples/simulated.rs", render(&example)?);
     files.text("tests/support/mod.rs", render(&Support { library, machine, simulation, commands_import })?);
     let runtime_import = imports([&[bus.type_name][..], &of_machine(&["MachineState", "StateWord"])].concat());

@@ -1,9 +1,10 @@
 //! The files of a crate for a PROFINET device.
 
 use askama::Template;
-use lexibus_codegen::backend::rust::{self, ProfinetData};
+use lexibus_codegen::backend::rust::{self, ProfinetData, ProfinetProgram};
 
 use super::files::Files;
+use super::layout::{self, At};
 use super::package::{render, Package};
 use super::text::doc;
 use crate::Failure;
@@ -16,7 +17,8 @@ const MIN_PLACES: usize = 8;
 struct Library<'l> {
     title: String,
     places: usize,
-    plugged: Option<&'l (u16, String)>,
+    /// Statements that plug modules and submodules.
+    plugged: Vec<String>,
     data: Option<&'l Data<'l>>,
 }
 
@@ -60,11 +62,24 @@ pub(super) fn write(package: &Package, files: &mut Files) -> Result<(), Failure>
     let data = data.as_ref();
     let places = program.places.next_power_of_two().max(MIN_PLACES);
     let title = doc(&package.title);
-    files.text("src/lib.rs", render(&Library { title, places, plugged: program.plugged.as_ref(), data })?);
+    files.text("src/lib.rs", render(&Library { title, places, plugged: plugged(&program), data })?);
     files.text("examples/simulated.rs", render(&Example { library, data })?);
     files.text("tests/support/mod.rs", render(&Support { library, data })?);
     files.text("tests/simulated.rs", render(&Test { library, data })?);
     Ok(())
+}
+
+/// Returns the statements that plug a module and a submodule.
+fn plugged(program: &ProfinetProgram) -> Vec<String> {
+    let statement = |head, arguments: &[&str]| layout::call(At(4, ""), head, arguments, "?;");
+    let module = program.plugged.as_ref().map(|(slot, module)| {
+        statement("plan.plug", &[&slot.to_string(), &format!("&bindings::modules::{module}::MODULE")])
+    });
+    let submodule = program.data.as_ref().filter(|_| program.plugs_submodule).map(|data| {
+        let constant = format!("&bindings::submodules::{}::SUBMODULE", data.submodule);
+        statement("plan.plug_submodule", &[&data.slot.to_string(), &data.subslot.to_string(), &constant])
+    });
+    module.into_iter().chain(submodule).collect()
 }
 
 impl<'d> Data<'d> {

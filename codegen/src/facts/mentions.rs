@@ -22,7 +22,7 @@ pub enum Mention {
 pub struct Mentions<'d> {
     /// Items and messages with names that are no ordinary words.
     identifiers: HashMap<&'d str, Vec<Mention>>,
-    /// Items and messages with names that begin with a capital, as sentences do.
+    /// Items and messages with names in which only the first letter is a capital, as in the first word of a sentence.
     capitalized: HashMap<&'d str, Vec<Mention>>,
     objects: HashMap<u16, Mention>,
     /// States, which texts mention in quotes.
@@ -56,7 +56,7 @@ impl<'d> Mentions<'d> {
         let is_word = words(name).eq([name]);
         if is_word && is_identifier(name) {
             self.identifiers.entry(name).or_default().push(mention);
-        } else if is_word && name.starts_with(char::is_uppercase) {
+        } else if is_word && is_capitalized(name) {
             self.capitalized.entry(name).or_default().push(mention);
         }
     }
@@ -114,10 +114,24 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .filter(|word| !word.is_empty())
 }
 
-/// Returns whether a word is no ordinary word: `digital_inputs`, `DRV.OPMODE`, `CmdGetAlarm`, `c8`.
+/// Returns whether a word is no ordinary word: `digital_inputs`, `DRV.OPMODE`, `CmdGetAlarm`, `MAXTORQUE`, `c8`. Abbreviations such
+/// as `CAN` and `PDOs` are ordinary words.
 fn is_identifier(word: &str) -> bool {
+    /// Names of networks and organizations that are spelled like identifiers.
+    const PROPER_NAMES: [&str; 7] = ["CiA", "DeviceNet", "EtherCAT", "EtherNet", "POWERLINK", "PROFIBUS", "PROFINET"];
+    /// Number of letters from which a word in capitals is no abbreviation.
+    const LONG: usize = 8;
     let has_digit = word.chars().any(|letter| letter.is_ascii_digit()) && word.chars().any(char::is_alphabetic);
-    word.contains(['_', '.']) || has_digit || word.chars().skip(1).any(char::is_uppercase)
+    let mut pairs = word.chars().zip(word.chars().skip(1));
+    let is_compound = pairs.any(|(before, after)| before.is_lowercase() && after.is_uppercase());
+    let is_long = word.chars().count() >= LONG && word.chars().all(char::is_uppercase);
+    let is_proper = PROPER_NAMES.iter().any(|name| name.eq_ignore_ascii_case(word));
+    word.contains(['_', '.']) || has_digit || ((is_compound || is_long) && !is_proper)
+}
+
+/// Returns whether only the first letter of a word is a capital.
+fn is_capitalized(word: &str) -> bool {
+    word.starts_with(char::is_uppercase) && !word.chars().skip(1).any(char::is_uppercase)
 }
 
 #[cfg(test)]
@@ -132,8 +146,20 @@ mod tests {
             group.items.push(Item { name: name.into(), ..Item::new(Binding::canopen(index, 0)) });
             group
         };
-        let groups =
-            ["digital_inputs", "Rhsts", "current", "c8"].iter().zip(0x2000..).map(|(name, index)| item(index, name));
+        let names = [
+            "digital_inputs",
+            "Rhsts",
+            "current",
+            "c8",
+            "CAN",
+            "PDOs",
+            "CANopen",
+            "EtherCAT",
+            "PROFINET",
+            "OpMode",
+            "MAXTORQUE",
+        ];
+        let groups = names.iter().zip(0x2000..).map(|(name, index)| item(index, name));
         let mut device = Device { groups: groups.collect(), ..Device::default() };
         device.messages.push(Message { name: "CmdGetAlarm".into(), ..Message::default() });
         let states = vec![Pattern { name: "alarm".into(), ..Pattern::default() }].into();
@@ -159,6 +185,9 @@ mod tests {
         assert_eq!(of("Rhsts, current and 0x2001"), []);
         assert_eq!(of("A bit in digital_inputs for each value of c8."), [item(0), item(3)]);
         assert_eq!(of("error codes in 0x2001, object 0x3000"), [object]);
+        // An item can have the name of something else.
+        assert_eq!(of("CAN error: fault of CAN, too many PDOs in CANopen, EtherCAT or PROFINET"), []);
+        assert_eq!(of("Not possible in this OpMode: increase MAXTORQUE"), [item(9), item(10)]);
         assert_eq!(of("CmdGetAlarm leaves \"alarm\", not alarm"), [Mention::Message(0), Mention::State(0, 0)]);
     }
 }

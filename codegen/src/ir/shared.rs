@@ -168,6 +168,14 @@ pub struct SlotNumbers {
     pub used: Numbers,
 }
 
+impl SlotNumbers {
+    /// Returns whether the slot or subslot is in one of the lists, or all lists are empty.
+    pub fn accept(&self, place: u16) -> bool {
+        let lists = [&self.allowed, &self.fixed, &self.used];
+        lists.iter().all(|list| list.is_empty()) || lists.iter().any(|list| list.contains(place))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -11,6 +11,7 @@ mod cia402;
 mod generated_code;
 mod odd_messages;
 mod profinet;
+mod program;
 mod remappable;
 mod routes;
 mod rust_format;

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::bit_field::BitFieldModel;
-use super::code::{Data, Doc};
 use super::context::Context;
 use super::doc_table;
 use super::docs;
@@ -20,8 +19,8 @@ use crate::names::{self, Case};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
-    /// Constant with the transitions that a program can trigger or wait for. `None` if there are none.
-    pub transitions: Option<Doc>,
+    /// The transitions that a program can trigger or wait for. Empty if states or commands are no bit patterns.
+    pub steps: Vec<StepModel>,
     /// Variants of the states that the device enters because of a fault.
     pub faults: Vec<String>,
     /// Variant of the state "Operation enabled" of CiA 402, in which the drive is energized.
@@ -45,8 +44,16 @@ impl MachineModel {
 
     /// Returns whether the machine has a list of transitions.
     pub(super) fn has_transitions(&self) -> bool {
-        self.states.is_some() && self.commands.is_some() && self.transitions.is_some()
+        !self.steps.is_empty()
     }
+}
+
+/// A transition that a program can trigger or wait for. States and commands are names of variants.
+pub(super) struct StepModel {
+    pub from: String,
+    pub to: String,
+    /// `None` if the device itself causes the transition.
+    pub command: Option<String>,
 }
 
 /// The type of states or commands.
@@ -64,6 +71,11 @@ pub(super) struct PatternsModel {
 }
 
 impl PatternsModel {
+    /// Returns the variant of a state or command from its name in the description.
+    pub(super) fn variant(&self, original: &str) -> Option<&str> {
+        self.patterns.iter().find(|pattern| pattern.original == original).map(|pattern| pattern.name.as_str())
+    }
+
     /// Returns the variants, keyed by their names in the description.
     pub(super) fn by_name(&self) -> HashMap<String, String> {
         self.patterns.iter().map(|pattern| (pattern.original.clone(), pattern.name.clone())).collect()
@@ -108,10 +120,9 @@ pub(super) fn models(
             &machine.control_item,
             [&named.command_getter, &named.command_setter],
         );
-        let transitions = states
-            .as_ref()
-            .zip(commands.as_ref())
-            .and_then(|(states, commands)| steps(&machine.transitions, states, commands));
+        let faults = states.as_ref().map(|states| faults(machine, states)).unwrap_or_default();
+        let both = states.as_ref().zip(commands.as_ref());
+        let steps = both.map_or_else(Vec::new, |(states, commands)| steps(machine, states, commands, &faults));
         let named = Named {
             context,
             states: states_of(context, machine, states.as_ref(), enumerations),
@@ -127,9 +138,8 @@ pub(super) fn models(
             states.docs = documentation(context, machine, "States", &machine.status_item, "read from", states);
             states.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
-        let faults = states.as_ref().map(|states| faults(machine, states)).unwrap_or_default();
         let energized = states.as_ref().and_then(energized);
-        MachineModel { states, commands, transitions, faults, energized }
+        MachineModel { states, commands, steps, faults, energized }
     };
     context.names.types.machines.iter().map(model).collect()
 }
@@ -234,34 +244,35 @@ impl Named<'_, '_> {
     }
 }
 
-/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state are left out,
-/// because they are reactions of the device to errors. Transitions without generated states or commands are also left
-/// out.
-fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Doc> {
-    let named = |list: &PatternsModel, name: &str| {
-        list.patterns.iter().find(|pattern| pattern.original == name).map(|pattern| pattern.name.clone())
-    };
+/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state, and those from a state
+/// without a fault to one of the variants `faults`, are left out, because they are reactions of the device to errors. Transitions
+/// without generated states or commands are also left out.
+fn steps(
+    machine: &StateMachine,
+    states: &PatternsModel,
+    commands: &PatternsModel,
+    faults: &[String],
+) -> Vec<StepModel> {
+    let is_fault = |variant: &str| faults.iter().any(|fault| fault == variant);
     let mut steps = Vec::new();
-    for transition in transitions {
-        let command = transition.command.as_ref().map(|name| named(commands, name));
-        let command = match command {
-            None => Doc::from("None"),
-            Some(Some(name)) => Data::call("Some", vec![Doc::from(format!("{}::{name}", commands.name))]),
-            // The command is a message or has no bit pattern.
-            Some(None) => continue,
+    for transition in machine.transitions.iter() {
+        let command = transition.command.as_ref().map(|name| commands.variant(name));
+        // Without a variant, the command is a message or has no bit pattern.
+        let (Some(to), false) = (states.variant(&transition.to), command == Some(None)) else { continue };
+        let command = command.flatten();
+        let from = match &transition.from {
+            Some(from) => states.variant(from).into_iter().collect(),
+            None if command.is_some() => states.patterns.iter().map(|state| state.name.as_str()).collect(),
+            None => Vec::new(),
         };
-        let from = match (&transition.from, &transition.command) {
-            (Some(from), _) => named(states, from).into_iter().collect(),
-            (None, Some(_)) => states.patterns.iter().map(|pattern| pattern.name.clone()).collect(),
-            (None, None) => Vec::new(),
-        };
-        let Some(to) = named(states, &transition.to) else { continue };
-        let state = |name: &str| Doc::from(format!("Self::{name} as u8"));
-        for from in from {
-            steps.push(Data::call("rt::Transition::new", vec![state(&from), state(&to), command.clone()]));
-        }
+        let possible = from.into_iter().filter(|from| command.is_some() || !is_fault(to) || is_fault(from));
+        steps.extend(possible.map(|from| StepModel {
+            from: from.to_owned(),
+            to: to.to_owned(),
+            command: command.map(str::to_owned),
+        }));
     }
-    (!steps.is_empty()).then_some(Data::slice(steps))
+    steps
 }
 
 /// Returns the variants of the fault states. These are the states that the source lists, the states to which automatic

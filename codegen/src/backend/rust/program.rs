@@ -12,10 +12,11 @@ use super::options::RustOptions;
 use super::route::RouteBus;
 use super::scope::Scope;
 use super::simulation::{self, Simulation};
+use super::target::{NoTarget, Path};
 use super::walk::{self, WalkModel};
 use super::{cia402::Cia402Model, example};
 use crate::facts::words::PLAIN;
-use crate::ir::{Bus, Device, FileInfo, Item};
+use crate::ir::{excluded, Bus, Device, FileInfo, Item, Value};
 
 /// The generated elements with which a program accesses a device on one bus. All paths are relative to the module of the
 /// device.
@@ -25,8 +26,8 @@ pub struct Program {
     pub driver: String,
     /// Bus of the program: CANopen, EtherCAT or Modbus.
     pub bus: Bus,
-    /// State machine that the program leads to a state.
-    pub machine: Option<ProgramMachine>,
+    /// State machine that the program leads to its operating state, or the reason why it cannot.
+    pub machine: Option<Result<ProgramMachine, NoTarget>>,
     /// Operations of CiA 402.
     pub cia402: Option<ProgramCia402>,
     /// A number that the program reads, preferably a measured value.
@@ -44,7 +45,8 @@ pub struct ProgramMachine {
     pub states: String,
     /// Path of the constant of the status item.
     pub status: String,
-    /// State to which the program leads the device: "Operation enabled", or the state farthest from the state after power-on.
+    /// State to which the program leads the device: its operating state. No fault state is on the path from the state after
+    /// power-on.
     pub target: String,
     /// Behavior of a simulated device. `None` if `lexibus::sim` provides it, which applies to the objects of CiA 402.
     pub simulation: Option<Simulation>,
@@ -57,8 +59,8 @@ pub struct ProgramCia402 {
     pub method: String,
     /// Whether the device accepts target positions in the mode "profile position".
     pub positioning: bool,
-    /// Whether the device accepts target velocities.
-    pub velocity: bool,
+    /// A raw target position within the limits of the device.
+    pub target: Option<i128>,
     /// Call that reads the actual position, such as `position_actual_value()`.
     pub position: Option<String>,
 }
@@ -74,7 +76,7 @@ pub struct ProgramItem {
     pub constant: String,
     /// Primitive type of the raw value, such as `u32`.
     pub native: &'static str,
-    /// A raw value within the limits of the item.
+    /// A raw value within the type and the limits of the item.
     pub sample: i128,
     /// Unit and resolution of the raw value, such as `unit rpm` or `1 LSB = 0.01 rev/s`. The text is empty if the unit is not known.
     pub unit: String,
@@ -100,7 +102,7 @@ pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Pro
     let usable = || possible().find(|route| parts.read(*route).is_some() || parts.write(*route).is_some());
     let (route, machine) = with_machine.or_else(|| Some((usable()?, None)))?;
     let cia402 = Cia402Model::new(&constants, &walks)
-        .filter(|_| machine.as_ref().is_some_and(|machine| machine.simulation.is_none()));
+        .filter(|_| matches!(&machine, Some(Ok(machine)) if machine.simulation.is_none()));
     Some(Program {
         driver,
         bus: route.of_items(),
@@ -120,10 +122,11 @@ struct Parts<'p, 'a> {
 }
 
 impl Parts<'_, '_> {
-    /// Returns the first state machine whose items can be accessed on a bus.
-    fn machine(&self, types: &Types, bus: RouteBus) -> Option<ProgramMachine> {
+    /// Returns the first state machine with an operating state whose items can be accessed on a bus. Without such a machine,
+    /// returns the reason that concerns the first machine of the bus.
+    fn machine(&self, types: &Types, bus: RouteBus) -> Option<Result<ProgramMachine, NoTarget>> {
         let machines = self.context.names.types.machines.iter().zip(&types.machines);
-        machines.into_iter().find_map(|(named, model)| {
+        let mut on_bus = machines.filter_map(|(named, model)| {
             let walk = self.walks.iter().find(|walk| walk.states == named.states)?;
             let is_on = |path: &str, writes| self.item_of(path).is_some_and(|item| self.is_on(item, bus, writes));
             if !is_on(&walk.status, false) || !is_on(&walk.control, true) {
@@ -132,54 +135,82 @@ impl Parts<'_, '_> {
             let is_at =
                 |object, path: &str| self.constants.object(object).is_some_and(|it: Constant<'_>| it.path == path);
             let is_cia402 = is_at((0x6040, 0), &walk.control) && is_at((0x6041, 0), &walk.status);
-            let simulated = simulation::of(named, model, walk)?;
-            Some(ProgramMachine {
+            let path = match Path::to_operation(named.machine, model) {
+                Ok(path) => path,
+                Err(reason) => return Some(Err(reason)),
+            };
+            let simulated = simulation::of(model, walk, &path)?;
+            Some(Ok(ProgramMachine {
                 walk: walk.method.clone(),
                 states: walk.states.clone(),
                 status: walk.status.clone(),
-                target: walk.energized.clone().unwrap_or_else(|| simulated.farthest()),
+                target: path.target.to_owned(),
                 simulation: (!is_cia402).then_some(simulated),
-            })
-        })
+            }))
+        });
+        let first = on_bus.next()?;
+        Some(first.or_else(|reason| on_bus.find_map(Result::ok).ok_or(reason)))
     }
 
     fn cia402(&self, model: &Cia402Model, bus: RouteBus) -> ProgramCia402 {
         let has = |name: &str| model.traits.iter().any(|implemented| implemented.path.ends_with(name));
-        let position = self.constants.object((0x6064, 0)).map(|constant| constant.path);
-        let call = position.and_then(|path| {
-            let item = self.item_of(&path).filter(|item| self.is_on(item, bus, false))?;
-            self.calls().find(|(other, _)| std::ptr::eq(*other, item)).map(|(_, call)| call)
-        });
+        let object = |index| self.item_of(&self.constants.object((index, 0))?.path);
+        let target = object(0x607A).filter(|item| self.is_on(item, bus, true));
+        let call = object(0x6064)
+            .filter(|item| self.is_on(item, bus, false))
+            .and_then(|item| self.calls().find(|(other, _)| std::ptr::eq(*other, item)).map(|(_, call)| call));
         ProgramCia402 {
             method: model.method.clone(),
             positioning: has("::Positioning"),
-            velocity: has("::Velocity"),
+            target: target.and_then(|item| self.sample(item, bus, &[100, 1, 0])),
             position: call,
         }
     }
 
     /// Returns the number that a program reads on a bus.
     fn read(&self, bus: RouteBus) -> Option<ProgramItem> {
-        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| self.is_on(item, bus, false)).collect();
+        let is_usable = |item: &Item| self.is_on(item, bus, false) && self.sample(item, bus, &[1, 0]).is_some();
+        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| is_usable(item)).collect();
         let (item, call) = example::readable(self.context, &calls)?;
-        self.item(item, call)
+        self.item(item, call, self.sample(item, bus, &[1, 0])?)
     }
 
     /// Returns the setting that a program writes on a bus, and its default value.
     fn write(&self, bus: RouteBus) -> Option<(ProgramItem, i128)> {
-        let is_possible = |item: &Item| self.is_on(item, bus, true) && is_default_allowed(item);
-        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| is_possible(item)).collect();
+        let is_default_possible = |item: &Item| {
+            let number = item.default_integer();
+            item.default_on(bus.of_items()) == item.default.as_ref()
+                && number.is_some_and(|number| self.is_possible(item, bus, number) && is_writable(item, number))
+        };
+        let is_usable = |item: &Item| self.is_on(item, bus, true) && is_default_possible(item);
+        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| is_usable(item)).collect();
         let (item, call, number) = example::writable(self.context, &calls)?;
-        Some((self.item(item, call)?, number))
+        Some((self.item(item, call, number)?, number))
     }
 
-    fn item(&self, item: &Item, call: &str) -> Option<ProgramItem> {
+    /// Returns the first raw value that an item can have on a bus: one of the numbers `preferred`, or a limit of the item.
+    fn sample(&self, item: &Item, bus: RouteBus, preferred: &[i128]) -> Option<i128> {
+        let limits = item.limits_on(bus.of_items()).unwrap_or(&item.limits);
+        let (low, high) = limits.integers();
+        let first = limits.allowed.iter().filter_map(|(first, _)| first.as_int());
+        let mut numbers = preferred.iter().copied().chain(low).chain(high).chain(first);
+        numbers.find(|number| self.is_possible(item, bus, *number))
+    }
+
+    /// Returns whether a raw value is within the type and the limits of an item on a bus.
+    fn is_possible(&self, item: &Item, bus: RouteBus, number: i128) -> bool {
+        let bus = bus.of_items();
+        let range = |ty| self.context.base(ty).integer_range();
+        let fits = |ty| range(ty).is_some_and(|(low, high)| (low..=high).contains(&number));
+        let mut limits = item.limits_on(bus).into_iter().chain([&*item.limits]);
+        fits(item.ty) && fits(item.type_on(bus)) && limits.all(|limits| excluded(limits, &Value::Int(number)).is_none())
+    }
+
+    fn item(&self, item: &Item, call: &str, sample: i128) -> Option<ProgramItem> {
         let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |model| (object, model)));
         let (object, model) = all
             .into_iter()
             .find(|(_, model)| self.context.item(model.id).is_some_and(|other| std::ptr::eq(other, item)))?;
-        let (low, high) = item.limits.integers();
-        let sample = [1, 0].into_iter().chain(low).chain(high).find(|number| is_within(item, *number))?;
         Some(ProgramItem {
             call: call.to_owned(),
             name: item.name.to_string(),
@@ -212,12 +243,8 @@ impl Parts<'_, '_> {
     }
 }
 
-/// Returns whether the default value of an item is within its limits. A range that consists of several ranges is left out.
-fn is_default_allowed(item: &Item) -> bool {
-    item.limits.allowed.is_empty() && item.default_integer().is_some_and(|number| is_within(item, number))
-}
-
-fn is_within(item: &Item, number: i128) -> bool {
-    let (low, high) = item.limits.integers();
-    low.is_none_or(|low| low <= number) && high.is_none_or(|high| number <= high)
+/// Returns whether a device accepts a raw value, if it accepts only some of the values of the item.
+fn is_writable(item: &Item, number: i128) -> bool {
+    let values = item.behaviour.as_deref().map(|behaviour| behaviour.writable_values.as_slice()).unwrap_or_default();
+    values.is_empty() || values.contains(&Value::Int(number))
 }

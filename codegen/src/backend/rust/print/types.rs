@@ -1,10 +1,10 @@
 //! Prints enumerations, bit fields and state machines.
 
 use super::{bit_field, section};
-use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc};
+use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Data, Doc};
 use crate::backend::rust::enumeration::{EnumerationModel, VariantModel};
 use crate::backend::rust::literal;
-use crate::backend::rust::machine::{MachineModel, PatternModel, PatternsModel};
+use crate::backend::rust::machine::{MachineModel, PatternModel, PatternsModel, StepModel};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
 
@@ -155,9 +155,8 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
     if let Some(states) = &machine.states {
         self::states(code, states);
     }
-    if let (Some(states), Some(commands), Some(transitions)) =
-        (&machine.states, &machine.commands, &machine.transitions)
-    {
+    let both = machine.states.as_ref().zip(machine.commands.as_ref()).filter(|_| machine.has_transitions());
+    if let Some((states, commands)) = both {
         open!(code, "impl ", states.name, " {");
         code.doc("Returns the next step from this state toward `target`.");
         let result = generic!("rt::Step", commands.name);
@@ -166,7 +165,7 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
         line!(code, call!("rt::Step::toward", transitions_of_trait, "self as u8", "target as u8"));
         code.close("}");
         code.close("}");
-        machine_state(code, machine, states, commands, transitions);
+        machine_state(code, machine, states, commands);
     }
     if let Some(commands) = &machine.commands {
         self::commands(code, commands);
@@ -174,16 +173,19 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
 }
 
 /// Writes the implementation of the trait with which the runtime leads a machine to a state.
-fn machine_state(
-    code: &mut Code,
-    machine: &MachineModel,
-    states: &PatternsModel,
-    commands: &PatternsModel,
-    transitions: &Doc,
-) {
+fn machine_state(code: &mut Code, machine: &MachineModel, states: &PatternsModel, commands: &PatternsModel) {
+    let state = |name: &str| Doc::from(format!("Self::{name} as u8"));
+    let step = |step: &StepModel| {
+        let command = step.command.as_ref().map_or_else(
+            || Doc::from("None"),
+            |name| Data::call("Some", vec![Doc::from(format!("{}::{name}", commands.name))]),
+        );
+        Data::call("rt::Transition::new", vec![state(&step.from), state(&step.to), command])
+    };
+    let transitions = Data::slice(machine.steps.iter().map(step));
     open!(code, "impl rt::MachineState for ", states.name, " {");
     line!(code, "type Command = ", commands.name, ";");
-    line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands.name, ">] = ", transitions, ";");
+    line!(code, "const TRANSITIONS: &'static [rt::Transition<", commands.name, ">] = ", &transitions, ";");
     let faults: Vec<String> = machine.faults.iter().map(|fault| format!("Self::{fault} as u8")).collect();
     line!(code, "const FAULTS: &'static [u8] = ", list("&[", &faults, "]"), ";");
     if let Some(state) = &machine.energized {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::image;
 use super::scope::{AccessPoint, Scope};
 use super::RustOptions;
-use crate::ir::{Catalog, Direction, Module, ModuleId, Submodule, SubmoduleId, SubmoduleUse};
+use crate::ir::{Catalog, Direction, IoData, ModuleUse, Numbers, Submodule, SubmoduleId, SubmoduleUse};
 
 /// The generated elements with which a program exchanges data with a PROFINET device.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub struct ProfinetProgram {
     pub places: usize,
     /// Module that the program plugs, and its slot. `None` if the default modules have cyclic data, or no module has.
     pub plugged: Option<(u16, String)>,
+    /// Whether the program also plugs the submodule whose data it exchanges.
+    pub plugs_submodule: bool,
     /// Submodule whose cyclic data the program exchanges.
     pub data: Option<ProfinetData>,
 }
@@ -39,68 +41,137 @@ pub fn profinet_program(catalog: &Catalog) -> Option<ProfinetProgram> {
     let options = RustOptions::default();
     let scope = Scope::new(catalog, &options);
     let [point] = scope.access_points.as_slice() else { return None };
-    let mut plan = Plan { scope: &scope, slots: BTreeMap::new() };
-    plan.add_defaults(point);
-    let mut plugged = None;
-    let mut data = plan.data();
-    if data.is_none() {
-        (plugged, data) = plan.plug(point).map_or((None, None), |(place, data)| (Some(place), Some(data)));
-    }
-    let places = plan.slots.values().map(|subslots| subslots.len().max(1)).sum();
-    Some(ProfinetProgram { places, plugged, data })
+    let mut plan = Plan { scope: &scope, point, slots: BTreeMap::new() };
+    plan.add_defaults();
+    let found = plan.data().map(|data| Exchange { plugged: None, plugs_submodule: false, data });
+    let found = found.or_else(|| plan.plug_any_submodule()).or_else(|| plan.plug());
+    let places = plan.slots.values().map(|slot| slot.submodules.len().max(1)).sum();
+    Some(match found {
+        Some(Exchange { plugged, plugs_submodule, data }) => {
+            ProfinetProgram { places, plugged, plugs_submodule, data: Some(data) }
+        }
+        None => ProfinetProgram { places, plugged: None, plugs_submodule: false, data: None },
+    })
 }
 
-/// The submodules in each slot, by subslot.
+/// Cyclic data, and the elements that the program plugs for them.
+struct Exchange {
+    plugged: Option<(u16, String)>,
+    plugs_submodule: bool,
+    data: ProfinetData,
+}
+
+/// The submodules of a module, by subslot.
 type Subslots = BTreeMap<u16, SubmoduleId>;
+
+/// A slot with a module.
+struct Slot<'s> {
+    submodules: Subslots,
+    /// Submodules that the module supports.
+    uses: &'s [SubmoduleUse],
+    /// Subslots of the module. If the list is empty, the module has the subslots of its submodules.
+    subslots: Option<&'s Numbers>,
+}
+
+impl<'s> Slot<'s> {
+    /// Returns the first free subslot for a submodule of the module.
+    fn free(&self, usage: &SubmoduleUse) -> Option<u16> {
+        let places = &usage.places;
+        let stated = || self.subslots.filter(|subslots| !subslots.is_empty());
+        let listed = places.used.iter().chain(places.allowed.iter());
+        let mut possible = listed.chain(stated().into_iter().flat_map(Numbers::iter));
+        possible.find(|subslot| {
+            let exists = stated().is_none_or(|subslots| subslots.contains(*subslot));
+            exists && places.accept(*subslot) && !self.submodules.contains_key(subslot)
+        })
+    }
+}
 
 struct Plan<'s> {
     scope: &'s Scope<'s>,
-    slots: BTreeMap<u16, Subslots>,
+    point: &'s AccessPoint<'s>,
+    slots: BTreeMap<u16, Slot<'s>>,
 }
 
-impl Plan<'_> {
-    /// Plugs the fixed and default modules and submodules of a device access point.
-    fn add_defaults(&mut self, point: &AccessPoint<'_>) {
-        let own = super::descriptor::slot(point);
-        self.slots.insert(own, submodules(&point.device.submodules, true));
-        let uses = || point.device.modules.iter();
-        let fixed = uses().flat_map(|usage| usage.places.fixed.iter().map(move |slot| (slot, usage.module)));
-        let used = uses().flat_map(|usage| usage.places.used.iter().map(move |slot| (slot, usage.module)));
-        for (slot, module) in fixed.chain(used) {
-            let Some(module) = self.module(module) else { continue };
-            let plugged = submodules(&module.submodules, true);
-            self.slots.entry(slot).or_insert(plugged);
+impl<'s> Plan<'s> {
+    /// Plugs the fixed and default modules and submodules of the device access point.
+    fn add_defaults(&mut self) {
+        let device = self.point.device;
+        let own = Slot { submodules: submodules(&device.submodules, true), uses: &device.submodules, subslots: None };
+        self.slots.insert(super::descriptor::slot(self.point), own);
+        let fixed = device.modules.iter().flat_map(|usage| usage.places.fixed.iter().map(move |slot| (slot, usage)));
+        let used = device.modules.iter().flat_map(|usage| usage.places.used.iter().map(move |slot| (slot, usage)));
+        for (slot, usage) in fixed.chain(used) {
+            let Some((module, _)) = self.module(usage, true) else { continue };
+            self.slots.entry(slot).or_insert(module);
         }
     }
 
-    fn module(&self, id: ModuleId) -> Option<&Module> {
-        Some(self.scope.modules.get(&id.0)?.0)
+    /// Returns a module with its fixed submodules, and on request also its default submodules, and the name of the module.
+    fn module(&self, usage: &ModuleUse, with_defaults: bool) -> Option<(Slot<'s>, &'s str)> {
+        let (module, name) = self.scope.modules.get(&usage.module.0)?;
+        let plugged = submodules(&module.submodules, with_defaults);
+        let slot = Slot { submodules: plugged, uses: &module.submodules, subslots: Some(&module.subslots) };
+        Some((slot, name))
     }
 
-    /// Plugs the first module with cyclic data in a fixed submodule into a free slot.
-    fn plug(&mut self, point: &AccessPoint<'_>) -> Option<((u16, String), ProfinetData)> {
-        let physical = &point.settings.slots;
-        for usage in &point.device.modules {
-            let Some((module, name)) = self.scope.modules.get(&usage.module.0) else { continue };
-            let plugged = submodules(&module.submodules, false);
-            let is_free = |slot: &u16| {
-                let is_allowed = usage.places.allowed.is_empty() || usage.places.allowed.contains(*slot);
-                is_allowed && !self.slots.contains_key(slot)
-            };
-            let Some(slot) = physical.iter().find(is_free) else { continue };
-            if let Some(data) = plugged.iter().find_map(|(subslot, id)| self.data_of(slot, *subslot, *id)) {
-                let name = name.clone();
-                self.slots.insert(slot, plugged);
-                return Some(((slot, name), data));
+    /// Plugs the first module with cyclic data into a free slot that accepts it. The data are those of a fixed submodule or, if there
+    /// is none, of a submodule that is also plugged.
+    fn plug(&mut self) -> Option<Exchange> {
+        let AccessPoint { device, settings, .. } = self.point;
+        for usage in &device.modules {
+            let Some((module, name)) = self.module(usage, false) else { continue };
+            let is_free = |slot: &u16| usage.places.accept(*slot) && !self.slots.contains_key(slot);
+            let Some(slot) = settings.slots.iter().find(is_free) else { continue };
+            let data = module.submodules.iter().find_map(|(subslot, id)| self.data_of(slot, *subslot, *id));
+            self.slots.insert(slot, module);
+            let fixed = data.filter(|_| self.has_room()).map(|data| (false, data));
+            if let Some((plugs_submodule, data)) = fixed.or_else(|| Some((true, self.plug_submodule(slot)?))) {
+                return Some(Exchange { plugged: Some((slot, name.to_owned())), plugs_submodule, data });
             }
+            self.slots.remove(&slot);
         }
         None
     }
 
+    /// Plugs the first submodule with cyclic data into a free subslot of any module.
+    fn plug_any_submodule(&mut self) -> Option<Exchange> {
+        let slots: Vec<u16> = self.slots.keys().copied().collect();
+        let data = slots.into_iter().find_map(|slot| self.plug_submodule(slot))?;
+        Some(Exchange { plugged: None, plugs_submodule: true, data })
+    }
+
+    /// Plugs the first submodule with cyclic data into a free subslot of the module in `slot`.
+    fn plug_submodule(&mut self, slot: u16) -> Option<ProfinetData> {
+        let uses = self.slots.get(&slot)?.uses;
+        uses.iter().find_map(|usage| {
+            let subslot = self.slots.get(&slot)?.free(usage)?;
+            let data = self.data_of(slot, subslot, usage.submodule)?;
+            self.slots.get_mut(&slot)?.submodules.insert(subslot, usage.submodule);
+            if self.has_room() {
+                return Some(data);
+            }
+            self.slots.get_mut(&slot)?.submodules.remove(&subslot);
+            None
+        })
+    }
+
+    /// Returns whether the device can exchange the data of all submodules.
+    fn has_room(&self) -> bool {
+        let ids = self.slots.values().flat_map(|slot| slot.submodules.values());
+        let all = ids.filter_map(|id| Some(self.scope.submodules.get(&id.0)?.0)).map(lengths);
+        let (inputs, outputs) =
+            all.fold((0, 0), |(inputs, outputs), (input, output)| (inputs + input, outputs + output));
+        let max = &self.point.settings.max_lengths;
+        let fits = |length: u64, max: Option<u16>| max.is_none_or(|max| length <= u64::from(max));
+        fits(inputs, max.input) && fits(outputs, max.output) && fits(inputs + outputs, max.data)
+    }
+
     /// Returns the first submodule with cyclic data, preferably one with both inputs and outputs.
     fn data(&self) -> Option<ProfinetData> {
-        let all =
-            || self.slots.iter().flat_map(|(slot, subslots)| subslots.iter().map(move |(at, id)| (*slot, *at, *id)));
+        let all = || {
+            self.slots.iter().flat_map(|(slot, place)| place.submodules.iter().map(move |(at, id)| (*slot, *at, *id)))
+        };
         let mut found = all().filter_map(|(slot, subslot, id)| self.data_of(slot, subslot, id));
         let first = found.next()?;
         let is_both = |data: &ProfinetData| data.has_inputs && data.has_outputs;
@@ -118,6 +189,19 @@ impl Plan<'_> {
     fn has_struct(&self, submodule: &Submodule, direction: Direction) -> bool {
         image::model(submodule, direction, &self.scope.values, self.scope.options).is_some()
     }
+}
+
+/// Returns the lengths of a submodule in the input frame and in the output frame, in bytes. Each data have a provider status, and a
+/// consumer status in the opposite direction. A submodule without data has inputs of length 0.
+fn lengths(submodule: &Submodule) -> (u64, u64) {
+    let (provider, consumer) = submodule.status_lengths;
+    let (provider, consumer) = (u64::from(provider), u64::from(consumer));
+    let bytes = |data: &IoData| u64::from(data.image.length) + u64::from(data.image.overhead);
+    let output = submodule.output.as_deref().map(bytes);
+    let input = submodule.input.as_deref().map(bytes).or_else(|| output.is_none().then_some(0));
+    let inputs = input.map_or(0, |length| length + provider) + output.map_or(0, |_| consumer);
+    let outputs = output.map_or(0, |length| length + provider) + input.map_or(0, |_| consumer);
+    (inputs, outputs)
 }
 
 /// Returns the fixed submodules, and on request also the default submodules, by subslot.
