@@ -41,11 +41,11 @@ pub enum Step<C> {
 const MAX_TRANSITIONS: usize = 128;
 
 impl<C: Copy> Step<C> {
-    /// Returns the first step of the shortest path from `state` to `target`. If several paths have the same length, a
-    /// path that starts with a command is preferred.
+    /// Returns the first step of the shortest path from `state` to `target` that enters no fault state on the way. If several
+    /// paths have the same length, a path that starts with a command is preferred.
     #[must_use]
-    pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {
-        Self::toward_without(transitions, state, target, &[], &[])
+    pub fn toward(transitions: &[Transition<C>], faults: &[u8], state: u8, target: u8) -> Self {
+        Self::toward_without(transitions, state, target, &[], faults)
     }
 
     /// Returns the first step of the shortest path that doesn't pass through the states `avoided`, and doesn't enter one of the
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn the_shortest_way() {
-        let toward = |state, target| Step::toward(TRANSITIONS, state, target);
+        let toward = |state, target| Step::toward(TRANSITIONS, &[], state, target);
         assert_eq!(toward(2, 2), Step::Reached);
         assert_eq!(toward(1, 3), Step::Command('u'));
         assert_eq!(toward(2, 3), Step::Command('U'));
@@ -128,7 +128,16 @@ mod tests {
     #[test]
     fn a_command_before_waiting() {
         let both = [Transition::new(0, 1, None), Transition::new(0, 1, Some('c'))];
-        assert_eq!(Step::toward(&both, 0, 1), Step::Command('c'));
-        assert_eq!(Step::<char>::toward(&[], 0, 1), Step::Unreachable);
+        assert_eq!(Step::toward(&both, &[], 0, 1), Step::Command('c'));
+        assert_eq!(Step::<char>::toward(&[], &[], 0, 1), Step::Unreachable);
+    }
+
+    #[test]
+    fn no_way_through_a_fault() {
+        let all =
+            [Transition::new(0, 9, Some('x')), Transition::new(9, 2, Some('r')), Transition::new(0, 1, Some('u'))];
+        assert_eq!(Step::toward(&all, &[9], 0, 2), Step::Unreachable);
+        assert_eq!(Step::toward(&all, &[9], 0, 9), Step::Command('x'));
+        assert_eq!(Step::toward(&all, &[9], 9, 2), Step::Command('r'));
     }
 }

@@ -334,7 +334,7 @@ mod tests {
         let both =
             [Transition::new(3, 1, Some('e')), Transition::new(1, 0, Some('d')), Transition::new(3, 2, Some('v'))];
         let all = [both[0], both[1], both[2], Transition::new(2, 4, Some('s')), Transition::new(4, 0, Some('t'))];
-        assert_eq!(Step::toward(&all, 3, 0), Step::Command('e'));
+        assert_eq!(Step::toward(&all, &[], 3, 0), Step::Command('e'));
         assert_eq!(Step::toward_without(&all, 3, 0, &[1], &[]), Step::Command('v'));
         assert_eq!(Step::toward_without(&all, 3, 1, &[1], &[]), Step::Command('e'));
         assert_eq!(Step::toward_without(&both, 3, 0, &[1], &[]), Step::Unreachable);

@@ -158,11 +158,11 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
     let both = machine.states.as_ref().zip(machine.commands.as_ref()).filter(|_| machine.has_transitions());
     if let Some((states, commands)) = both {
         open!(code, "impl ", states.name, " {");
-        code.doc("Returns the next step from this state toward `target`.");
+        code.doc("Returns the next step from this state toward `target`. The path enters no fault state on the way.");
         let result = generic!("rt::Step", commands.name);
         open!(code, call!("pub fn toward", "self", "target: Self"), " -> ", result, " {");
-        let transitions_of_trait = "<Self as rt::MachineState>::TRANSITIONS";
-        line!(code, call!("rt::Step::toward", transitions_of_trait, "self as u8", "target as u8"));
+        let [transitions, faults] = ["TRANSITIONS", "FAULTS"].map(|list| format!("<Self as rt::MachineState>::{list}"));
+        line!(code, call!("rt::Step::toward", transitions, faults, "self as u8", "target as u8"));
         code.close("}");
         code.close("}");
         machine_state(code, machine, states, commands);
