@@ -4059,10 +4059,11 @@ pub mod types {
         }
     }
     impl AlState {
-        /// Returns the next step from this state toward `target`.
+        /// Returns the next step from this state toward `target`. The path enters no fault state on the way.
         pub fn toward(self, target: Self) -> rt::Step<AlCommand> {
             rt::Step::toward(
                 <Self as rt::MachineState>::TRANSITIONS,
+                <Self as rt::MachineState>::FAULTS,
                 self as u8,
                 target as u8,
             )
@@ -4383,10 +4384,11 @@ pub mod types {
         }
     }
     impl DriveState {
-        /// Returns the next step from this state toward `target`.
+        /// Returns the next step from this state toward `target`. The path enters no fault state on the way.
         pub fn toward(self, target: Self) -> rt::Step<DriveCommand> {
             rt::Step::toward(
                 <Self as rt::MachineState>::TRANSITIONS,
+                <Self as rt::MachineState>::FAULTS,
                 self as u8,
                 target as u8,
             )

@@ -500,9 +500,9 @@ codes! {
         "Engineering tools look for names such as `GSDML-V2.35-Vendor-Device-20200131.xml`, with the version of the \
         schema after `V`. Some tools reject other names. Lexibus recognizes the file by its content, so this lint is \
         off by default. Rename the file if you use it in such a tool."
-    GSD004 UNKNOWN_GSDML_ELEMENT Lint Warn "an element or attribute is not defined in GSDML V2.35"
-        "Lexibus keeps the element or attribute as an extension attribute and does not use its content. Correct the name \
-        or the position. Allow this code if the file follows a later version of the schema."
+    GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute is not defined in GSDML V2.35"
+        "Lexibus keeps the element or attribute as an extension attribute. Files of later versions can have new elements, \
+        so this lint is off by default. Turn the lint on to find misspelled names."
     GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
         "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
         Lexibus reads the value if it is unambiguous. Otherwise, it leaves the value out. Correct the value."

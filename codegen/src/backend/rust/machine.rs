@@ -42,6 +42,11 @@ impl MachineModel {
         self.types().filter_map(|patterns| Some(patterns.bits.as_ref()?.0.as_str()))
     }
 
+    /// Returns whether the code of the machine uses the runtime.
+    pub(super) fn uses_runtime(&self) -> bool {
+        self.has_transitions() || self.types().any(|patterns| patterns.texts.is_some())
+    }
+
     /// Returns whether the machine has a list of transitions.
     pub(super) fn has_transitions(&self) -> bool {
         !self.steps.is_empty()

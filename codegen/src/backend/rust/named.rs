@@ -41,10 +41,9 @@ impl Types {
         self.enumerations.is_empty() && self.bit_fields.is_empty() && self.machines.is_empty()
     }
 
-    /// Returns whether the code of the types contains a path into the runtime crate. The code of states and commands
-    /// never does.
+    /// Returns whether the code of the types contains a path into the runtime crate.
     pub(super) fn names_runtime(&self) -> bool {
         let has_values = !self.enumerations.is_empty() || !self.bit_fields.is_empty();
-        has_values || self.machines.iter().any(MachineModel::has_transitions)
+        has_values || self.machines.iter().any(MachineModel::uses_runtime)
     }
 }
