@@ -46,7 +46,7 @@ function stateFinder(section) {
     input.setAttribute("aria-invalid", String(raw === undefined && input.value !== ""));
     const found = raw === undefined ? undefined : states.find(({ pattern }) => (raw & pattern.mask) === pattern.value);
     for (const { row, name } of states) row.classList.toggle("on", name === found?.name);
-    for (const box of section.querySelectorAll(".state")) box.classList.toggle("on", box.textContent === found?.name);
+    for (const box of section.querySelectorAll(".state")) box.classList.toggle("on", box.querySelector("text").textContent === found?.name);
     shown.textContent = found ? found.name : raw === undefined ? "" : "no state has this value";
     const steps = found ? [...nextSteps(transitions, found.name)] : [];
     list.replaceChildren(...steps.map(describe));

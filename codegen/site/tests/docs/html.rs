@@ -298,13 +298,15 @@ fn each_transition_of_cia_402_has_an_arrow() {
     // Transition 13 can start in any state.
     assert!(diagram.contains(">any state<"), "{diagram}");
     assert_eq!(diagram.matches("marker-end").count(), 16);
-    let labels = diagram.split("<text class=\"").skip(1).filter_map(|text| text.split_once('>')?.1.split('<').next());
+    let texts = diagram.split("<text class=\"").skip(1).filter(|text| !text.starts_with("pattern"));
+    let labels = texts.filter_map(|text| text.split_once('>')?.1.split('<').next());
     let numbers: BTreeSet<u32> =
         labels.flat_map(|label| label.split([' ', ','])).filter_map(|word| word.parse().ok()).collect();
     assert_eq!(numbers, (1..=16).collect());
     assert!(diagram.contains(">9 disable voltage<") && diagram.contains(">switch on disabled<"), "{diagram}");
     assert!(page.text.contains("id=\"drive.switch_on_disabled\""), "anchors are identifiers");
     assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td"), "states are bit patterns");
+    assert_eq!(diagram.matches(">xxxx xxxx x").count(), 8, "each state has its pattern");
 }
 
 #[test]
