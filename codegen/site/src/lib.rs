@@ -36,6 +36,7 @@ mod diagram;
 mod entry;
 mod folder;
 mod format;
+mod grid;
 mod html;
 mod indexing;
 mod languages;

@@ -1,7 +1,7 @@
-//! Cyclic data (PDOs, process images and sync managers) with drawings of the bytes.
+//! Cyclic data (PDOs, process images and sync managers) with byte grids.
 
 use super::anchor::Names;
-use super::cell::Cell;
+use super::grid;
 use super::words;
 use lexibus_codegen::facts::cob_id::{self, CobId};
 use lexibus_codegen::facts::number::hex16;
@@ -10,16 +10,6 @@ use lexibus_codegen::ir::{
     Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind,
     TypeDef,
 };
-
-/// Number of bytes in a drawing row, and the width of a byte in pixels.
-const ROW: u32 = 8;
-const CELL: u32 = 80;
-
-/// Height of a drawing row in pixels.
-const HEIGHT: u32 = 40;
-
-/// Maximum number of rows in a drawing. The list below the drawing contains all entries.
-const MOST_ROWS: usize = 64;
 
 /// The process data of a device.
 #[derive(Debug, Default)]
@@ -36,9 +26,7 @@ pub(super) struct Frame {
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<super::entry::Doubt>,
-    pub rows: Vec<Row>,
-    /// Height of the drawing in pixels.
-    pub height: u32,
+    pub rows: Vec<grid::Row>,
     pub entries: Vec<Entry>,
 }
 
@@ -47,15 +35,11 @@ impl Frame {
     pub fn has_objects(&self) -> bool {
         self.entries.iter().any(|entry| !entry.object.is_empty())
     }
-}
 
-/// A row of the drawing, with eight bytes.
-#[derive(Debug)]
-pub(super) struct Row {
-    /// Number of the first byte in the row.
-    pub first: u32,
-    pub top: u32,
-    pub cells: Vec<Cell>,
+    /// Returns the entry in a cell of the byte grid.
+    pub fn entry(&self, cell: &grid::Cell) -> Option<&Entry> {
+        self.entries.get(cell.entry?)
+    }
 }
 
 /// A row in the list of entries.
@@ -164,10 +148,8 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
     }
 }
 
-/// Creates a frame that contains only the drawing and the list of entries.
+/// Creates a frame that contains only the byte grid and the list of entries.
 fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
-    let bytes = bits.div_ceil(8);
-    let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();
     let list = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).map(|entry| Entry {
         position: address::bits_of(entry.bit_offset, entry.bits),
         object: if entry.index == 0 { String::new() } else { address::object(entry.index, entry.sub_index) },
@@ -178,20 +160,5 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
         item: entry.item,
         target: String::new(),
     });
-    Frame { height: rows.len() as u32 * HEIGHT, rows, entries: list.collect(), ..Frame::default() }
-}
-
-fn row(entries: &[PdoEntry], number: u32) -> Row {
-    let (first, last) = (number * ROW * 8, (number + 1) * ROW * 8);
-    let cell = |entry: &PdoEntry| {
-        let low = entry.bit_offset.max(first);
-        let high = entry.bit_offset.saturating_add(entry.bits).min(last);
-        let bits = high.checked_sub(low).filter(|bits| *bits > 0)?;
-        let (left, width) = ((low - first) * CELL / 8, bits * CELL / 8);
-        Some(match entry.kind {
-            PdoEntryKind::Padding => Cell::padding(left, width),
-            _ => Cell::new(left, width, &entry.name),
-        })
-    };
-    Row { first: number * ROW, top: number * HEIGHT, cells: entries.iter().filter_map(cell).collect() }
+    Frame { rows: grid::rows(entries, bits), entries: list.collect(), ..Frame::default() }
 }
