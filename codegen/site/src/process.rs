@@ -8,7 +8,7 @@ use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
     Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind,
-    TypeDef,
+    TypeDef, Value,
 };
 
 /// The process data of a device.
@@ -26,6 +26,8 @@ pub(super) struct Frame {
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<super::entry::Doubt>,
+    /// COB-ID to which the node-ID is added, with its flags.
+    pub cob_id_of_node: Option<u32>,
     pub rows: Vec<grid::Row>,
     pub entries: Vec<Entry>,
 }
@@ -122,7 +124,12 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         let others: Vec<String> = pdo.excludes.iter().map(|index| hex16(*index)).collect();
         facts.push(format!("Cannot be assigned together with {}.", others.join(", ")));
     }
+    let cob_id = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
     Frame {
+        cob_id_of_node: match cob_id {
+            Some(Value::NodeId(offset)) => u32::try_from(*offset).ok(),
+            _ => None,
+        },
         anchor: index,
         title: pdo::title(pdo, about.buses) + &name,
         facts,
