@@ -44,6 +44,11 @@ fn labels_in_diagrams_are_not_crossed_by_arrows() {
 }
 
 #[test]
+fn a_large_screen_shows_many_lines() {
+    run("density.mjs", || [sites::drives()]);
+}
+
+#[test]
 fn the_keyboard_is_enough() {
     run("keyboard.mjs", || [sites::drives()]);
 }

@@ -106,8 +106,7 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     let mut facts = words::PLAIN.description(pdo.documentation.as_deref());
     let index = hex16(pdo.mapping_index);
     let mapping = if pdo.mapping_index == 0 { String::new() } else { format!(", mapped by {index}") };
-    let bytes = pdo.bytes();
-    facts.push(format!("{bytes} {}{mapping}.", if bytes == 1 { "byte" } else { "bytes" }));
+    facts.push(format!("{}{mapping}.", bytes(pdo.bytes())));
     if let Some(communication) = &pdo.communication {
         let cob_id = |id| cob_id::text(id, CobId::of_pdo(pdo.direction)).unwrap_or_else(|| words::PLAIN.value(id));
         facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
@@ -144,7 +143,7 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
         Direction::Receive => "to the device",
         Direction::Transmit => "from the device",
     };
-    let mut facts = vec![format!("{} bytes {direction}.", image.length)];
+    let mut facts = vec![format!("{} {direction}.", bytes(image.length as usize))];
     facts.extend(image.big_endian.then(|| "Numbers are big-endian.".to_owned()));
     facts.extend((image.overhead > 0).then(|| format!("{} further bytes are not user data.", image.overhead)));
     Frame {
@@ -153,6 +152,11 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
         facts,
         ..drawn(&image.fields, image.length.saturating_mul(8), types)
     }
+}
+
+/// Returns a number of bytes as text: `1 byte`, `4 bytes`.
+fn bytes(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "byte" } else { "bytes" })
 }
 
 /// Creates a frame that contains only the byte grid and the list of entries.

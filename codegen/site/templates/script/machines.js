@@ -54,7 +54,7 @@ function stateFinder(section) {
   });
   const title = element("p", { textContent: "Commands to each other state. The values have 0 in all bits that do not belong to the command:", hidden: true });
   const label = element("label", {}, "Status value ", input);
-  section.querySelector("svg.states, h3").closest(".wide, h3").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
+  section.querySelector(".behaviour").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
 }
 
 for (const section of document.querySelectorAll("section.machine")) stateFinder(section);

@@ -39,7 +39,7 @@ fn the_search_finds_modules_by_name_order_code_and_ident_number() {
         assert!(index.contains(part), "{part}: {index}");
     }
     let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
-    assert!(modules.contains("<section id=\"module-00000030\">"), "{modules}");
+    assert!(modules.contains("<section id=\"module-00000030\" class=\"module\">"), "{modules}");
     // The data of submodules have no objects.
     assert!(!modules.contains("<th scope=\"col\">Object"), "{modules}");
 }
@@ -172,7 +172,7 @@ fn notes_of_an_object_are_shown_once() {
     let objects = text("vector-step/no-revision/communication-objects.html");
     // Both entries of the object have this ambiguity.
     assert_eq!(objects.matches("both have the symbol standard_error_field").count(), 1);
-    assert!(objects.contains("<p>For 0x1003:01, 0x1003:02:<div"), "{objects}");
+    assert!(objects.contains("<summary>Ambiguity of 0x1003:01, 0x1003:02</summary><div"), "{objects}");
     // A register has the same address in several windows.
     let (_, parameter) = text("eco/no-revision/parameters.html").split_once("<tbody id=\"d1\"").expect("a register");
     let (parameter, _) = parameter.split_once("</tbody>").expect("an end");
