@@ -60,6 +60,7 @@ mod shared;
 mod slots;
 mod split;
 mod tools;
+mod twins;
 mod words;
 
 use std::rc::Rc;

@@ -4,7 +4,7 @@ use crate::docs_support::{files, hostile, html_links, html_markup, site, values,
 use std::collections::BTreeSet;
 
 use lexibus_codegen::source::Source;
-use lexibus_site::Format;
+use lexibus_site::{Format, Page};
 
 #[test]
 fn all_links_are_valid() {
@@ -351,5 +351,57 @@ fn the_search_has_printed_and_wire_addresses() {
     let index = pages.iter().find(|page| page.path.ends_with("/no-revision/search.js")).expect("the index");
     for number in ["register 40101 (wire 100)", "register 40102–40103 (wire 101–102)", "coil 7 (wire 6)"] {
         assert!(index.text.contains(number), "{number}: {}", index.text);
+    }
+}
+
+/// Returns an ESI file with a device for each number of input bytes. The devices have the same name, order code, product code and
+/// revision.
+fn terminals(bytes: &[u32]) -> Source {
+    let device = |bytes: &u32| {
+        format!(
+            "<Device><Type ProductCode=\"#x03FA3052\" RevisionNo=\"#x00120000\">T1018</Type><Name>T1018 inputs</Name>\
+             <TxPdo Fixed=\"1\"><Index>#x1A00</Index><Name>Inputs</Name><Entry><Index>#x6000</Index><SubIndex>1</SubIndex>\
+             <BitLen>{}</BitLen><Name>Value</Name><DataType>UDINT</DataType></Entry></TxPdo></Device>",
+            bytes * 8
+        )
+    };
+    let devices: String = bytes.iter().map(device).collect();
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Example</Name></Vendor><Descriptions><Devices>{devices}</Devices>\
+         </Descriptions></EtherCATInfo>"
+    );
+    Source::new("terminals.xml", text.into())
+}
+
+/// Returns the texts of the rows in the list of all devices.
+fn rows_of_list(pages: &[Page]) -> Vec<String> {
+    let list = &pages.iter().find(|page| page.path == "index.html").expect("the list").text;
+    let rows = list.split("<tr><th scope=\"row\">").skip(1).map(|row| row.split("</table>").next().unwrap_or_default());
+    let text = |row: &str| {
+        let parts = row.split('<').map(|part| part.rsplit('>').next().unwrap_or_default());
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("|")
+    };
+    rows.map(text).collect()
+}
+
+#[test]
+fn rows_of_a_list_differ() {
+    let files = [("a", &[4, 4, 2][..]), ("b", &[4])];
+    let pages = site(Format::Html, files.map(|(name, bytes)| (name.to_owned(), terminals(bytes))).into());
+    html_links(&pages);
+    let row =
+        |note: &str, file: &str| format!("T1018 inputs|{note}T1018|Example|0x03FA3052|0x00120000|EtherCAT|{file}");
+    let note = " |(description 1 of 2, 2 identical descriptions)|";
+    let other = " |(description 2 of 2)|";
+    assert_eq!(rows_of_list(&pages), [row(note, "a"), row(other, "a"), row("", "b")]);
+    let copies = pages.iter().filter(|page| page.path.ends_with("/process-data.html")).count();
+    assert_eq!(copies, 3, "a copy has no pages");
+    let markdown = site(Format::Markdown, vec![("a".to_owned(), terminals(&[4, 4]))]);
+    let list = &markdown.iter().find(|page| page.path == "README.md").expect("the list").text;
+    assert!(list.contains(") (2 identical descriptions) |"), "{list}");
+    // The results of the search differ, too.
+    let index = &pages.iter().find(|page| page.path == "search.js").expect("the index").text;
+    for name in ["description 1 of 2, 2 identical descriptions", "0x00120000, description 2 of 2"] {
+        assert!(index.contains(name), "{name}: {index}");
     }
 }
