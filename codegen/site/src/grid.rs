@@ -113,7 +113,7 @@ fn splits_byte(pieces: &[Piece], start: u32) -> bool {
 /// Returns the end of a row of whole bytes. Rows end at multiples of four bytes, except if one piece fills several of them.
 fn end_of_bytes(pieces: &[Piece], start: u32) -> u32 {
     let piece_end = at(pieces, start).map_or(start + 8, |piece| piece.end);
-    if start % ROW == 0 && piece_end >= start + ROW {
+    if start.is_multiple_of(ROW) && piece_end >= start + ROW {
         return start + (piece_end - start) / ROW * ROW;
     }
     let row_end = (start / ROW + 1) * ROW;
@@ -136,7 +136,10 @@ fn cells(pieces: &[Piece], low: u32, high: u32, unit: u32) -> Vec<Cell> {
 mod tests {
     use super::*;
 
-    fn grid(entries: &[(u32, u32)], bits: u32) -> Vec<(String, Vec<(u32, Option<usize>)>)> {
+    /// Position, and columns and entry of each cell.
+    type ShownRow = (String, Vec<(u32, Option<usize>)>);
+
+    fn grid(entries: &[(u32, u32)], bits: u32) -> Vec<ShownRow> {
         let entry =
             |(bit_offset, bits): &(u32, u32)| PdoEntry { bit_offset: *bit_offset, ..PdoEntry::new(0x6000, 0, *bits) };
         let entries: Vec<PdoEntry> = entries.iter().map(entry).collect();
@@ -144,7 +147,7 @@ mod tests {
         rows(&entries, bits).into_iter().map(|row| (row.position, cells(row.cells))).collect()
     }
 
-    fn row(position: &str, cells: &[(u32, Option<usize>)]) -> (String, Vec<(u32, Option<usize>)>) {
+    fn row(position: &str, cells: &[(u32, Option<usize>)]) -> ShownRow {
         (position.to_owned(), cells.to_vec())
     }
 
