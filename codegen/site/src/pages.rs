@@ -105,7 +105,7 @@ pub(super) struct Listed {
     /// Product code and revision number, as hexadecimal numbers.
     pub product_code: String,
     pub revision: String,
-    /// Text that tells the device apart from others with the same texts, or the number of identical descriptions.
+    /// Text that distinguishes the device from others with the same texts, or the number of identical descriptions.
     pub note: String,
     revision_number: u32,
     /// Text that is equal for the revisions of the product.

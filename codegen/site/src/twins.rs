@@ -1,5 +1,5 @@
 //! Devices of a description that look identical in a list of devices. Identical descriptions are merged into one row, and others are
-//! told apart by a note.
+//! distinguished by a note.
 
 use std::collections::HashMap;
 
@@ -18,7 +18,7 @@ struct Twin {
     copies: usize,
 }
 
-/// Returns the note of each device in a catalog: a text that tells the device apart from others, and the number of identical
+/// Returns the note of each device in a catalog: a text that distinguishes the device from others, and the number of identical
 /// descriptions. The note is empty if no other device looks the same, and `None` if the device is a copy of an earlier one.
 pub(super) fn notes(catalog: &Catalog) -> Vec<Option<String>> {
     let mut groups: HashMap<_, Vec<Twin>> = HashMap::new();
