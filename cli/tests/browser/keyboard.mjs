@@ -21,7 +21,7 @@ async function order(window) {
   const page = await window.go("kollmorgen/akd/no-revision/profile-objects.html");
   const path = await page.locator(".path a").allTextContents();
   const links = await page.locator("#tree a").allTextContents();
-  const rows = await page.locator("main .items th").evaluateAll((cells) => cells.flatMap((cell) => [...cell.querySelectorAll("button, a")].map((item) => item.textContent || item.title)));
+  const rows = await page.locator("main .items :is(th button, th a, .object summary)").evaluateAll((items) => items.map((item) => item.textContent || item.title));
   const wanted = ["To the content", ...path, "search", "language", "theme", "filter", ...links, "Unfold all", ...rows];
   const seen = [];
   for (let at = 0; at < wanted.length; at++) {

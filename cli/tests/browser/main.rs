@@ -39,6 +39,16 @@ fn the_decoder_converts_values_in_both_directions() {
 }
 
 #[test]
+fn labels_in_diagrams_are_not_crossed_by_arrows() {
+    run("diagrams.mjs", || [sites::drives()]);
+}
+
+#[test]
+fn a_large_screen_shows_many_lines() {
+    run("density.mjs", || [sites::drives()]);
+}
+
+#[test]
 fn the_keyboard_is_enough() {
     run("keyboard.mjs", || [sites::drives()]);
 }

@@ -1,5 +1,6 @@
 // Tests pages on a phone: no page is wider than the screen, and wide content scrolls in a box that the keyboard can reach.
 // The header covers little of the screen, and tables have space for their texts.
+// Byte grids contain the complete name of each entry.
 import assert from "node:assert/strict";
 import { pagesOf, sampled, Window, withBrowser } from "./browser.mjs";
 
@@ -7,7 +8,7 @@ const [site] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   for (const width of [390, 320]) {
     const window = await Window.open(browser, site, { viewport: { width, height: 700 }, isMobile: true, hasTouch: true });
-    let boxes = 0;
+    let boxes = 0, grids = 0;
     for (const place of sampled(pagesOf(site), 3)) {
       const page = await window.go(place);
       // The browser lays out content only when it becomes visible.
@@ -30,6 +31,12 @@ await withBrowser(async (browser) => {
           scrolled: all.filter((item) => item.matches(".wide, pre") && item.scrollWidth > item.clientWidth).length,
           covered: getComputedStyle(header).position === "sticky" ? header.offsetHeight / innerHeight : 0,
           squeezed: all.filter((item) => item.matches(":is(.list, .items, .fields) :is(td, th)") && isSqueezed(item)).map((item) => item.textContent),
+          grids: document.querySelectorAll(".bytes").length,
+          cut: all.filter((item) => item.matches(".bytes td") && item.scrollWidth > item.clientWidth).map((item) => item.textContent),
+          unnamed: all.filter((item) => item.matches(".frame")).flatMap((frame) => {
+            const names = new Set([...frame.querySelectorAll(".bytes td b")].map((name) => name.textContent));
+            return [...frame.querySelectorAll(".list b")].map((name) => name.textContent).filter((name) => !names.has(name));
+          }),
           letters: parseFloat(getComputedStyle(document.body).fontSize),
         };
       });
@@ -38,8 +45,12 @@ await withBrowser(async (browser) => {
       assert.ok(seen.letters >= 14, place);
       assert.ok(seen.covered <= 0.15, `${place}: the header covers ${seen.covered} of the screen`);
       assert.deepEqual(seen.squeezed, [], place);
+      assert.deepEqual(seen.cut, [], `${place}: names in byte grids are cut`);
+      assert.deepEqual(seen.unnamed, [], `${place}: names are missing in byte grids`);
+      grids += seen.grids;
       boxes += seen.scrolled;
     }
+    assert.ok(grids > 2, `only ${grids} byte grids`);
     assert.ok(boxes > 2, `only ${boxes} boxes scroll`);
     window.clean();
     await window.close();

@@ -44,6 +44,7 @@ await withBrowser(async (browser) => {
   assert.deepEqual(frames.segmented, ["21 10 20 01 08 00 00 00", "00 01 02 03 04 05 06 07", "1D 08 00 00 00 00 00 00"]);
   await requestsOfBuses(page);
   await movesObjects(window);
+  await showsBytes(window);
   window.clean();
 });
 
@@ -85,5 +86,31 @@ async function movesObjects(window) {
   for (const [direction, wanted] of [["down", ["0x6060", "0x6040"]], ["up", ["0x6040", "0x6060"]]]) {
     await builder.getByRole("button", { name: new RegExp(`^Move 0x6040.* ${direction}$`) }).click();
     assert.deepEqual(await order(), wanted);
+  }
+}
+
+// Checks that the grid of the PDO builder has the rows of the page's own grid, and that COB-IDs are those of the chosen node.
+async function showsBytes(window) {
+  const page = await window.go("aec-s-r-l/vector-step/no-revision/process-data.html"), builder = page.locator(".builder");
+  const rows = (table) => table.evaluate((grid) => [...grid.rows].map((row) => [...row.cells].map((cell) => cell.tagName === "TH" ? cell.textContent : cell.colSpan)));
+  let count = 0;
+  for (const section of await page.locator("section[data-cob-id]").all()) {
+    const title = await section.locator("h2").innerText(), option = builder.locator("option").filter({ hasText: title.split(":")[0] });
+    if (await option.count() !== 1 || await section.locator(".bytes").count() === 0) continue;
+    await builder.getByLabel("PDO", { exact: true }).selectOption({ label: await option.innerText() });
+    assert.deepEqual(await rows(builder.locator(".bytes")), await rows(section.locator(".bytes")), title);
+    count += 1;
+  }
+  assert.ok(count >= 2, `only ${count} PDOs have a mapping`);
+  const bits = await page.evaluate(() => byteGrid([[1, "a"], [2, "b"], [5, "c"], [12, "d_e"], [4, "f"]].map(([bits, name]) => ({ bits, name }))).map((row) => [...row.cells].map((cell) => cell.textContent + cell.colSpan)));
+  assert.deepEqual(bits, [
+    ["byte 0 bits 7–41", "c4"], ["byte 0 bits 3–01", "c1", "b2", "a1"], ["byte 11", "d_e1"], ["byte 2 bits 7–41", "f4"], ["byte 2 bits 3–01", "d_e4"],
+  ]);
+  await page.evaluate(() => document.querySelector(".builder select").selectedIndex = 0);
+  for (const [node, cobId] of [["5", "0x205"], ["127", "0x27F"]]) {
+    await builder.getByLabel("Node-ID").fill(node);
+    await builder.getByLabel("PDO", { exact: true }).selectOption({ index: 0 });
+    assert.match(await builder.locator("output").innerText(), new RegExp(`^COB-ID ${cobId}, `));
+    assert.match(await page.locator("section[data-cob-id] .of-node").first().innerText(), new RegExp(`For node-ID ${node}: COB-ID ${cobId}`));
   }
 }

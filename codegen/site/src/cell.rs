@@ -10,19 +10,12 @@ pub(super) struct Cell {
     pub width: u32,
     pub middle: u32,
     pub label: String,
-    /// True if the bits are unused.
-    pub is_padding: bool,
 }
 
 impl Cell {
     pub fn new(left: u32, width: u32, name: &str) -> Self {
         let does_fit = name.chars().count() as u32 * LETTER + LETTER <= width;
         let label = if does_fit { name.to_owned() } else { String::new() };
-        Cell { left, width, middle: left + width / 2, label, is_padding: false }
-    }
-
-    /// Creates a cell without a name.
-    pub fn padding(left: u32, width: u32) -> Self {
-        Cell { is_padding: true, ..Cell::new(left, width, "") }
+        Cell { left, width, middle: left + width / 2, label }
     }
 }

@@ -1,18 +1,31 @@
 //! Draws state machines. The states are in one column, and arrows between neighbors are straight. Each other arrow has a separate lane
 //! next to the column. The lane is on the left if the arrow leads down, and on the right if it leads up. So no two arrows overlap.
+//! The label of a lane is on its outer side, at a height where no arrow of an outer lane crosses it.
+
+mod lanes;
 
 use std::collections::VecDeque;
 
 use super::words::readable;
+use lanes::{Lanes, Ports};
 use lexibus_codegen::ir::{StateMachine, Transition};
 
-/// Width and height of a state's box in pixels, and distance from one box to the next.
-pub(super) const WIDTH: u32 = 220;
-pub(super) const HEIGHT: u32 = 36;
-const PITCH: u32 = 84;
+/// Minimum width of a state's box in pixels.
+const WIDTH: u32 = 220;
+
+/// Height of a line of text in a box in pixels, and free space above and below the lines.
+const LINE: u32 = 17;
+const PADDING: u32 = 10;
+
+/// Minimum distance from one box to the next, and the step by which it grows until the labels on lanes have space.
+const GAP: u32 = 48;
+const GAP_STEP: u32 = 12;
+
+/// Maximum distance from one box to the next.
+const MOST_GAP: u32 = 240;
 
 /// Distance between two lanes, and between the column and the first lane.
-const LANE: u32 = 38;
+const LANE: u32 = 30;
 
 /// Width of a letter in pixels.
 const LETTER: u32 = 7;
@@ -31,6 +44,9 @@ pub(super) const ANY_STATE: &str = "any state";
 pub(super) struct Diagram {
     pub width: u32,
     pub height: u32,
+    /// Size of each box.
+    pub box_width: u32,
+    pub box_height: u32,
     pub boxes: Vec<StateBox>,
     pub arrows: Vec<Arrow>,
 }
@@ -41,6 +57,8 @@ pub(super) struct StateBox {
     pub left: u32,
     pub top: u32,
     pub name: String,
+    /// Bits of the status in this state, if the state is a bit pattern.
+    pub pattern: String,
     pub is_initial: bool,
 }
 
@@ -51,7 +69,7 @@ pub(super) struct Arrow {
     /// Position of the label.
     pub x: u32,
     pub y: u32,
-    /// CSS class of the label: `start` or `end` for the text next to a straight arrow, `lane` for the text along a lane, on its left.
+    /// CSS class of the label: `start` or `end` for the text next to a straight arrow, `lane` for the text along a lane.
     pub side: &'static str,
     /// Numbers of the transitions and names of their commands.
     pub label: String,
@@ -66,39 +84,115 @@ struct Edge {
     commands: Vec<String>,
 }
 
-/// Returns the diagram of a state machine, or `None` if there is no transition between states.
-pub(super) fn diagram(machine: &StateMachine) -> Option<Diagram> {
-    let edges = edges(machine);
-    let any = machine.states.len();
-    let initial = machine.initial.as_ref().and_then(|name| position(machine, name));
-    let first = initial.unwrap_or(edges.first()?.from);
-    let rows = rows(any, first, &edges);
-    let lanes = [lanes(&edges, &rows, Edge::leads_down), lanes(&edges, &rows, Edge::leads_up)];
-    let gaps = [Edge::is_below, Edge::is_above].map(|is_beside| gap(&edges, &rows, is_beside));
-    let count = |side: usize| lanes[side].iter().flatten().max().map_or(0, |lane| lane + 1);
-    let [left, right] = [0, 1].map(|side| gaps[side] + LANE * count(side));
-    let name = |at: usize| machine.states.get(at).map_or_else(|| ANY_STATE.to_owned(), |state| readable(&state.name));
-    let top = |row: usize| 8 + row as u32 * PITCH;
-    let boxes = rows.iter().enumerate().filter_map(|(at, row)| {
-        Some(StateBox { left, top: top((*row)?), name: name(at), is_initial: at == first && at < any })
-    });
-    let boxes: Vec<StateBox> = boxes.collect();
-    let height = top(boxes.len()) - PITCH + HEIGHT + 8;
-    let ports = Ports::new(&edges, &rows, &lanes);
-    let arrow = |(at, edge): (usize, &Edge)| {
-        let (from, to) = (rows[edge.from]?, rows[edge.to]?);
-        let lane = lanes[0][at].map(|lane| (left - gaps[0] - LANE * lane, left));
-        let lane = lane.or_else(|| lanes[1][at].map(|lane| (left + WIDTH + gaps[1] + LANE * lane, left + WIDTH)));
-        Some(match lane {
-            Some((x, edge_x)) => {
-                let [start, end] = [(from, 0), (to, 1)].map(|(row, end)| top(row) + ports.offset(at, end));
-                edge.on_lane(x, edge_x, [start, end], height)
-            }
-            None => edge.straight(left + WIDTH / 2, top(from), top(to)),
-        })
-    };
-    let arrows = edges.iter().enumerate().filter_map(arrow).collect();
-    Some(Diagram { width: left + WIDTH + right, height, boxes, arrows })
+/// The states and edges of a diagram, and the sizes that do not depend on the distance between the boxes.
+struct Plan<'m> {
+    machine: &'m StateMachine,
+    /// Bits of each state.
+    patterns: &'m [String],
+    edges: Vec<Edge>,
+    /// Row of each state, and of the pseudo-state "any state" after the last state.
+    rows: Vec<Option<usize>>,
+    first: usize,
+    box_width: u32,
+    box_height: u32,
+}
+
+/// Returns the diagram of a state machine, or `None` if there is no transition between states. `patterns` contains the bits of each
+/// state.
+pub(super) fn diagram(machine: &StateMachine, patterns: &[String]) -> Option<Diagram> {
+    let plan = Plan::new(machine, patterns)?;
+    let gaps = (GAP..MOST_GAP).step_by(GAP_STEP as usize);
+    let labelled = gaps.map(|gap| plan.drawn(gap)).find(|(_, is_complete)| *is_complete);
+    Some(labelled.unwrap_or_else(|| plan.drawn(MOST_GAP)).0)
+}
+
+impl<'m> Plan<'m> {
+    fn new(machine: &'m StateMachine, patterns: &'m [String]) -> Option<Self> {
+        let edges = edges(machine);
+        let any = machine.states.len();
+        let initial = machine.initial.as_ref().and_then(|name| position(machine, name));
+        let first = initial.unwrap_or(edges.first()?.from);
+        let rows = rows(any, first, &edges);
+        let is_drawn = |at: usize| rows.get(at).is_some_and(Option::is_some);
+        let names = machine.states.iter().map(|state| readable(&state.name));
+        let texts = names.enumerate().chain(patterns.iter().cloned().enumerate()).filter(|(at, _)| is_drawn(*at));
+        let longest = texts.map(|(_, text)| text.chars().count() as u32).max().unwrap_or_default();
+        let has_patterns = (0..).zip(patterns).any(|(at, pattern)| is_drawn(at) && !pattern.is_empty());
+        let box_height = 2 * PADDING + if has_patterns { 2 } else { 1 } * LINE;
+        Some(Plan { machine, patterns, edges, rows, first, box_width: WIDTH.max((longest + 2) * LETTER), box_height })
+    }
+
+    /// Returns the diagram with this distance between the boxes, and whether all labels have space.
+    fn drawn(&self, gap: u32) -> (Diagram, bool) {
+        let (edges, rows, pitch) = (&self.edges, &self.rows, gap + self.box_height);
+        let top = |row: usize| 8 + row as u32 * pitch;
+        let lanes = [Edge::leads_down, Edge::leads_up].map(|on_side| Lanes::new(edges, rows, pitch, on_side));
+        let gaps = [Edge::is_below, Edge::is_above].map(|is_beside| self.gap(is_beside));
+        let [left, right] = [0, 1].map(|side| gaps[side] + LANE * lanes[side].count());
+        let boxes = self.boxes(left, top);
+        let longest = lanes.iter().map(|lanes| lanes.longest_label(edges)).max().unwrap_or_default();
+        let height = (top(boxes.len()) - gap + 8).max(longest);
+        let ports = Ports::new(edges, rows, &lanes, self.box_height);
+        let ends = |at: usize| {
+            let edge: &Edge = &edges[at];
+            let row = |state: usize| top(rows[state].unwrap_or_default());
+            [row(edge.from) + ports.offset(at, 0), row(edge.to) + ports.offset(at, 1)]
+        };
+        let mut is_complete = true;
+        let mut arrow = |(at, edge): (usize, &Edge)| {
+            let (from, to) = (rows[edge.from]?, rows[edge.to]?);
+            let Some(side) = lanes.iter().position(|lanes| lanes.number(at).is_some()) else {
+                return Some(edge.straight(left + self.box_width / 2, [top(from), top(to)], self.box_height));
+            };
+            let distance = gaps[side] + LANE * lanes[side].number(at)?;
+            let (y, has_space) = lanes[side].label(at, edge.label_length(), ends, top, height);
+            is_complete &= has_space;
+            Some(match side {
+                0 => edge.on_lane([left - distance, left], ends(at), (left - distance - 7, y)),
+                _ => {
+                    let edge_x = left + self.box_width;
+                    edge.on_lane([edge_x + distance, edge_x], ends(at), (edge_x + distance + 16, y))
+                }
+            })
+        };
+        let arrows = edges.iter().enumerate().filter_map(&mut arrow).collect();
+        let (box_width, box_height) = (self.box_width, self.box_height);
+        (Diagram { width: left + box_width + right, height, box_width, box_height, boxes, arrows }, is_complete)
+    }
+
+    fn boxes(&self, left: u32, top: impl Fn(usize) -> u32) -> Vec<StateBox> {
+        let state = |at: usize| self.machine.states.get(at);
+        let one = |(at, row): (usize, &Option<usize>)| {
+            Some(StateBox {
+                left,
+                top: top((*row)?),
+                name: state(at).map_or_else(|| ANY_STATE.to_owned(), |state| readable(&state.name)),
+                pattern: self.patterns.get(at).cloned().unwrap_or_default(),
+                is_initial: at == self.first && state(at).is_some(),
+            })
+        };
+        self.rows.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// Returns the distance between the column and the first lane of a side. Labels of straight arrows can be wider than half of the
+    /// column.
+    fn gap(&self, is_beside: impl Fn(&Edge, &[Option<usize>]) -> bool) -> u32 {
+        let labels = self.edges.iter().filter(|edge| is_beside(edge, &self.rows)).map(Edge::label_length);
+        let inside = self.box_width / 2 - ASIDE;
+        labels.max().map_or(LANE, |length| LANE.max((length + LABEL_GAP).saturating_sub(inside)))
+    }
+}
+
+impl StateBox {
+    /// Returns the vertical position of the name in a box of this height.
+    pub fn name_y(&self, height: &u32) -> u32 {
+        height / 2 + 5 - if self.pattern.is_empty() { 0 } else { LINE / 2 }
+    }
+
+    /// Returns the vertical position of the bits.
+    pub fn pattern_y(&self, height: &u32) -> u32 {
+        self.name_y(height) + LINE
+    }
 }
 
 /// Returns the label of a transition in the list and diagram: its number, or its position if it has no number.
@@ -160,12 +254,10 @@ impl Edge {
         self.on_rows(rows).filter(|(from, to)| from >= to)
     }
 
-    /// Returns the arrow on a lane. Its label is turned and stays within the height of the diagram.
-    fn on_lane(&self, x: u32, edge_x: u32, [start, end]: [u32; 2], height: u32) -> Arrow {
+    /// Returns the arrow on a lane at `x`, which starts and ends at `edge_x`, with a label at a position.
+    fn on_lane(&self, [x, edge_x]: [u32; 2], [start, end]: [u32; 2], label: (u32, u32)) -> Arrow {
         let path = format!("M{edge_x} {start}H{x}V{end}H{edge_x}");
-        let half = self.label_length() / 2;
-        let y = u32::midpoint(start, end).min(height.saturating_sub(half)).max(half);
-        Arrow { path, x: x - 5, y, side: "lane", label: self.label() }
+        Arrow { path, x: label.0, y: label.1, side: "lane", label: self.label() }
     }
 
     /// Returns the numbers of the transitions and the names of their commands.
@@ -178,22 +270,15 @@ impl Edge {
         self.label().chars().count() as u32 * LETTER
     }
 
-    fn straight(&self, middle: u32, from: u32, to: u32) -> Arrow {
+    fn straight(&self, middle: u32, [from, to]: [u32; 2], height: u32) -> Arrow {
         let label = self.label();
         let (x, start, end, side) = match from < to {
-            true => (middle - ASIDE, from + HEIGHT, to, "end"),
-            false => (middle + ASIDE, from, to + HEIGHT, "start"),
+            true => (middle - ASIDE, from + height, to, "end"),
+            false => (middle + ASIDE, from, to + height, "start"),
         };
         let text = if side == "end" { x - 6 } else { x + 6 };
         Arrow { path: format!("M{x} {start}V{end}"), x: text, y: u32::midpoint(start, end) + 4, side, label }
     }
-}
-
-/// Returns the distance between the column and the first lane of a side. Labels of straight arrows can be wider than half of the
-/// column.
-fn gap(edges: &[Edge], rows: &[Option<usize>], is_beside: impl Fn(&Edge, &[Option<usize>]) -> bool) -> u32 {
-    let labels = edges.iter().filter(|edge| is_beside(edge, rows)).map(Edge::label_length);
-    labels.max().map_or(LANE, |length| LANE.max((length + LABEL_GAP).saturating_sub(WIDTH / 2 - ASIDE)))
 }
 
 /// Returns the row of each state that has an arrow. States are sorted by their ranks.
@@ -211,75 +296,6 @@ fn rows(any: usize, first: usize, edges: &[Edge]) -> Vec<Option<usize>> {
     let mut rows = vec![None; any + 1];
     order.into_iter().enumerate().for_each(|(row, at)| rows[at] = Some(row));
     rows
-}
-
-/// Returns the lane of each edge that needs one on this side. The first lane is next to the column. Shorter edges have nearer lanes.
-/// A label that is longer than its edge also takes the rows next to the edge.
-fn lanes(
-    edges: &[Edge],
-    rows: &[Option<usize>],
-    on_side: impl Fn(&Edge, &[Option<usize>]) -> Option<(usize, usize)>,
-) -> Vec<Option<u32>> {
-    let mut needed: Vec<(usize, usize, usize)> = Vec::new();
-    for (at, edge) in edges.iter().enumerate() {
-        needed.extend(on_side(edge, rows).map(|(from, to)| {
-            let (top, bottom) = (from.min(to), from.max(to));
-            let beyond = edge.label_length().div_ceil(PITCH).saturating_sub((bottom - top) as u32).div_ceil(2) as usize;
-            (top.saturating_sub(beyond), bottom + beyond, at)
-        }));
-    }
-    needed.sort_by_key(|(top, bottom, at)| (bottom - top, *at));
-    let mut lanes = vec![None; edges.len()];
-    let mut taken: Vec<Vec<(usize, usize)>> = Vec::new();
-    for (top, bottom, at) in needed {
-        let is_free = |lane: &Vec<(usize, usize)>| lane.iter().all(|(other, end)| *end < top || bottom < *other);
-        let lane = taken.iter().position(is_free).unwrap_or_else(|| {
-            taken.push(Vec::new());
-            taken.len() - 1
-        });
-        taken[lane].push((top, bottom));
-        lanes[at] = u32::try_from(lane).ok();
-    }
-    lanes
-}
-
-/// The points at which arrows on lanes meet the boxes.
-struct Ports {
-    /// Vertical distance from the top of the box, for both ends of each edge.
-    offsets: Vec<[u32; 2]>,
-}
-
-impl Ports {
-    fn new(edges: &[Edge], rows: &[Option<usize>], lanes: &[Vec<Option<u32>>; 2]) -> Self {
-        let mut offsets = vec![[0; 2]; edges.len()];
-        for lanes in lanes {
-            for state in 0..rows.len() {
-                // Lanes that lead up are above those that lead down. Of the lanes that lead up, the nearest is the
-                // highest. Of the lanes that lead down, the nearest is the lowest. Arrows therefore do not cross near
-                // the box.
-                let mut ports: Vec<(bool, i64, usize, usize)> = Vec::new();
-                for (at, edge) in edges.iter().enumerate() {
-                    let Some(lane) = lanes[at].map(i64::from) else { continue };
-                    for (end, (own, other)) in [(edge.from, edge.to), (edge.to, edge.from)].into_iter().enumerate() {
-                        if own == state {
-                            let leads_down = rows[other] > rows[own] || own == other && end == 1;
-                            ports.push((leads_down, if leads_down { -lane } else { lane }, at, end));
-                        }
-                    }
-                }
-                ports.sort_unstable();
-                let count = ports.len() as u32;
-                for (place, (_, _, at, end)) in (1..).zip(ports) {
-                    offsets[at][end] = place * HEIGHT / (count + 1);
-                }
-            }
-        }
-        Ports { offsets }
-    }
-
-    fn offset(&self, edge: usize, end: usize) -> u32 {
-        self.offsets[edge][end]
-    }
 }
 
 /// Returns the rank of each state: the number of transitions from the first state. Unreachable states have higher ranks, starting

@@ -25,6 +25,7 @@ use super::revisions::{Changes, Previous};
 use super::search::{self, Entry, Index};
 use super::slots::{self, ModuleLinks};
 use super::split;
+use super::twins;
 use super::Page;
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::{self, pdo, words};
@@ -119,12 +120,14 @@ impl<'a> Folder<'a> {
         let here = Common { modules: &modules, path: String::new(), list, shared };
         let languages_of_modules = languages_of_modules(catalog);
         if let Some(device) = only {
-            self.device(0, device, catalog, &languages_of_modules, &here);
+            self.device((0, String::new()), device, catalog, &languages_of_modules, &here);
         } else {
             let there = here.from(&format!("{ROOT}/{}/", self.home));
-            for (at, device) in catalog.devices.iter().enumerate() {
+            let notes = twins::notes(catalog).into_iter().enumerate();
+            for (at, note) in notes.filter_map(|(at, note)| Some((at, note?))) {
+                let device = &catalog.devices[at];
                 self.open(self.addresses.device(device, &(self.name.clone(), at)));
-                self.device(at, device, catalog, &languages_of_modules, &there);
+                self.device((at, note), device, catalog, &languages_of_modules, &there);
             }
             self.open(self.home.clone());
         }
@@ -172,10 +175,10 @@ impl<'a> Folder<'a> {
         (0..count).map(|at| (self.file(title), split::title(title, at, count))).collect()
     }
 
-    /// Writes the pages of a device at this position in its catalog.
+    /// Writes the pages of a device at this position in its catalog, with the note that lists show.
     fn device(
         &mut self,
-        at: usize,
+        (at, note): (usize, String),
         device: &Device,
         catalog: &Catalog,
         languages_of_modules: &BTreeSet<&str>,
@@ -215,8 +218,9 @@ impl<'a> Folder<'a> {
         self.page(&frame, &first, Content::Overview(&parts.overview, &contents));
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
-        let listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
-        self.index.device(&listed.title, &listed.words(), listed.distinction(), &self.open);
+        let mut listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
+        listed.note = note;
+        self.index.device(&listed.title, &listed.words(), &listed.distinction(), &self.open);
         self.index_page(&first, search::DEVICE, &listed.title, &listed.words());
         for area in &parts.areas {
             self.page(&frame, &area.file, Content::Area(area));

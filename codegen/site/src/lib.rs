@@ -36,6 +36,7 @@ mod diagram;
 mod entry;
 mod folder;
 mod format;
+mod grid;
 mod html;
 mod indexing;
 mod languages;
@@ -59,6 +60,7 @@ mod shared;
 mod slots;
 mod split;
 mod tools;
+mod twins;
 mod words;
 
 use std::rc::Rc;

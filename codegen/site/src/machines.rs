@@ -129,6 +129,8 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     let anchor = names.anchor(&machine.name);
     let mut of_states = Names::within(&anchor);
     let states = machine.states.iter().map(|state| named(state, of_status, of_states.anchor(&state.name)));
+    let states: Vec<Named> = states.collect();
+    let patterns: Vec<String> = states.iter().map(|state| state.bits.clone()).collect();
     let mut of_commands = Names::within(&format!("{anchor}.command"));
     let commands = machine.commands.iter().map(|command| named(command, of_control, of_commands.anchor(&command.name)));
     Machine {
@@ -136,9 +138,9 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
         facts,
         items: Vec::new(),
         doubts: entry::about(&device.doubts, SubjectKind::Machine, &machine.name, manual),
-        diagram: diagram::diagram(machine),
+        diagram: diagram::diagram(machine, &patterns),
         initial: machine.initial.as_deref().map(readable),
-        states: states.collect(),
+        states,
         commands: commands.collect(),
         anchor,
         transitions: machine.transitions.iter().enumerate().map(|(at, each)| transition_row(at, each)).collect(),

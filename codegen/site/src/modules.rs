@@ -120,7 +120,9 @@ fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel>
     for each in &catalog.modules {
         let parts = each.submodules.iter().filter_map(|used| {
             let at = used.submodule.0 as usize;
-            Some((catalog.submodules.get(at)?.name.to_string(), anchors.get(at)?.clone()))
+            let submodule = catalog.submodules.get(at)?;
+            let name = if submodule.name.is_empty() { hex32(submodule.ident) } else { submodule.name.to_string() };
+            Some((name, anchors.get(at)?.clone()))
         });
         let anchor = names.anchor(&format!("module-{:08X}", each.number));
         all.push(module(each, anchor, parts.collect(), diagnostics));

@@ -105,6 +105,8 @@ pub(super) struct Listed {
     /// Product code and revision number, as hexadecimal numbers.
     pub product_code: String,
     pub revision: String,
+    /// Text that distinguishes the device from others with the same texts, or the number of identical descriptions.
+    pub note: String,
     revision_number: u32,
     /// Text that is equal for the revisions of the product.
     pub product: String,
@@ -137,6 +139,7 @@ impl Listed {
             order_code: if order_code == title { String::new() } else { order_code.to_owned() },
             product_code: hex(identity.product_code),
             revision: hex(identity.revision_number),
+            note: String::new(),
             revision_number: identity.revision_number.unwrap_or_default(),
             product: addresses::product(device),
             buses: facts::device::buses(device),
@@ -159,13 +162,11 @@ impl Listed {
         (Reverse(self.revision_number), &self.file)
     }
 
-    /// Returns the text that distinguishes the device from others with the same title: the revision, otherwise the file.
-    pub fn distinction(&self) -> &str {
-        if self.revision.is_empty() {
-            &self.file
-        } else {
-            &self.revision
-        }
+    /// Returns the text that distinguishes the device from others with the same title: the revision, otherwise the file; and the note.
+    pub fn distinction(&self) -> String {
+        let name = if self.revision.is_empty() { &self.file } else { &self.revision };
+        let texts = [name.as_str(), &self.note].into_iter().filter(|text| !text.is_empty());
+        texts.collect::<Vec<_>>().join(", ")
     }
 
     /// Returns the words that the search finds the device by, apart from its title.

@@ -1,25 +1,15 @@
-//! Cyclic data (PDOs, process images and sync managers) with drawings of the bytes.
+//! Cyclic data (PDOs, process images and sync managers) with byte grids.
 
 use super::anchor::Names;
-use super::cell::Cell;
+use super::grid;
 use super::words;
 use lexibus_codegen::facts::cob_id::{self, CobId};
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
     Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind,
-    TypeDef,
+    TypeDef, Value,
 };
-
-/// Number of bytes in a drawing row, and the width of a byte in pixels.
-const ROW: u32 = 8;
-const CELL: u32 = 80;
-
-/// Height of a drawing row in pixels.
-const HEIGHT: u32 = 40;
-
-/// Maximum number of rows in a drawing. The list below the drawing contains all entries.
-const MOST_ROWS: usize = 64;
 
 /// The process data of a device.
 #[derive(Debug, Default)]
@@ -36,9 +26,9 @@ pub(super) struct Frame {
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<super::entry::Doubt>,
-    pub rows: Vec<Row>,
-    /// Height of the drawing in pixels.
-    pub height: u32,
+    /// COB-ID to which the node-ID is added, with its flags.
+    pub cob_id_of_node: Option<u32>,
+    pub rows: Vec<grid::Row>,
     pub entries: Vec<Entry>,
 }
 
@@ -47,15 +37,11 @@ impl Frame {
     pub fn has_objects(&self) -> bool {
         self.entries.iter().any(|entry| !entry.object.is_empty())
     }
-}
 
-/// A row of the drawing, with eight bytes.
-#[derive(Debug)]
-pub(super) struct Row {
-    /// Number of the first byte in the row.
-    pub first: u32,
-    pub top: u32,
-    pub cells: Vec<Cell>,
+    /// Returns the entry in a cell of the byte grid.
+    pub fn entry(&self, cell: &grid::Cell) -> Option<&Entry> {
+        self.entries.get(cell.entry?)
+    }
 }
 
 /// A row in the list of entries.
@@ -120,8 +106,7 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     let mut facts = words::PLAIN.description(pdo.documentation.as_deref());
     let index = hex16(pdo.mapping_index);
     let mapping = if pdo.mapping_index == 0 { String::new() } else { format!(", mapped by {index}") };
-    let bytes = pdo.bytes();
-    facts.push(format!("{bytes} {}{mapping}.", if bytes == 1 { "byte" } else { "bytes" }));
+    facts.push(format!("{}{mapping}.", bytes(pdo.bytes())));
     if let Some(communication) = &pdo.communication {
         let cob_id = |id| cob_id::text(id, CobId::of_pdo(pdo.direction)).unwrap_or_else(|| words::PLAIN.value(id));
         facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
@@ -138,7 +123,12 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         let others: Vec<String> = pdo.excludes.iter().map(|index| hex16(*index)).collect();
         facts.push(format!("Cannot be assigned together with {}.", others.join(", ")));
     }
+    let cob_id = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
     Frame {
+        cob_id_of_node: match cob_id {
+            Some(Value::NodeId(offset)) => u32::try_from(*offset).ok(),
+            _ => None,
+        },
         anchor: index,
         title: pdo::title(pdo, about.buses) + &name,
         facts,
@@ -153,7 +143,7 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
         Direction::Receive => "to the device",
         Direction::Transmit => "from the device",
     };
-    let mut facts = vec![format!("{} bytes {direction}.", image.length)];
+    let mut facts = vec![format!("{} {direction}.", bytes(image.length as usize))];
     facts.extend(image.big_endian.then(|| "Numbers are big-endian.".to_owned()));
     facts.extend((image.overhead > 0).then(|| format!("{} further bytes are not user data.", image.overhead)));
     Frame {
@@ -164,10 +154,13 @@ pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &
     }
 }
 
-/// Creates a frame that contains only the drawing and the list of entries.
+/// Returns a number of bytes as text: `1 byte`, `4 bytes`.
+fn bytes(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "byte" } else { "bytes" })
+}
+
+/// Creates a frame that contains only the byte grid and the list of entries.
 fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
-    let bytes = bits.div_ceil(8);
-    let rows: Vec<Row> = (0..bytes.div_ceil(ROW)).take(MOST_ROWS).map(|at| row(entries, at)).collect();
     let list = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).map(|entry| Entry {
         position: address::bits_of(entry.bit_offset, entry.bits),
         object: if entry.index == 0 { String::new() } else { address::object(entry.index, entry.sub_index) },
@@ -178,20 +171,5 @@ fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
         item: entry.item,
         target: String::new(),
     });
-    Frame { height: rows.len() as u32 * HEIGHT, rows, entries: list.collect(), ..Frame::default() }
-}
-
-fn row(entries: &[PdoEntry], number: u32) -> Row {
-    let (first, last) = (number * ROW * 8, (number + 1) * ROW * 8);
-    let cell = |entry: &PdoEntry| {
-        let low = entry.bit_offset.max(first);
-        let high = entry.bit_offset.saturating_add(entry.bits).min(last);
-        let bits = high.checked_sub(low).filter(|bits| *bits > 0)?;
-        let (left, width) = ((low - first) * CELL / 8, bits * CELL / 8);
-        Some(match entry.kind {
-            PdoEntryKind::Padding => Cell::padding(left, width),
-            _ => Cell::new(left, width, &entry.name),
-        })
-    };
-    Row { first: number * ROW, top: number * HEIGHT, cells: entries.iter().filter_map(cell).collect() }
+    Frame { rows: grid::rows(entries, bits), entries: list.collect(), ..Frame::default() }
 }

@@ -20,13 +20,52 @@ function mappingProblem(pdo, objects, granularity) {
   return uneven ? `${uneven[3]} has ${uneven[2]} bits, which is not a multiple of ${granularity}` : "";
 }
 
+// Returns the CAN identifier of a COB-ID for a node: the COB-ID without its flags.
+const identifier = (cobId, node) => "0x" + hex(BigInt(cobId) + BigInt(node) & 0x1FFFFFFFn, 3);
+
+// Shows the identifier of each PDO for a node.
+function showCobIds(node) {
+  for (const section of document.querySelectorAll("section[data-cob-id]")) {
+    const shown = section.querySelector(".of-node") ?? section.querySelector(".run").appendChild(element("p", { className: "of-node" }));
+    shown.textContent = `For node-ID ${node}: COB-ID ${identifier(section.dataset.cobId, node)}.`;
+  }
+}
+
+// Returns the byte grid of consecutive fields, with the same rows as the grids of the page: up to four bytes, or four bits of a byte
+// that several fields share. A field has a number of bits and a name.
+function byteGrid(fields) {
+  const owners = fields.flatMap(({ bits }, at) => Array(bits).fill(at)), rows = [];
+  const isSplit = (start) => owners[start] !== owners[start + 7];
+  const cells = (low, high, unit) => [...new Set(owners.slice(low, high))].map((at) => {
+    const parts = fields[at].name.split(/(?<=_)/).flatMap((part) => [part, element("wbr", {})]);
+    return element("td", { colSpan: owners.slice(low, high).filter((owner) => owner === at).length / unit }, ...parts.slice(0, -1));
+  });
+  const add = (position, list) => rows.push(element("tr", {}, element("th", { scope: "row", textContent: position }), ...list));
+  const addBits = (low, high) => {
+    const [byte, first, last] = [low >> 3, low % 8, (high - 1) % 8];
+    if (low < high) add(first === last ? `byte ${byte} bit ${first}` : `byte ${byte} bits ${last}–${first}`, cells(low, high, 1).reverse());
+  };
+  for (let start = 0, end; start < owners.length; start = end) {
+    end = start + 8;
+    if (isSplit(start)) {
+      const last = Math.min(end, owners.length), middle = Math.min(start + 4, last);
+      addBits(middle, last);
+      addBits(start, middle);
+    } else {
+      while (end % 32 && end < owners.length && !isSplit(end)) end += 8;
+      add(end - start === 8 ? `byte ${start / 8}` : `bytes ${start / 8}–${end / 8 - 1}`, cells(start, end, 8));
+    }
+  }
+  return rows;
+}
+
 function pdoBuilder(place) {
   const data = JSON.parse(place.content.textContent), mapped = new Map(data.objects.map((object) => [`${object[0]}:${object[1]}`, object]));
   const choice = element("select", { ariaLabel: "PDO" }, ...data.pdos.map((pdo, at) => element("option", { value: at, textContent: pdo.title })));
   const adding = element("input", { type: "text", className: "raw", placeholder: "Index or name", ariaLabel: "Object to map" });
   const options = element("datalist", { id: "mappable-objects" }), list = element("ol", { className: "mapping" });
   adding.setAttribute("list", options.id);
-  const shown = element("output", {}), results = element("dl", {});
+  const shown = element("output", {}), results = element("dl", {}), bytes = element("tbody", {});
   let objects = [];
   const pdo = () => data.pdos[Number(choice.value)];
   const candidates = () => data.objects.filter((object) => pdo().tx ? object[5] : object[4]);
@@ -44,7 +83,10 @@ function pdoBuilder(place) {
     list.replaceChildren(...objects.map(line));
     options.replaceChildren(...candidates().map((object) => element("option", { value: object[3] })));
     const problem = mappingProblem(pdo(), objects, data.granularity), bits = objects.reduce((sum, object) => sum + object[2], 0);
-    shown.textContent = problem || `${bits / 8} of 8 bytes, ${objects.length} of ${pdo().entries} entries`;
+    const { cobId: ownCobId, ofNode } = pdo();
+    shown.textContent = problem || `COB-ID ${identifier(ownCobId, ofNode ? node.value : 0)}, ${bits / 8} of 8 bytes, ${objects.length} of ${pdo().entries} entries`;
+    bytes.replaceChildren(...byteGrid(objects.map((object) => ({ bits: object[2], name: object[3] }))));
+    showCobIds(node.value);
     shown.classList.toggle("wrong", problem !== "");
     const writes = problem || !objects.length ? [] : mappingWrites(pdo(), objects, node.value), cobId = hex(0x600 + node.value, 3);
     const sdos = writes.flatMap(([index, sub, bytes]) => sdoDownload([index & 0xFF, index >> 8, sub], bytes).map((data) => `${cobId}  ${bytesText(data)}`));
@@ -76,8 +118,16 @@ function pdoBuilder(place) {
   place.replaceWith(element("div", { className: "tools builder" },
     element("p", { textContent: "The PDO builder shows the SDO downloads that map the objects of a list into a PDO." }),
     element("p", {}, element("label", {}, "PDO ", choice), node.label, button("Clear", "", () => { objects = []; })),
-    list, element("p", {}, element("label", {}, "Map ", adding), shown), options, results));
+    list, element("p", {}, element("label", {}, "Map ", adding), shown), options,
+    element("table", { className: "bytes", ariaLabel: "Bytes of the mapping" }, bytes), results));
   start();
 }
 
-if (byId("mappable")) pdoBuilder(byId("mappable"));
+if (byId("mappable")) {
+  pdoBuilder(byId("mappable"));
+} else if (document.querySelector("section[data-cob-id]")) {
+  // PDOs whose mapping cannot be changed.
+  const node = keptNumber("node", "Node-ID", 1, 127, () => showCobIds(node.value));
+  document.querySelector("h1").after(element("p", { className: "tools" }, node.label));
+  showCobIds(node.value);
+}

@@ -46,7 +46,7 @@ function stateFinder(section) {
     input.setAttribute("aria-invalid", String(raw === undefined && input.value !== ""));
     const found = raw === undefined ? undefined : states.find(({ pattern }) => (raw & pattern.mask) === pattern.value);
     for (const { row, name } of states) row.classList.toggle("on", name === found?.name);
-    for (const box of section.querySelectorAll(".state")) box.classList.toggle("on", box.textContent === found?.name);
+    for (const box of section.querySelectorAll(".state")) box.classList.toggle("on", box.querySelector("text").textContent === found?.name);
     shown.textContent = found ? found.name : raw === undefined ? "" : "no state has this value";
     const steps = found ? [...nextSteps(transitions, found.name)] : [];
     list.replaceChildren(...steps.map(describe));
@@ -54,7 +54,7 @@ function stateFinder(section) {
   });
   const title = element("p", { textContent: "Commands to each other state. The values have 0 in all bits that do not belong to the command:", hidden: true });
   const label = element("label", {}, "Status value ", input);
-  section.querySelector("svg.states, h3").closest(".wide, h3").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
+  section.querySelector(".behaviour").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
 }
 
 for (const section of document.querySelectorAll("section.machine")) stateFinder(section);

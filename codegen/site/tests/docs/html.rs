@@ -4,7 +4,7 @@ use crate::docs_support::{files, hostile, html_links, html_markup, site, values,
 use std::collections::BTreeSet;
 
 use lexibus_codegen::source::Source;
-use lexibus_site::Format;
+use lexibus_site::{Format, Page};
 
 #[test]
 fn all_links_are_valid() {
@@ -39,7 +39,7 @@ fn the_search_finds_modules_by_name_order_code_and_ident_number() {
         assert!(index.contains(part), "{part}: {index}");
     }
     let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
-    assert!(modules.contains("<section id=\"module-00000030\">"), "{modules}");
+    assert!(modules.contains("<section id=\"module-00000030\" class=\"module\">"), "{modules}");
     // The data of submodules have no objects.
     assert!(!modules.contains("<th scope=\"col\">Object"), "{modules}");
 }
@@ -172,7 +172,7 @@ fn notes_of_an_object_are_shown_once() {
     let objects = text("vector-step/no-revision/communication-objects.html");
     // Both entries of the object have this ambiguity.
     assert_eq!(objects.matches("both have the symbol standard_error_field").count(), 1);
-    assert!(objects.contains("<p>For 0x1003:01, 0x1003:02:<div"), "{objects}");
+    assert!(objects.contains("<summary>Ambiguity of 0x1003:01, 0x1003:02</summary><div"), "{objects}");
     // A register has the same address in several windows.
     let (_, parameter) = text("eco/no-revision/parameters.html").split_once("<tbody id=\"d1\"").expect("a register");
     let (parameter, _) = parameter.split_once("</tbody>").expect("an end");
@@ -298,13 +298,15 @@ fn each_transition_of_cia_402_has_an_arrow() {
     // Transition 13 can start in any state.
     assert!(diagram.contains(">any state<"), "{diagram}");
     assert_eq!(diagram.matches("marker-end").count(), 16);
-    let labels = diagram.split("<text class=\"").skip(1).filter_map(|text| text.split_once('>')?.1.split('<').next());
+    let texts = diagram.split("<text class=\"").skip(1).filter(|text| !text.starts_with("pattern"));
+    let labels = texts.filter_map(|text| text.split_once('>')?.1.split('<').next());
     let numbers: BTreeSet<u32> =
         labels.flat_map(|label| label.split([' ', ','])).filter_map(|word| word.parse().ok()).collect();
     assert_eq!(numbers, (1..=16).collect());
     assert!(diagram.contains(">9 disable voltage<") && diagram.contains(">switch on disabled<"), "{diagram}");
     assert!(page.text.contains("id=\"drive.switch_on_disabled\""), "anchors are identifiers");
     assert!(page.text.contains("<td>xxxx xxxx x1xx 0000<td"), "states are bit patterns");
+    assert_eq!(diagram.matches(">xxxx xxxx x").count(), 8, "each state has its pattern");
 }
 
 #[test]
@@ -349,5 +351,57 @@ fn the_search_has_printed_and_wire_addresses() {
     let index = pages.iter().find(|page| page.path.ends_with("/no-revision/search.js")).expect("the index");
     for number in ["register 40101 (wire 100)", "register 40102–40103 (wire 101–102)", "coil 7 (wire 6)"] {
         assert!(index.text.contains(number), "{number}: {}", index.text);
+    }
+}
+
+/// Returns an ESI file with a device for each number of input bytes. The devices have the same name, order code, product code and
+/// revision.
+fn terminals(bytes: &[u32]) -> Source {
+    let device = |bytes: &u32| {
+        format!(
+            "<Device><Type ProductCode=\"#x03FA3052\" RevisionNo=\"#x00120000\">T1018</Type><Name>T1018 inputs</Name>\
+             <TxPdo Fixed=\"1\"><Index>#x1A00</Index><Name>Inputs</Name><Entry><Index>#x6000</Index><SubIndex>1</SubIndex>\
+             <BitLen>{}</BitLen><Name>Value</Name><DataType>UDINT</DataType></Entry></TxPdo></Device>",
+            bytes * 8
+        )
+    };
+    let devices: String = bytes.iter().map(device).collect();
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Example</Name></Vendor><Descriptions><Devices>{devices}</Devices>\
+         </Descriptions></EtherCATInfo>"
+    );
+    Source::new("terminals.xml", text.into())
+}
+
+/// Returns the texts of the rows in the list of all devices.
+fn rows_of_list(pages: &[Page]) -> Vec<String> {
+    let list = &pages.iter().find(|page| page.path == "index.html").expect("the list").text;
+    let rows = list.split("<tr><th scope=\"row\">").skip(1).map(|row| row.split("</table>").next().unwrap_or_default());
+    let text = |row: &str| {
+        let parts = row.split('<').map(|part| part.rsplit('>').next().unwrap_or_default());
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("|")
+    };
+    rows.map(text).collect()
+}
+
+#[test]
+fn rows_of_a_list_differ() {
+    let files = [("a", &[4, 4, 2][..]), ("b", &[4])];
+    let pages = site(Format::Html, files.map(|(name, bytes)| (name.to_owned(), terminals(bytes))).into());
+    html_links(&pages);
+    let row =
+        |note: &str, file: &str| format!("T1018 inputs|{note}T1018|Example|0x03FA3052|0x00120000|EtherCAT|{file}");
+    let note = " |(description 1 of 2, 2 identical descriptions)|";
+    let other = " |(description 2 of 2)|";
+    assert_eq!(rows_of_list(&pages), [row(note, "a"), row(other, "a"), row("", "b")]);
+    let copies = pages.iter().filter(|page| page.path.ends_with("/process-data.html")).count();
+    assert_eq!(copies, 3, "a copy has no pages");
+    let markdown = site(Format::Markdown, vec![("a".to_owned(), terminals(&[4, 4]))]);
+    let list = &markdown.iter().find(|page| page.path == "README.md").expect("the list").text;
+    assert!(list.contains(") (2 identical descriptions) |"), "{list}");
+    // The results of the search differ, too.
+    let index = &pages.iter().find(|page| page.path == "search.js").expect("the index").text;
+    for name in ["description 1 of 2, 2 identical descriptions", "0x00120000, description 2 of 2"] {
+        assert!(index.contains(name), "{name}: {index}");
     }
 }

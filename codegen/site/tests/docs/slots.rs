@@ -117,3 +117,16 @@ fn slots_of_an_ethercat_coupler() {
     let row = "<tr><th scope=\"row\">0 to 31<td>Terminals<td>possible<td><a href=\"../../../example/_files/coupler/modules.html#module-00001001\">16 digital inputs</a>, ";
     assert!(text.contains(row), "{text}");
 }
+
+#[test]
+fn links_to_submodules_without_a_name_have_a_text() {
+    let path = crate::root::root().join("tests/data/drive.gsdml.xml");
+    let text = std::fs::read_to_string(path).expect("a description");
+    let name = "<ModuleInfo><Name TextId=\"T_Map\"/><InfoText TextId=\"T_Map\"/></ModuleInfo>";
+    assert!(text.contains(name));
+    let source = Source::new("drive.xml", text.replace(name, "").into());
+    let pages = site(Format::Html, vec![("drive".to_owned(), source)]);
+    let links = pages.iter().flat_map(|page| page.text.split("#submodule-0000FFFF\">").skip(1));
+    let texts: Vec<&str> = links.filter_map(|link| link.split('<').next()).collect();
+    assert!(!texts.is_empty() && texts.iter().all(|text| *text == "0x0000FFFF"), "{texts:?}");
+}
