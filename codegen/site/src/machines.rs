@@ -7,6 +7,7 @@ use super::diagram::{self, number, Diagram, ANY_STATE};
 use super::entry::{self, Doubt};
 use super::link::Link;
 use super::words::{self, readable, PLAIN};
+use lexibus_codegen::facts::machine::fault_states;
 use lexibus_codegen::facts::{pattern, types};
 use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, Step, SubjectKind, Transition,
@@ -44,6 +45,8 @@ pub(super) struct Named {
     pub names: Vec<(String, String)>,
     /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if a value represents the state.
     pub bits: String,
+    /// True for a state that the device enters because of a fault.
+    pub is_fault: bool,
     pub facts: String,
 }
 
@@ -119,8 +122,9 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     facts.extend(
         (!machine.control_item.is_empty()).then(|| format!("Commands are written to {}.", machine.control_item)),
     );
-    if !machine.faults.is_empty() {
-        let states: Vec<_> = machine.faults.iter().map(|state| readable(state)).collect();
+    let faults = fault_states(machine);
+    if !faults.is_empty() {
+        let states: Vec<_> = faults.iter().map(|state| readable(state)).collect();
         facts.push(format!("Fault states: {}.", states.join(", ")));
     }
     facts.extend(machine.initial.as_ref().map(|state| format!("After power-on: {}.", readable(state))));
@@ -128,7 +132,10 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     facts.extend(PLAIN.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref()));
     let anchor = names.anchor(&machine.name);
     let mut of_states = Names::within(&anchor);
-    let states = machine.states.iter().map(|state| named(state, of_status, of_states.anchor(&state.name)));
+    let states = machine.states.iter().map(|state| {
+        let is_fault = faults.contains(&state.name.as_str());
+        Named { is_fault, ..named(state, of_status, of_states.anchor(&state.name)) }
+    });
     let states: Vec<Named> = states.collect();
     let patterns: Vec<String> = states.iter().map(|state| state.bits.clone()).collect();
     let mut of_commands = Names::within(&format!("{anchor}.command"));
@@ -156,6 +163,7 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
         identifier: pattern.name.to_string(),
         names: words::names(&pattern.name, &pattern.names),
         bits,
+        is_fault: false,
         facts: PLAIN.description(pattern.documentation.as_deref()).join(" "),
     }
 }

@@ -10,6 +10,7 @@
 //! | `device` | titles of devices, and modules that slots accept |
 //! | `encoding` | values as the bytes of an SDO transfer |
 //! | `item` | default value, range, unit and PDO mapping of an item |
+//! | `machine` | fault states of state machines |
 //! | `markdown` | texts in Markdown |
 //! | `number` | numbers in hexadecimal notation |
 //! | `pattern` | bit patterns of states and commands |
@@ -29,6 +30,7 @@ pub mod configuration;
 pub mod device;
 pub mod encoding;
 pub mod item;
+pub mod machine;
 pub mod markdown;
 pub mod mentions;
 pub mod number;

@@ -8,18 +8,19 @@ function patternOf(text) {
 }
 
 const namedRows = (section, kind) => [...section.querySelectorAll(`.${kind} tr[id]`)].map((row) => {
-  return { row, name: row.cells[0].querySelector("b").textContent, pattern: patternOf(row.cells[1].textContent) };
+  return { row, isFault: row.classList.contains("fault"), name: row.cells[0].querySelector("b").textContent, pattern: patternOf(row.cells[1].textContent) };
 });
 
 // Returns the commands of the shortest path to each state. The reactions to a fault, which can start in any state, are no way to a state.
-function nextSteps(transitions, from) {
+// No path leads from a state without a fault through a fault state.
+function nextSteps(transitions, from, faults) {
   const steps = new Map([[from, []]]), queue = [from];
   for (const state of queue) {
     for (const { source, to, command } of transitions) {
       if (source === "any state" && command === "automatic") continue;
       if ((source !== state && source !== "any state") || steps.has(to)) continue;
       steps.set(to, [...steps.get(state), command]);
-      queue.push(to);
+      if (!faults.has(to) || faults.has(state)) queue.push(to);
     }
   }
   steps.delete(from);
@@ -32,6 +33,7 @@ function stateFinder(section) {
     return { source: cells[1].textContent, to: cells[2].textContent, command: cells[3].textContent };
   });
   if (!states.length) return;
+  const faults = new Set(states.filter(({ isFault }) => isFault).map(({ name }) => name));
   const type = { bits: Math.max(...states.map(({ pattern }) => pattern.bits)) };
   const input = element("input", { type: "text", className: "status", placeholder: "0x… or decimal", ariaLabel: "Status value" });
   const shown = element("output", {}), list = element("ul", { className: "next" });
@@ -48,7 +50,7 @@ function stateFinder(section) {
     for (const { row, name } of states) row.classList.toggle("on", name === found?.name);
     for (const box of section.querySelectorAll(".state")) box.classList.toggle("on", box.querySelector("text").textContent === found?.name);
     shown.textContent = found ? found.name : raw === undefined ? "" : "no state has this value";
-    const steps = found ? [...nextSteps(transitions, found.name)] : [];
+    const steps = found ? [...nextSteps(transitions, found.name, faults)] : [];
     list.replaceChildren(...steps.map(describe));
     title.hidden = !steps.length;
   });

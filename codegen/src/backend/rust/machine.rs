@@ -11,6 +11,7 @@ use super::links::DocModule;
 use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
 use super::value_type;
+use crate::facts::machine::fault_states;
 use crate::facts::pattern;
 use crate::ir::{ItemRef, MessageRef, Pattern, Shape, StateMachine, SubjectKind, Transition, Type, TypeId};
 use crate::names::{self, Case};
@@ -280,28 +281,10 @@ fn steps(
     steps
 }
 
-/// Returns the variants of the fault states. These are the states that the source lists, the states to which automatic
-/// transitions from any state lead, and the states that follow the latter automatically. Automatic transitions from any
-/// state are reactions to faults. A listed state can end automatically without a fault, so its successors are not added.
+/// Returns the variants of the fault states.
 fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
-    let mut names: Vec<&str> = Vec::new();
-    loop {
-        let is_entered = |transition: &&Transition| {
-            let from = transition.from.as_deref();
-            transition.command.is_none()
-                && from.is_none_or(|from| names.contains(&from))
-                && !names.contains(&transition.to.as_str())
-        };
-        let Some(transition) = machine.transitions.iter().find(is_entered) else { break };
-        names.push(&transition.to);
-    }
-    for fault in &machine.faults {
-        if !names.contains(&fault.as_str()) {
-            names.push(fault);
-        }
-    }
     let variants = states.by_name();
-    names.iter().filter_map(|name| variants.get(*name).cloned()).collect()
+    fault_states(machine).iter().filter_map(|name| variants.get(*name).cloned()).collect()
 }
 
 fn energized(states: &PatternsModel) -> Option<String> {
