@@ -2,50 +2,15 @@
 
 use std::collections::HashSet;
 
-use lexibus_codegen::ir::{Binding, Catalog, Device, Format, Group, Item};
+use lexibus_codegen::ir::{Catalog, Device, Format, Group, Item};
 
 use super::super::note::Subject;
 use super::super::registers;
+use super::context::{is_coe_only, Context, Options};
 use super::extras::Extras;
 use super::writer::Writer;
 use super::{header, losses, mapping, modules, object};
 use super::{Export, NoteKind};
-
-/// The kind of file (CiA 306).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Flavour {
-    /// An electronic data sheet. An EDS describes a device type without its configuration.
-    #[default]
-    Eds,
-    /// A device configuration file. A DCF adds the node-ID, the network, configured values, denotations and connected
-    /// modules.
-    Dcf,
-}
-
-/// The notation of REAL32 and REAL64 values. CiA 306 defines no notation for real numbers, and tools support different notations.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Reals {
-    /// Decimal numbers, as in the files of vendors and in Python's `canopen` library.
-    #[default]
-    Decimal,
-    /// The IEEE 754 bit pattern in hexadecimal, as in the Lely CANopen tools.
-    Pattern,
-}
-
-/// The options of an export.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Kind of the file to write: EDS or DCF.
-    pub flavour: Flavour,
-    /// Notation of real numbers in the file.
-    pub reals: Reals,
-}
-
-impl From<Flavour> for Options {
-    fn from(flavour: Flavour) -> Self {
-        Options { flavour, ..Options::default() }
-    }
-}
 
 /// Exports `device`, a device of `catalog`. Returns `None` if the device has no objects and is not a CANopen device.
 ///
@@ -90,26 +55,6 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     extras.write_unknown(&mut writer);
     let (text, notes) = writer.finish();
     Some(Export { text, notes })
-}
-
-/// Data that the writers of all parts of the file use.
-pub(super) struct Context<'a> {
-    pub(super) device: &'a Device,
-    pub(super) flavour: Flavour,
-    pub(super) reals: Reals,
-    /// Name of the source file.
-    pub(super) file_name: &'a str,
-    /// True if the source is a CiA 306 file. The export of such a file keeps its spellings and adds no missing facts.
-    pub(super) is_verbatim: bool,
-    /// True if the source describes a CANopen device.
-    pub(super) is_canopen: bool,
-}
-
-/// Returns whether a CANopen device has this object only on EtherCAT.
-pub(super) fn is_coe_only(device: &Device, group: &Group) -> bool {
-    let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
-    let mut items = group.items.iter();
-    device.canopen.is_some() && !group.items.is_empty() && items.all(|item| item.bindings.iter().any(is_coe))
 }
 
 /// Returns the objects to write, sorted by index: those of the device and those in `derived`. Objects that CompactPDO implies and

@@ -6,7 +6,7 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `file` | the file: the order of its sections |
+//! | `context`, `file` | options; the file: the order of its sections |
 //! | `writer` | sections, entries, comments; texts without line breaks |
 //! | `extras` | sections of extension attributes |
 //! | `header` | `[FileInfo]`, `[DeviceInfo]` and the other sections about the file and the device |
@@ -18,6 +18,7 @@
 //! | `losses` | facts that CiA 306 cannot hold |
 
 mod compact;
+mod context;
 mod data_type;
 mod extras;
 mod file;
@@ -33,5 +34,6 @@ mod writer;
 
 pub use super::note::{Export, Note, NoteKind};
 use super::{note, registers};
-pub use file::{export, Flavour, Options, Reals};
-use file::{is_coe_only, Context};
+use context::{is_coe_only, Context};
+pub use context::{Flavour, Options, Reals};
+pub use file::export;

@@ -7,7 +7,7 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `file` | the file: vendor, groups, devices and modules |
+//! | `context`, `file` | data for all writers; the file: vendor, groups, devices and modules |
 //! | `options` | facts that the caller gives |
 //! | `text` | numbers, texts in several languages |
 //! | `device`, `module` | devices and modules |
@@ -20,6 +20,7 @@
 //! | `losses` | facts that ETG.2000 cannot hold |
 
 mod clocks;
+mod context;
 mod device;
 mod diagnosis;
 mod dictionary;
@@ -41,6 +42,6 @@ mod types;
 mod value;
 
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
+use context::Context;
 pub use file::export;
-use file::Context;
 pub use options::{Area, Options};

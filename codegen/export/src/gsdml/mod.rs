@@ -8,7 +8,7 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `file` | the file: header, identity and lists |
+//! | `context`, `file` | data for all writers; the file: header, identity and lists |
 //! | `options` | facts that the caller gives |
 //! | `elements` | elements whose attributes the IR stores unchanged |
 //! | `device`, `module`, `submodule` | device access points, modules, submodules |
@@ -18,6 +18,7 @@
 //! | `values` | named values |
 //! | `diagnosis` | diagnosis, alarms and log book |
 
+mod context;
 mod device;
 mod diagnosis;
 mod elements;
@@ -33,6 +34,6 @@ mod types;
 mod values;
 
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
-use file::Context;
+use context::Context;
 pub use file::{export, file_name};
 pub use options::Options;

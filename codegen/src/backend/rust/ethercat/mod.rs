@@ -1,9 +1,11 @@
 //! EtherCAT: the description of a slave for the master, and the default process image.
 
+mod assigned;
 mod descriptor;
 mod image;
 mod settings;
 mod startup;
 
+use assigned::Assigned;
 pub(super) use image::{ImageField, ImageModel};
-pub(super) use settings::{module, Assigned, EtherCatModel, ModulePaths};
+pub(super) use settings::{module, EtherCatModel, ModulePaths};

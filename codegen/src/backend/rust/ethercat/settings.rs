@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use super::super::code::{Data, Doc};
 use super::super::literal;
 use super::super::pdo::{PdoModel, PdoModels};
+use super::assigned::assigned_by_default;
 use super::ImageModel;
 use super::{descriptor, image, startup};
-use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
+use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId};
 
 /// The description of a device for an EtherCAT master, ready to be printed.
 pub(in super::super) struct EtherCatModel {
@@ -50,17 +51,6 @@ impl EtherCatModel {
 /// Returns the value of the constant `MODULE`.
 pub(in super::super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
     descriptor::module(module, &PdoModels::new(pdos))
-}
-
-/// A PDO that is assigned by default, and the number of its sync manager.
-pub(in super::super) struct Assigned<'a> {
-    pub pdo: &'a Pdo,
-    pub sync_manager: u8,
-}
-
-fn assigned_by_default(device: &Device) -> Vec<Assigned<'_>> {
-    let assigned = device.process_data.assigned_by_default();
-    assigned.into_iter().map(|(pdo, sync_manager)| Assigned { pdo, sync_manager }).collect()
 }
 
 fn fmmu(fmmu: &Fmmu) -> Doc {

@@ -1,0 +1,50 @@
+//! Data that the writers of all parts of the file use.
+
+use std::collections::HashMap;
+
+use compact_str::CompactString;
+use lexibus_codegen::etg::unit;
+use lexibus_codegen::ir::Catalog;
+
+use super::super::note::Notes;
+use super::super::options::MissingFacts;
+use super::options::TrackedOptions;
+use super::text::hex;
+use super::Options;
+
+/// Data that the writers of all parts of the file use.
+pub(super) struct Context<'a> {
+    pub(super) catalog: &'a Catalog,
+    pub(super) options: &'a TrackedOptions<'a>,
+    pub(super) notes: Notes,
+    pub(super) missing: MissingFacts,
+    /// ETG.2000 unit numbers, keyed by unit symbol.
+    pub(super) units: HashMap<CompactString, Option<String>>,
+    /// True if the source is an ESI, to which the export adds no missing facts.
+    pub(super) is_esi: bool,
+}
+
+impl Context<'_> {
+    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
+    /// missing if there is no value.
+    pub(super) fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.missing.require(given.or(found), key, Options::KEYS)
+    }
+
+    /// Returns the ETG.2000 number of a unit. The IR contains the number itself for a unit without a known symbol.
+    pub(super) fn unit(&mut self, symbol: &CompactString) -> Option<String> {
+        if symbol.is_empty() {
+            return None;
+        }
+        let number = |symbol: &CompactString| {
+            let digits = symbol.strip_prefix("#x").unwrap_or("-");
+            if digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+                || symbol.bytes().all(|digit| digit.is_ascii_digit())
+            {
+                return Some(symbol.to_string());
+            }
+            unit::number(symbol).map(|number| hex(number, 8).to_string())
+        };
+        self.units.entry(symbol.clone()).or_insert_with(|| number(symbol)).clone()
+    }
+}

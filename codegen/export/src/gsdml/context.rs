@@ -1,0 +1,33 @@
+//! Data that the writers of all parts of the file use.
+
+use std::collections::HashSet;
+
+use lexibus_codegen::ir::{Catalog, TypeDef};
+
+use super::super::note::Notes;
+use super::super::options::MissingFacts;
+use super::options::TrackedOptions;
+use super::texts::TextList;
+use super::Options;
+
+/// Data that the writers of all parts of the file use.
+pub(super) struct Context<'a> {
+    pub(super) catalog: &'a Catalog,
+    pub(super) options: &'a TrackedOptions<'a>,
+    pub(super) types: &'a [TypeDef],
+    pub(super) notes: Notes,
+    pub(super) missing: MissingFacts,
+    pub(super) texts: TextList,
+    /// Positions of the pluggable ports among the submodules.
+    pub(super) pluggable_ports: HashSet<u32>,
+    /// True if the source is a GSDML, to which the export adds no missing facts.
+    pub(super) is_gsdml: bool,
+}
+
+impl Context<'_> {
+    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
+    /// missing if there is no value.
+    pub(super) fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
+        self.missing.require(given.or(found), key, Options::KEYS)
+    }
+}
