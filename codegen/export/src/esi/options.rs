@@ -18,7 +18,7 @@ options! {
         order_code: String = "order-code",
         /// Kind of each port, one letter for each of up to four ports: Y (MII), K (LVDS), H (enhanced) or blank (none).
         physics: String = "physics",
-        /// Key of the group that contains the device; also the name of the group if the source has no name.
+        /// Key of the group that contains the device; also the name of the group if the description file has no name.
         group: String = "group",
         /// Start address and length in bytes of the receive mailbox, such as 0x1000:128.
         mailbox_out: Area = "mailbox-out",
@@ -28,7 +28,7 @@ options! {
         outputs: Area = "outputs",
         /// Start address of the inputs in the memory of the slave controller, with an optional length, such as 0x1180:8.
         inputs: Area = "inputs",
-        /// CoE features, for a source without a mailbox, such as sdo-info,pdo-assign,pdo-config,complete-access.
+        /// CoE features, such as sdo-info,pdo-assign,pdo-config,complete-access, if the description file declares no mailbox.
         coe: Coe = "coe",
         /// Size of the EEPROM in bytes.
         eeprom_size: u32 = "eeprom-size",
