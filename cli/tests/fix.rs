@@ -94,7 +94,8 @@ fn no_fix_is_left_in_the_sample() {
     }
 }
 
-/// Checks that a file and its backup have the expected bytes.
+/// Checks that the backup of a fixed file has the original bytes. The fix must not change the byte order mark, the numbers of CR and
+/// LF, or bytes that are not ASCII. An unchanged file must have no backup.
 fn compare(folder: &Folder, name: &str, old: &[u8]) {
     let new = std::fs::read(folder.0.join(name)).expect("a file");
     let backup = std::fs::read(folder.0.join(format!("{name}.bak")));

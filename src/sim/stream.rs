@@ -67,7 +67,7 @@ impl StreamFault {
 /// # Ok::<(), std::io::Error>(())
 /// ```
 ///
-/// With the traits of `std::io`, a late message blocks the device. `W` is the function that waits, by default
+/// With the traits of `std::io`, `write` blocks the device until the delay of a late message has passed. `W` is the function that waits, by default
 /// `std::thread::sleep`. With the feature `modbus`, the stream also implements the traits of `tokio::io`. There, `write`
 /// returns at once. The device sends a late message while it reads, flushes the stream or writes the next message. The
 /// runtime needs timers.

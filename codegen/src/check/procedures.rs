@@ -39,8 +39,8 @@ pub(super) fn default_assignments(context: &Context<'_>, diagnostics: &mut Diagn
 /// Returns the problems in a step of a procedure.
 fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     let read_only = |name: &ItemRef| {
-        let item = device.referred(name).filter(|item| !item.access.writable())?;
-        Some(format!("writes `{}`, which is {}", brief(name), item.access.name()))
+        let unwritable = device.referred(name).is_some_and(|item| !item.access.writable());
+        unwritable.then(|| format!("writes `{}`, which cannot be written", brief(name)))
     };
     let write_only = |name: &ItemRef, what: &str| {
         let unreadable = device.referred(name).is_some_and(|item| !item.access.readable());

@@ -804,7 +804,7 @@ codes! {
     TAB045 CELLS_TWICE Lint Warn "two codes of a code table have the same cells"
         "The table declares with `distinct` that no two codes have identical cells. The manual probably repeats a row. \
         Record the ambiguity in `doubt`, and `allow` this code on the table."
-    TAB048 NARROW_WINDOW Lint Warn "an item has more bits than the item through which it is read or written"
+    TAB048 NARROW_WINDOW Lint Warn "an item has more bits than the window through which it is read or written"
         "All windows of the space transfer fewer bits than the item has, so the upper bits are lost. Correct the type \
         of one item, or add a wider window."
     TAB049 WINDOW_ORDER Lint Warn "a procedure writes the parameter number of a window before the value"

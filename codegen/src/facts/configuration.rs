@@ -158,7 +158,8 @@ struct Pdo<'d> {
     mapping: Option<&'d Group>,
 }
 
-/// Returns the COB-ID of a PDO, if it is writable: the configured value, or the default value if it contains a CAN identifier.
+/// Returns the configured COB-ID of a PDO, or the default COB-ID if it contains a CAN identifier. Returns `None` if the COB-ID must
+/// not be written.
 fn cob_id(communication: &Group) -> Option<&Value> {
     let item = communication.sub(1).filter(|item| reason(communication, item).is_none())?;
     item.configured_value().or_else(|| item.default.as_ref().filter(|value| has_identifier(value)))

@@ -103,17 +103,18 @@ impl Guarding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum GuardError<E> {
-    /// The CAN interface returned an error. The node life time has not passed.
+    /// The CAN interface returned an error. The node is not lost yet.
     Client(E),
     /// The request was not sent, because the bus was busy, or because the CAN interface cannot send remote frames. The
-    /// node life time has not passed.
+    /// node is not lost yet.
     NotSent,
-    /// The node did not answer in this cycle. The node life time has not passed.
+    /// The node did not answer in this cycle. The node is not lost yet.
     NoAnswer,
-    /// The toggle bit of the answer did not alternate. The node life time has not passed.
+    /// The toggle bit of the answer did not alternate. The node is not lost yet.
     ToggleBit,
-    /// No valid answer arrived within the node life time. The last cycle failed for any reason: no answer, a wrong toggle
-    /// bit, a request that was not sent, or an error of the CAN interface.
+    /// The node is lost: no valid answer arrived within the node life time, or in as many consecutive cycles as the life time
+    /// factor. The last cycle failed for any reason: no answer, a wrong toggle bit, a request that was not sent, or an error of
+    /// the CAN interface.
     NodeLost,
 }
 
@@ -165,8 +166,8 @@ macro_rules! guard {
             ///
             /// # Errors
             ///
-            /// - [`GuardError::NodeLost`] if the node life time has passed without a valid answer, for any reason. The
-            ///   other errors mean that this time has not passed.
+            /// - [`GuardError::NodeLost`] if the node is lost, as described above, for any reason. The other errors mean
+            ///   that the node is not lost yet.
             /// - [`GuardError::Client`] if the interface fails.
             /// - [`GuardError::NotSent`] if the bus stays busy, or if the interface cannot send remote frames.
             /// - [`GuardError::NoAnswer`] if the node doesn't answer in this cycle.

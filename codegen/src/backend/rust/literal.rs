@@ -44,12 +44,19 @@ pub(super) fn text_bytes(text: &[u8]) -> String {
     }
 }
 
-/// Signs that occur in units, formulas and punctuation. None of them changes how other characters are displayed.
-const SIGNS: &str = "°µ±·€−×÷≤≥≠≈√∞Σ→←↑↓↔–—…‘’“”„‰•";
-
-/// Returns whether a character is a letter or digit of any script, a printable ASCII character, or one of [`SIGNS`].
+/// Returns whether a character is a letter or digit of any script, a blank, or a visible sign that does not change how other
+/// characters are displayed.
 pub(super) fn is_harmless(letter: char) -> bool {
-    letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || SIGNS.contains(letter)
+    letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || is_sign(letter)
+}
+
+/// Returns whether a character is in a block of punctuation, currency signs, superscripts, mathematical or technical symbols. Spaces,
+/// soft hyphens, combining marks and characters without a width are left out.
+fn is_sign(letter: char) -> bool {
+    matches!(letter,
+        '\u{a1}'..='\u{ac}' | '\u{ae}'..='\u{bf}' | '×' | '÷'
+        | '\u{2010}'..='\u{2027}' | '\u{2030}'..='\u{205e}' | '\u{2070}'..='\u{20cf}' | '\u{2100}'..='\u{2bff}'
+        | '\u{3001}'..='\u{3029}' | '\u{3030}'..='\u{303f}' | '\u{ff01}'..='\u{ff65}')
 }
 
 /// Returns a REAL32 or REAL64 literal. Returns `None` if the type cannot represent the number.
@@ -64,6 +71,13 @@ pub(super) fn real(value: f64, bits: u32) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn signs_are_harmless_unless_they_are_invisible() {
+        assert!("10⁻³ s, Ω, °C, µs, ½, ®, ≥ 5 €, “x”, （１）、√2 → ✓".chars().all(is_harmless));
+        let invisible = "\n\t\u{a0}\u{ad}\u{300}\u{200b}\u{200e}\u{2028}\u{202e}\u{2060}\u{2066}\u{20dd}\u{3000}\u{fe0f}\u{feff}\u{fffd}";
+        assert!(!invisible.chars().any(is_harmless));
+    }
 
     #[test]
     fn text_cannot_end_a_literal() {

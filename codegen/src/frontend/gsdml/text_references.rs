@@ -27,6 +27,7 @@ impl<'a> TextReferences<'a> {
 
 /// Returns a placeholder for the text of `placeholder` followed by `suffix`.
 pub(super) fn with_suffix(placeholder: &str, suffix: &str) -> CompactString {
-    // The blank separates the suffix from the number, even if the placeholder is empty.
+    // A placeholder is the number of a reference. Without the blank, digits at the start of the suffix would be read as a part of this
+    // number.
     format_compact!("{placeholder} {suffix}")
 }

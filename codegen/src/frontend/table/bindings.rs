@@ -250,10 +250,12 @@ impl Rows {
             // The printed range of register numbers may cover only the first item, or all items.
             let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
-                let of_all =
-                    if repeat.count > 1 { format!(", or {all} for all items of the row") } else { String::new() };
+                let needed = match repeat.count {
+                    0 | 1 => format!("the type needs {needed}"),
+                    _ => format!("one item needs {needed} and all items need {all}"),
+                };
                 let registers = count_of(printed, "register");
-                let message = format!("the row names {registers} of {unit} bits, but the type needs {needed}{of_all}");
+                let message = format!("the row names {registers} of {unit} bits, but {needed}");
                 reader
                     .diagnostics
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
