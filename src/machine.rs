@@ -37,26 +37,23 @@ pub enum Step<C> {
     Unreachable,
 }
 
-/// Maximum number of transitions. Further transitions are ignored.
+/// Maximum number of transitions. Further transitions are ignored. The compiler has the same limit
+/// (`codegen/src/backend/rust/target.rs`).
 const MAX_TRANSITIONS: usize = 128;
 
 impl<C: Copy> Step<C> {
-    /// Returns the first step of the shortest path from `state` to `target` that enters no fault state on the way. If several
-    /// paths have the same length, a path that starts with a command is preferred.
+    /// Returns the first step of the shortest path from `state` to `target` that neither passes through an energized state nor enters
+    /// a fault state from a state without a fault. The target is excepted. If several paths have the same length, a path that starts
+    /// with a command is preferred.
     #[must_use]
-    pub fn toward(transitions: &[Transition<C>], faults: &[u8], state: u8, target: u8) -> Self {
-        Self::toward_without(transitions, state, target, &[], faults)
+    pub fn toward<S: MachineState<Command = C>>(state: S, target: S) -> Self
+    where
+        C: 'static,
+    {
+        Self::on_path(S::TRANSITIONS, S::FAULTS, S::ENERGIZED, state.number(), target.number())
     }
 
-    /// Returns the first step of the shortest path that doesn't pass through the states `avoided`, and doesn't enter one of the
-    /// states `faults` from a state without a fault. The target is excepted.
-    pub(crate) fn toward_without(
-        transitions: &[Transition<C>],
-        state: u8,
-        target: u8,
-        avoided: &[u8],
-        faults: &[u8],
-    ) -> Self {
+    fn on_path(transitions: &[Transition<C>], faults: &[u8], energized: &[u8], state: u8, target: u8) -> Self {
         if state == target {
             return Step::Reached;
         }
@@ -69,7 +66,7 @@ impl<C: Copy> Step<C> {
                 let goes_on =
                     |(next, other): (usize, &Transition<C>)| leads >> next & 1 == 1 && transition.to == other.from;
                 let enters_fault = faults.contains(&transition.to) && !faults.contains(&transition.from);
-                let is_avoided = enters_fault || avoided.contains(&transition.to);
+                let is_avoided = enters_fault || energized.contains(&transition.to);
                 if transition.to == target || (!is_avoided && transitions.iter().enumerate().any(goes_on)) {
                     more |= 1 << at;
                 }
@@ -113,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_shortest_way() {
-        let toward = |state, target| Step::toward(TRANSITIONS, &[], state, target);
+        let toward = |state, target| Step::on_path(TRANSITIONS, &[], &[], state, target);
         assert_eq!(toward(2, 2), Step::Reached);
         assert_eq!(toward(1, 3), Step::Command('u'));
         assert_eq!(toward(2, 3), Step::Command('U'));
@@ -128,16 +125,16 @@ mod tests {
     #[test]
     fn a_command_before_waiting() {
         let both = [Transition::new(0, 1, None), Transition::new(0, 1, Some('c'))];
-        assert_eq!(Step::toward(&both, &[], 0, 1), Step::Command('c'));
-        assert_eq!(Step::<char>::toward(&[], &[], 0, 1), Step::Unreachable);
+        assert_eq!(Step::on_path(&both, &[], &[], 0, 1), Step::Command('c'));
+        assert_eq!(Step::<char>::on_path(&[], &[], &[], 0, 1), Step::Unreachable);
     }
 
     #[test]
-    fn no_way_through_a_fault() {
+    fn no_path_through_a_fault() {
         let all =
             [Transition::new(0, 9, Some('x')), Transition::new(9, 2, Some('r')), Transition::new(0, 1, Some('u'))];
-        assert_eq!(Step::toward(&all, &[9], 0, 2), Step::Unreachable);
-        assert_eq!(Step::toward(&all, &[9], 0, 9), Step::Command('x'));
-        assert_eq!(Step::toward(&all, &[9], 9, 2), Step::Command('r'));
+        assert_eq!(Step::on_path(&all, &[9], &[], 0, 2), Step::Unreachable);
+        assert_eq!(Step::on_path(&all, &[9], &[], 0, 9), Step::Command('x'));
+        assert_eq!(Step::on_path(&all, &[9], &[], 9, 2), Step::Command('r'));
     }
 }

@@ -70,14 +70,17 @@ where
     }
 }
 
-/// Returns the value with this name, ignoring case. Generated states and commands call this function. If several values have the
+/// Returns the value with this name. The function ignores case, and takes underscores for blanks. Generated states and commands call this function. If several values have the
 /// name, the function returns the first.
 ///
 /// # Errors
 ///
 /// Returns [`UnknownName`] if no value has the name.
 pub fn find_name<T: Copy>(names: &[(T, &str)], text: &str) -> Result<T, UnknownName> {
-    let found = names.iter().find(|(_, name)| !name.is_empty() && name.eq_ignore_ascii_case(text));
+    fn letters(text: &str) -> impl Iterator<Item = u8> + '_ {
+        text.bytes().map(|byte| if byte == b'_' { b' ' } else { byte.to_ascii_lowercase() })
+    }
+    let found = names.iter().find(|(_, name)| !name.is_empty() && letters(name).eq(letters(text)));
     found.map(|(value, _)| *value).ok_or(UnknownName)
 }
 

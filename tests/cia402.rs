@@ -782,15 +782,18 @@ fn a_generated_drive_with_scaled_values() {
 }
 
 #[test]
-fn states_and_commands_have_the_names_of_the_description() {
+fn states_and_commands_have_names_and_paths() {
     use demo_drive::types::{Command, State};
     assert_eq!(State::SwitchOnDisabled.to_string(), "switch on disabled");
     assert_eq!(format!("{:>17}", Command::FaultReset), "      fault reset");
+    // The drive isn't energized on the path out of a quick stop.
+    assert_eq!(State::QuickStopActive.toward(State::SwitchedOn), lexibus::Step::Command(Command::DisableVoltage));
     for (state, name) in State::NAMES {
         assert_eq!((name.parse(), state.to_string().as_str()), (Ok(*state), *name));
     }
     for (command, name) in Command::NAMES {
         assert_eq!((name.to_uppercase().parse(), command.to_string().as_str()), (Ok(*command), *name));
     }
+    assert_eq!("switch_on_disabled".parse(), Ok(State::SwitchOnDisabled));
     assert_eq!("on".parse::<State>().unwrap_err().to_string(), "the text is not a value of this type");
 }

@@ -3997,7 +3997,7 @@ pub mod types {
         Operational,
     }
     impl AlState {
-        /// All states with their names in the description, in the order of the variants.
+        /// All states with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::Init, "init"),
             (Self::PreOperational, "pre operational"),
@@ -4059,14 +4059,9 @@ pub mod types {
         }
     }
     impl AlState {
-        /// Returns the next step from this state toward `target`. The path enters no fault state on the way.
+        /// Returns the next step from this state toward `target`. The path enters neither a fault state nor an energized state on the way.
         pub fn toward(self, target: Self) -> rt::Step<AlCommand> {
-            rt::Step::toward(
-                <Self as rt::MachineState>::TRANSITIONS,
-                <Self as rt::MachineState>::FAULTS,
-                self as u8,
-                target as u8,
-            )
+            rt::Step::toward(self, target)
         }
     }
     impl rt::MachineState for AlState {
@@ -4187,7 +4182,7 @@ pub mod types {
         RequestOperational,
     }
     impl AlCommand {
-        /// All commands with their names in the description, in the order of the variants.
+        /// All commands with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::RequestInit, "request init"),
             (Self::RequestPreOperational, "request pre operational"),
@@ -4307,7 +4302,7 @@ pub mod types {
         QuickStopActive,
     }
     impl DriveState {
-        /// All states with their names in the description, in the order of the variants.
+        /// All states with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::NotReadyToSwitchOn, "not ready to switch on"),
             (Self::SwitchOnDisabled, "switch on disabled"),
@@ -4384,14 +4379,9 @@ pub mod types {
         }
     }
     impl DriveState {
-        /// Returns the next step from this state toward `target`. The path enters no fault state on the way.
+        /// Returns the next step from this state toward `target`. The path enters neither a fault state nor an energized state on the way.
         pub fn toward(self, target: Self) -> rt::Step<DriveCommand> {
-            rt::Step::toward(
-                <Self as rt::MachineState>::TRANSITIONS,
-                <Self as rt::MachineState>::FAULTS,
-                self as u8,
-                target as u8,
-            )
+            rt::Step::toward(self, target)
         }
     }
     impl rt::MachineState for DriveState {
@@ -4567,7 +4557,7 @@ pub mod types {
         FaultReset,
     }
     impl DriveCommand {
-        /// All commands with their names in the description, in the order of the variants.
+        /// All commands with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::Shutdown, "shutdown"),
             (Self::SwitchOn, "switch on"),
@@ -6853,7 +6843,7 @@ pub mod objects {
         /// Interpolation time index: 0x60C2:02, INTEGER8, read-write.
         /// Accessor: [`InterpolationTimePeriodAccessors::interpolation_time_index`].
         ///
-        /// Exponent of the time unit of sub-index 1, to the base 10: -3 is 10 ³ s (1 ms), and -4 is 10 ⁴ s (0.1 ms).
+        /// Exponent of the time unit of sub-index 1, to the base 10: -3 is 10⁻³ s (1 ms), and -4 is 10⁻⁴ s (0.1 ms).
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT: indice di tempo di interpolazione.
         ///
@@ -6887,7 +6877,7 @@ pub mod objects {
             ) -> super::ReadWriteAccess<'_, C, rt::Exponential<u8>, rt::OnCoE> {
                 INTERPOLATION_TIME_UNITS.at(self.client)
             }
-            /// Exponent of the time unit of sub-index 1, to the base 10: -3 is 10 ³ s (1 ms), and -4 is 10 ⁴ s (0.1 ms).
+            /// Exponent of the time unit of sub-index 1, to the base 10: -3 is 10⁻³ s (1 ms), and -4 is 10⁻⁴ s (0.1 ms).
             ///
             /// Interpolation time index: 0x60C2:02, INTEGER8, read-write.
             /// Constant: [`INTERPOLATION_TIME_INDEX`].

@@ -2478,7 +2478,7 @@ pub mod types {
         Fault,
     }
     impl State {
-        /// All states with their names in the description, in the order of the variants.
+        /// All states with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::NotReadyToSwitchOn, "not ready to switch on"),
             (Self::SwitchOnDisabled, "switch on disabled"),
@@ -2555,14 +2555,9 @@ pub mod types {
         }
     }
     impl State {
-        /// Returns the next step from this state toward `target`. The path enters no fault state on the way.
+        /// Returns the next step from this state toward `target`. The path enters neither a fault state nor an energized state on the way.
         pub fn toward(self, target: Self) -> rt::Step<Command> {
-            rt::Step::toward(
-                <Self as rt::MachineState>::TRANSITIONS,
-                <Self as rt::MachineState>::FAULTS,
-                self as u8,
-                target as u8,
-            )
+            rt::Step::toward(self, target)
         }
     }
     impl rt::MachineState for State {
@@ -2714,7 +2709,7 @@ pub mod types {
         FaultReset,
     }
     impl Command {
-        /// All commands with their names in the description, in the order of the variants.
+        /// All commands with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::Shutdown, "shutdown"),
             (Self::SwitchOn, "switch on"),

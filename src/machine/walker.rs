@@ -45,7 +45,7 @@ pub trait MachineState: Copy + 'static {
 ///   clears the bit for one cycle.
 /// - The walker waits for automatic transitions of the device.
 /// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
-/// - The walker sends no command that leads to a fault state, unless the state is its target.
+/// - The walker chooses no transition from a state without a fault to a fault state, unless the state is its target.
 /// - The walker enters an energized state, such as "Operation enabled", only if the state is its target.
 /// - In the target state, the control word contains no command that leads away from it.
 /// - A device that leaves the target state without a command stops the walker. To continue, create a new walker.
@@ -153,13 +153,13 @@ impl<S: MachineState> Walker<S> {
         let unchanged = Walked { control, is_reached: false };
         // A status word without a state occurs while the device starts.
         let Some(state) = S::of_status(status) else { return Ok(unchanged) };
-        if state.is_fault() && self.was_healthy {
+        if state.is_fault() && self.was_healthy && state.number() != self.target.number() {
             return Err(Stopped::Fault(state));
         }
         if self.was_reached && state.number() != self.target.number() {
             return Err(Stopped::Left(state));
         }
-        let step = Step::toward_without(S::TRANSITIONS, state.number(), self.target.number(), S::ENERGIZED, S::FAULTS);
+        let step = Step::toward(state, self.target);
         // A status word of 0, which a process image contains before the first cycle, can encode a state of the start-up.
         self.was_healthy |= !state.is_fault() && !matches!(step, Step::Wait);
         match step {
@@ -334,10 +334,10 @@ mod tests {
         let both =
             [Transition::new(3, 1, Some('e')), Transition::new(1, 0, Some('d')), Transition::new(3, 2, Some('v'))];
         let all = [both[0], both[1], both[2], Transition::new(2, 4, Some('s')), Transition::new(4, 0, Some('t'))];
-        assert_eq!(Step::toward(&all, &[], 3, 0), Step::Command('e'));
-        assert_eq!(Step::toward_without(&all, 3, 0, &[1], &[]), Step::Command('v'));
-        assert_eq!(Step::toward_without(&all, 3, 1, &[1], &[]), Step::Command('e'));
-        assert_eq!(Step::toward_without(&both, 3, 0, &[1], &[]), Step::Unreachable);
+        assert_eq!(Step::on_path(&all, &[], &[], 3, 0), Step::Command('e'));
+        assert_eq!(Step::on_path(&all, &[], &[1], 3, 0), Step::Command('v'));
+        assert_eq!(Step::on_path(&all, &[], &[1], 3, 1), Step::Command('e'));
+        assert_eq!(Step::on_path(&both, &[], &[1], 3, 0), Step::Unreachable);
     }
 
     /// The command `t` tests the fault state 4, which the device also enters without a command. The commands `h`, `r` and `s` lead to the
@@ -355,13 +355,45 @@ mod tests {
             Transition::new(7, 2, Some('Q')),
             Transition::new(2, 3, Some('s')),
         ];
-        let toward = |state, target| Step::toward_without(&all, state, target, &[], &[4, 5]);
+        let toward = |state, target| Step::on_path(&all, &[4, 5], &[], state, target);
         assert_eq!(toward(0, 2), Step::Command('h'));
         // The device does not wait for a fault.
         assert_eq!(toward(3, 2), Step::Unreachable);
         // A fault that is already active is reset.
         assert_eq!((toward(4, 3), toward(5, 3)), (Step::Wait, Step::Command('x')));
         assert_eq!((toward(0, 4), toward(3, 4)), (Step::Command('t'), Step::Wait));
+    }
+
+    /// A machine with a command that tests its fault.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum Tested {
+        Idle,
+        Failed,
+    }
+
+    impl MachineState for Tested {
+        type Command = (u32, u32);
+        const TRANSITIONS: &'static [Transition<(u32, u32)>] = &[Transition::new(0, 1, Some((1, 1)))];
+        const FAULTS: &'static [u8] = &[1];
+        fn of_status(bits: u32) -> Option<Self> {
+            [Self::Idle, Self::Failed].get(bits as usize).copied()
+        }
+        fn number(self) -> u8 {
+            self as u8
+        }
+        fn name(self) -> &'static str {
+            ""
+        }
+        fn pattern(command: (u32, u32)) -> (u32, u32) {
+            command
+        }
+    }
+
+    #[test]
+    fn a_fault_state_can_be_the_target() {
+        let mut walker = Walker::new(Tested::Failed);
+        assert_eq!(walker.cycle(0_u16, 0_u16), Ok(Walked { control: 1, is_reached: false }));
+        assert_eq!(walker.cycle(1_u16, 1_u16), Ok(Walked { control: 1, is_reached: true }));
     }
 
     #[test]

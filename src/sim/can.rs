@@ -172,6 +172,7 @@ impl CanNode {
 
     /// Switches the node off and on. The node restarts with its stored values, and sends its boot-up message.
     pub fn power_cycle(&mut self) {
+        self.outgoing.clear();
         self.lss.power_on();
         self.adopt_node_id();
         self.device.power_cycle();

@@ -7,7 +7,7 @@ use super::diagram::{self, number, Diagram, ANY_STATE};
 use super::entry::{self, Doubt};
 use super::link::Link;
 use super::words::{self, readable, PLAIN};
-use lexibus_codegen::facts::machine::fault_states;
+use lexibus_codegen::facts::machine::{fault_states, is_energized};
 use lexibus_codegen::facts::{pattern, types};
 use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, Step, SubjectKind, Transition,
@@ -45,8 +45,8 @@ pub(super) struct Named {
     pub names: Vec<(String, String)>,
     /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if a value represents the state.
     pub bits: String,
-    /// True for a state that the device enters because of a fault.
-    pub is_fault: bool,
+    /// `fault` for a state that the device enters because of a fault, `energized` for a state with an energized motor.
+    pub class: &'static str,
     pub facts: String,
 }
 
@@ -133,8 +133,12 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     let anchor = names.anchor(&machine.name);
     let mut of_states = Names::within(&anchor);
     let states = machine.states.iter().map(|state| {
-        let is_fault = faults.contains(&state.name.as_str());
-        Named { is_fault, ..named(state, of_status, of_states.anchor(&state.name)) }
+        let class = match faults.contains(&state.name.as_str()) {
+            true => "fault",
+            false if is_energized(&state.name) => "energized",
+            false => "",
+        };
+        Named { class, ..named(state, of_status, of_states.anchor(&state.name)) }
     });
     let states: Vec<Named> = states.collect();
     let patterns: Vec<String> = states.iter().map(|state| state.bits.clone()).collect();
@@ -163,7 +167,7 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
         identifier: pattern.name.to_string(),
         names: words::names(&pattern.name, &pattern.names),
         bits,
-        is_fault: false,
+        class: "",
         facts: PLAIN.description(pattern.documentation.as_deref()).join(" "),
     }
 }

@@ -1,4 +1,4 @@
-//! State machines.
+//! States with a special meaning in state machines.
 
 use crate::ir::{StateMachine, Transition};
 
@@ -23,4 +23,9 @@ pub fn fault_states(machine: &StateMachine) -> Vec<&str> {
         }
     }
     names
+}
+
+/// Returns whether a state is "Operation enabled" of CiA 402, in which the drive is energized.
+pub fn is_energized(state: &str) -> bool {
+    state.replace('_', " ").eq_ignore_ascii_case("operation enabled")
 }

@@ -10,7 +10,7 @@
 //! | `device` | titles of devices, and modules that slots accept |
 //! | `encoding` | values as the bytes of an SDO transfer |
 //! | `item` | default value, range, unit and PDO mapping of an item |
-//! | `machine` | fault states of state machines |
+//! | `machine` | fault states and energized states of state machines |
 //! | `markdown` | texts in Markdown |
 //! | `number` | numbers in hexadecimal notation |
 //! | `pattern` | bit patterns of states and commands |

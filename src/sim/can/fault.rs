@@ -31,8 +31,9 @@ pub enum CanFault {
     /// This number of frames with the CAN-ID 0x123 arrives before the frame. The predefined connection set (CiA 301 7.3.3)
     /// doesn't use this CAN-ID.
     Noise(u32),
-    /// The frame arrives with the wrong toggle bit: bit 7 of a frame of one byte (node guarding), and bit 4 of an SDO
-    /// segment. Other frames have no toggle bit and are not changed. In block transfers, the sequence number is wrong.
+    /// The frame arrives with the wrong toggle bit: bit 7 of an answer of node guarding, and bit 4 of an SDO segment from the
+    /// default SDO server. Other frames have no toggle bit and are not changed. In block transfers, sequence numbers up to 63
+    /// are wrong.
     WrongToggle,
     /// The frame is lost, because all devices on the bus restart, as after a power failure.
     Restart,
@@ -77,12 +78,12 @@ pub(super) fn toggled(frame: &CanFrame) -> CanFrame {
     const GUARDING: u8 = 1 << 7;
     const SEGMENT: u8 = 1 << 4;
     let mut data: Vec<u8> = frame.data().to_vec();
-    let length = data.len();
+    let (id, length) = (frame.id(), data.len());
     let Some(first) = data.first_mut() else { return *frame };
     // The command specifier of a segment or of its confirmation is 0 or 1.
-    *first ^= match (length, *first >> 5) {
-        (1, _) => GUARDING,
-        (8, 0 | 1) => SEGMENT,
+    *first ^= match (id, length, *first >> 5) {
+        (0x701..=0x77F, 1, _) => GUARDING,
+        (0x581..=0x5FF, 8, 0 | 1) => SEGMENT,
         _ => 0,
     };
     CanFrame::new(frame.id(), &data).unwrap_or(*frame)

@@ -81,7 +81,7 @@ impl<B: SimulatedCan> FaultyCan<B> {
     }
 
     /// Injects a fault into the `n`th frame that arrives from now on: 1 is the next frame. Frames of all identifiers
-    /// count, also those that the client ignores.
+    /// count, also those that the client ignores and those that bus-off loses. Boot-up messages after a restart do not count.
     pub fn inject_nth(&mut self, fault: CanFault, n: u64) {
         self.collect();
         self.faults.add_nth(fault, n);
@@ -315,8 +315,11 @@ mod tests {
         ] {
             assert_eq!(toggled(&frame(&sent)), frame(&arrives));
         }
-        assert_eq!(toggled(&frame(&[0x85])), frame(&[0x05]));
+        let guarding = |state| CanFrame::new(0x705, &[state]).expect("a frame");
+        assert_eq!(toggled(&guarding(0x85)), guarding(0x05));
         assert_eq!(toggled(&frame(&[])), frame(&[]));
+        let pdo = CanFrame::new(0x185, &[0x10; 8]).expect("a frame");
+        assert_eq!(toggled(&pdo), pdo);
     }
 
     #[test]

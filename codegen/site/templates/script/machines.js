@@ -8,32 +8,32 @@ function patternOf(text) {
 }
 
 const namedRows = (section, kind) => [...section.querySelectorAll(`.${kind} tr[id]`)].map((row) => {
-  return { row, isFault: row.classList.contains("fault"), name: row.cells[0].querySelector("b").textContent, pattern: patternOf(row.cells[1].textContent) };
+  return { row, name: row.cells[0].querySelector("b").textContent, pattern: patternOf(row.cells[1].textContent) };
 });
 
 // Returns the commands of the shortest path to each state. The reactions to a fault, which can start in any state, are no way to a state.
-// No path leads from a state without a fault through a fault state.
-function nextSteps(transitions, from, faults) {
-  const steps = new Map([[from, []]]), queue = [from];
-  for (const state of queue) {
+// No path leads through an energized state, or from a state without a fault through a fault state.
+function nextSteps(transitions, from, classes) {
+  const steps = new Map(), paths = new Map([[from, []]]);
+  for (const [state, path] of paths) {
     for (const { source, to, command } of transitions) {
       if (source === "any state" && command === "automatic") continue;
-      if ((source !== state && source !== "any state") || steps.has(to)) continue;
-      steps.set(to, [...steps.get(state), command]);
-      if (!faults.has(to) || faults.has(state)) queue.push(to);
+      if ((source !== state && source !== "any state") || to === from) continue;
+      const next = [...path, command], isFault = (name) => classes.get(name) === "fault";
+      if (!steps.has(to)) steps.set(to, next);
+      if (!paths.has(to) && classes.get(to) !== "energized" && (!isFault(to) || isFault(state))) paths.set(to, next);
     }
   }
-  steps.delete(from);
   return steps;
 }
 
 function stateFinder(section) {
-  const states = namedRows(section, "of-states").filter(({ pattern }) => pattern), commands = namedRows(section, "of-commands");
+  const all = namedRows(section, "of-states"), states = all.filter(({ pattern }) => pattern), commands = namedRows(section, "of-commands");
   const transitions = [...section.querySelectorAll(".of-transitions tbody tr")].map(({ cells }) => {
     return { source: cells[1].textContent, to: cells[2].textContent, command: cells[3].textContent };
   });
   if (!states.length) return;
-  const faults = new Set(states.filter(({ isFault }) => isFault).map(({ name }) => name));
+  const classes = new Map(all.map(({ row, name }) => [name, ["fault", "energized"].find((one) => row.classList.contains(one))]));
   const type = { bits: Math.max(...states.map(({ pattern }) => pattern.bits)) };
   const input = element("input", { type: "text", className: "status", placeholder: "0x… or decimal", ariaLabel: "Status value" });
   const shown = element("output", {}), list = element("ul", { className: "next" });
@@ -50,7 +50,7 @@ function stateFinder(section) {
     for (const { row, name } of states) row.classList.toggle("on", name === found?.name);
     for (const box of section.querySelectorAll(".state")) box.classList.toggle("on", box.querySelector("text").textContent === found?.name);
     shown.textContent = found ? found.name : raw === undefined ? "" : "no state has this value";
-    const steps = found ? [...nextSteps(transitions, found.name, faults)] : [];
+    const steps = found ? [...nextSteps(transitions, found.name, classes)] : [];
     list.replaceChildren(...steps.map(describe));
     title.hidden = !steps.length;
   });

@@ -88,7 +88,7 @@ const KINDS = { o: objectRequests, m: modbusRequests, r: recordRequests };
 
 // Creates a field for a number that the reader chooses once for all pages.
 function keptNumber(key, label, first, last, change) {
-  const input = element("input", { type: "number", min: first, max: last, value: kept(key) || first, className: "number" });
+  const input = element("input", { type: "number", min: first, max: last, required: true, value: kept(key) || first, className: "number" });
   input.addEventListener("input", () => { if (input.reportValidity()) { kept(key, input.value); change(); } });
   return { label: element("label", {}, `${label} `, input), get value() { return Number(input.value); } };
 }

@@ -11,7 +11,7 @@ use super::links::DocModule;
 use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
 use super::value_type;
-use crate::facts::machine::fault_states;
+use crate::facts::machine::{fault_states, is_energized};
 use crate::facts::pattern;
 use crate::ir::{ItemRef, MessageRef, Pattern, Shape, StateMachine, SubjectKind, Transition, Type, TypeId};
 use crate::names::{self, Case};
@@ -288,8 +288,7 @@ fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
 }
 
 fn energized(states: &PatternsModel) -> Option<String> {
-    let is_it = |pattern: &&PatternModel| pattern.title.eq_ignore_ascii_case("operation enabled");
-    states.patterns.iter().find(is_it).map(|pattern| pattern.name.clone())
+    states.patterns.iter().find(|pattern| is_energized(&pattern.original)).map(|pattern| pattern.name.clone())
 }
 
 fn patterns(

@@ -98,7 +98,8 @@ pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Pro
     let walks = walk::models(&constants, &types.machines);
     let parts = Parts { context: &context, constants: &constants, walks: &walks, objects: &objects };
     let possible = || BUSES.into_iter().filter(|route| bus.is_none_or(|bus| route.of_items() == bus));
-    let with_machine = possible().filter_map(|route| Some((route, Some(parts.machine(&types, route)?)))).next();
+    let machines = || possible().filter_map(|route| Some((route, Some(parts.machine(&types, route)?))));
+    let with_machine = machines().find(|(_, machine)| matches!(machine, Some(Ok(_)))).or_else(|| machines().next());
     let usable = || possible().find(|route| parts.read(*route).is_some() || parts.write(*route).is_some());
     let (route, machine) = with_machine.or_else(|| Some((usable()?, None)))?;
     let cia402 = Cia402Model::new(&constants, &walks)

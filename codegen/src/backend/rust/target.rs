@@ -9,7 +9,7 @@ use crate::ir::StateMachine;
 /// Names of states in which a device operates, after "operation enabled" of CiA 402. States without motion come first.
 const OPERATING: [&str; 7] = ["enabled", "operational", "operating", "operation", "in operation", "running", "moving"];
 
-/// Maximum number of transitions that the runtime takes into account.
+/// Maximum number of transitions that the runtime takes into account (`src/machine.rs`).
 const MAX_TRANSITIONS: usize = 128;
 
 /// Reason why a new program does not lead a state machine to a state.

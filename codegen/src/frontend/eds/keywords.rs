@@ -96,6 +96,9 @@ pub(super) const OF_A_VALUE: [Key; 12] = [
     Key::InvertedSrad,
 ];
 
+/// Keywords that only a DCF has.
+const OF_A_CONFIGURATION: [Key; 4] = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
+
 /// Keywords that describe an object with sub-indices, and have no meaning for a single value.
 pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
 
@@ -159,15 +162,16 @@ impl Reader<'_, '_> {
         let distance = |name: &str| edit_distance(&name.to_ascii_lowercase(), &key.to_ascii_lowercase());
         let is_missing =
             |(name, keyword): &(&str, Key)| raw.get(*keyword).is_none() && name.len().abs_diff(key.len()) <= 2;
-        let similar = NAMES.iter().copied().filter(is_missing).map(|(name, _)| (distance(name), name)).min();
-        if let Some((1..=2, name)) = similar {
-            let message = format!("CiA 306 does not define the key `{key}`");
+        // The keywords of a DCF are usually missing, so only a key that differs in one letter is similar.
+        let limit = |keyword: Key| if OF_A_CONFIGURATION.contains(&keyword) { 1 } else { 2 };
+        let similar =
+            NAMES.iter().copied().filter(is_missing).map(|(name, keyword)| (distance(name), limit(keyword), name));
+        let similar = similar.filter(|(distance, limit, _)| distance <= limit).min();
+        if let Some((_, _, name)) = similar {
+            let message = format!("the key `{key}` is similar to {name}, which the object lacks");
             let found = Diagnostic::new(&codes::MISSPELLED_KEY, self.doc.key_span(entry), message);
-            self.diagnostics.push(
-                found
-                    .label("kept as an extension attribute")
-                    .help(format!("if the value is that of {name}, correct the key")),
-            );
+            self.diagnostics
+                .push(found.label("kept as an extension attribute").help("correct the key if it is misspelled"));
         }
     }
 }

@@ -22,8 +22,15 @@ pub(super) struct Esi<'a, 'd> {
 impl xml::Format for Esi<'_, '_> {
     const STANDARD: &'static str = "ETG.2000";
     const UNKNOWN: &'static Code = &codes::ESI_UNKNOWN_ELEMENT;
-    const KEPT: &'static [&'static str] =
-        &["CheckRevisionNo", "Crc32", "ModulePdoGroup", "SRA_ParameterSupported", "TcSmClass", "Watchdog"];
+    const KEPT: &'static [(&'static str, &'static str)] = &[
+        ("Device", "Crc32"),
+        ("Module", "Crc32"),
+        ("Sm", "Watchdog"),
+        ("Type", "CheckRevisionNo"),
+        ("Type", "ModulePdoGroup"),
+        ("Type", "SRA_ParameterSupported"),
+        ("Type", "TcSmClass"),
+    ];
     const VALUE: &'static Code = &codes::ESI_VALUE;
     const ELEMENT_IN_KEY: bool = true;
     const ENGLISH: (&'static str, &'static str) = ("LcId", "1033");

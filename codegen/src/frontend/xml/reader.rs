@@ -21,8 +21,9 @@ pub trait Format {
     const STANDARD: &'static str;
     /// Diagnostic code for an element or attribute that the standard does not define.
     const UNKNOWN: &'static Code;
-    /// Names of elements and attributes that the standard defines and the IR does not, so that they become extensions.
-    const KEPT: &'static [&'static str] = &[];
+    /// Attributes with their elements that the standard defines, and for which the IR has no field. They become extensions, and are not
+    /// reported as unknown.
+    const KEPT: &'static [(&'static str, &'static str)] = &[];
     /// Diagnostic code for a value in a form that the standard does not allow.
     const VALUE: &'static Code;
     /// Diagnostic code for an attribute name in the wrong case; `None` if case is ignored.

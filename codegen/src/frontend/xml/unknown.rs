@@ -12,7 +12,7 @@ use crate::text::brief;
 impl<'a, F: Format> Reader<'a, '_, F> {
     /// Reports an element that the standard does not define in this position, and stores its contents as extensions.
     pub fn unknown(&mut self, tag: &Tag<'a>) -> Read<()> {
-        if self.diagnostics.wants(F::UNKNOWN) && !F::KEPT.contains(&tag.name) {
+        if self.diagnostics.wants(F::UNKNOWN) {
             let message = format!("{} does not allow the element <{}> at this position", F::STANDARD, brief(tag.name));
             self.report(F::UNKNOWN, tag.name_span(), message, "kept as extension attributes");
         }
@@ -21,7 +21,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
 
     /// Reports an attribute that the standard does not define for this element, and stores it as an extension.
     pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>) {
-        if self.diagnostics.wants(F::UNKNOWN) && !F::KEPT.contains(&attribute.name) {
+        if self.diagnostics.wants(F::UNKNOWN) && !F::KEPT.contains(&(tag.name, attribute.name)) {
             let (element, name) = (brief(tag.name), brief(attribute.name));
             let message = format!("{} does not define the attribute `{name}` of <{element}>", F::STANDARD);
             self.report(F::UNKNOWN, attribute.name_span, message, "kept as an extension attribute");

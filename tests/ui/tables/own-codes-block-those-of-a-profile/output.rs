@@ -1,7 +1,7 @@
         const LAYOUT: &'static str = "Controlword switch_on:1 enable_voltage:2 !quick_stop:4 enable_operation:8 fault_reset:80 halt:100 manufacturer_specific:f800";
         const LAYOUT: &'static str = "Statusword ready_to_switch_on:1 switched_on:2 operation_enabled:4 fault:8 voltage_enabled:10 !quick_stop:20 switch_on_disabled:40 warning:80 manufacturer_specific_8:100 remote:200 target_reached:400 internal_limit_active:800 manufacturer_specific_14:c000";
         const LAYOUT: &'static str = "DigitalInputs negative_limit_switch:1 positive_limit_switch:2 home_switch:4 interlock:8 manufacturer_specific:ffff0000";
-        /// All states with their names in the description, in the order of the variants.
+        /// All states with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::NotReadyToSwitchOn, "not ready to switch on"),
             (Self::SwitchOnDisabled, "switch on disabled"),
@@ -97,7 +97,7 @@
         fn name(self) -> &'static str {
             Self::NAMES[self as usize].1
         }
-        /// All commands with their names in the description, in the order of the variants.
+        /// All commands with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores.
         pub const NAMES: &'static [(Self, &'static str)] = &[
             (Self::Shutdown, "shutdown"),
             (Self::SwitchOn, "switch on"),

@@ -158,11 +158,10 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
     let both = machine.states.as_ref().zip(machine.commands.as_ref()).filter(|_| machine.has_transitions());
     if let Some((states, commands)) = both {
         open!(code, "impl ", states.name, " {");
-        code.doc("Returns the next step from this state toward `target`. The path enters no fault state on the way.");
+        code.doc("Returns the next step from this state toward `target`. The path enters neither a fault state nor an energized state on the way.");
         let result = generic!("rt::Step", commands.name);
         open!(code, call!("pub fn toward", "self", "target: Self"), " -> ", result, " {");
-        let [transitions, faults] = ["TRANSITIONS", "FAULTS"].map(|list| format!("<Self as rt::MachineState>::{list}"));
-        line!(code, call!("rt::Step::toward", transitions, faults, "self as u8", "target as u8"));
+        line!(code, call!("rt::Step::toward", "self", "target"));
         code.close("}");
         code.close("}");
         machine_state(code, machine, states, commands);
@@ -221,7 +220,7 @@ fn patterns(code: &mut Code, patterns: &PatternsModel, noun: &str) {
     }
     code.close("}");
     open!(code, "impl ", name, " {");
-    code.doc(&format!("All {noun} with their names in the description, in the order of the variants."));
+    code.doc(&format!("All {noun} with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores."));
     let named = |pattern: &PatternModel| {
         list("(", &[seq!["Self::", pattern.name], literal::string(&pattern.title).into()], ")")
     };
