@@ -139,7 +139,7 @@ kinds! {
     /// A setting of the device or of one of its objects for which the format has no field.
     Setting = "setting", "setting left out: the format has no field for it";
     /// A date, time, version or comment that the format writes in another form.
-    FileInfo = "file-info", "date, time, version or comment of the file converted or left out";
+    FileInfo = "file-info", "file date, time, version or comment converted or left out";
     /// A text that contains a line break.
     LineBreak = "line-break", "line break in a text written as a space";
     /// A text with characters other than ASCII.

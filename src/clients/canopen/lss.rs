@@ -300,8 +300,8 @@ macro_rules! master {
                 Ok(frame.as_ref().and_then(answer))
             }
 
-            /// Passes the messages of slaves that `wanted` accepts to `handle`, for as long as `time`. Returns whether there are
-            /// any. Without a clock, the time is divided into eighths, and each message restarts its eighth.
+            /// Receives messages of slaves for the duration `time`, and calls `handle` with each message that `wanted` accepts.
+            /// Returns whether `wanted` accepted a message. Without a clock, the time is divided into eighths, and each message restarts its eighth.
             $($async)? fn $collect(
                 &mut self,
                 time: Duration,

@@ -128,8 +128,8 @@ impl Pdos {
 
     /// Returns the PDOs to send after SYNC: the cyclic PDOs that are due, and the acyclic PDOs whose data changed.
     ///
-    /// `counter` is the counter in the SYNC message. If the message has a counter, a cyclic PDO with a SYNC start value
-    /// ignores all messages before the one with this counter value, which counts as the first message.
+    /// `counter` is the counter in the SYNC message. A cyclic PDO with a SYNC start value ignores SYNC messages until the counter
+    /// equals the start value. This message counts as the first. The start value has no effect if the message has no counter.
     pub fn sampled(&mut self, device: &Device, now: Duration, counter: Option<u8>) -> Vec<CanFrame> {
         let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind <= SYNCHRONOUS);
         let frames = synchronous.filter_map(|pdo| {

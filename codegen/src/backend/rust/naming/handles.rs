@@ -88,8 +88,8 @@ impl<'a> HandleNames<'a> {
         is_descriptive.then_some(entry.name.as_str())
     }
 
-    /// Returns the full name of an item: the name of its handle. If the object has several values, the object's name
-    /// precedes it unless the item's name already starts with it.
+    /// Returns the full name of an item: the name of its handle. In an object with several values, the full name begins with the
+    /// object's name. The object's name is not repeated if the item's name already starts with it.
     pub(super) fn whole(&self, id: ItemId) -> Option<Cow<'_, str>> {
         let (object, entry) = self.find(id)?;
         let (title, name) = (object.map_or("", |object| object.group.name.trim()), entry.item.name.trim());
