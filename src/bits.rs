@@ -358,7 +358,7 @@ mod tests {
         assert_eq!(put([0; 3], usize::MAX, 64, u64::MAX), [0; 3]);
         assert_eq!(get_bytes::<20>(&[0xFF; 3], usize::MAX - 70), [0; 20]);
         assert_eq!(put_bytes([0; 3], usize::MAX, &[0xFF; 20]), [0; 3]);
-        assert_eq!(put_bytes([0; 0], 0, &[1]), []);
+        assert_eq!(put_bytes([0; 0], 0, &[1]), [0_u8; 0]);
         let mut data = [0; 3];
         set_bytes(&mut data, usize::MAX - 70, &[0xFF; 20]);
         assert_eq!(data, [0; 3]);

@@ -60,7 +60,8 @@ impl Addresses {
         let name = distinct(name, &key.0, is_ambiguous);
         match keys.iter().filter(|other| other.0 == key.0).position(|other| other == key) {
             None | Some(0) => format!("{folder}-{name}"),
-            Some(number) => format!("{folder}-{name}-{}", number + 1),
+            // No folder name contains a dot, so the number cannot be a part of another description's name.
+            Some(number) => format!("{folder}-{name}.{}", number + 1),
         }
     }
 
@@ -207,7 +208,7 @@ mod tests {
             folders(&one, "Y y", &second),
             [
                 "maker-sons/drive-1-0x00000007/0x00000001-y-y",
-                "maker-sons/drive-1-0x00000007/0x00000001-y-y-2",
+                "maker-sons/drive-1-0x00000007/0x00000001-y-y.2",
                 "maker-sons/pump/no-revision"
             ]
         );
@@ -253,6 +254,20 @@ mod tests {
                 "each revision follows one of the same product"
             );
         }
+    }
+
+    #[test]
+    fn a_number_is_not_a_part_of_another_name() {
+        let twice = catalog(&[("Drive", Some(7), Some(1)), ("Drive", Some(7), Some(1))]);
+        let once = catalog(&[("Drive", Some(7), Some(1))]);
+        let mut addresses = Addresses::default();
+        addresses.add("t", &twice);
+        addresses.add("t-2", &once);
+        let mut all = folders(&addresses, "t", &twice);
+        all.extend(folders(&addresses, "t-2", &once));
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), 3, "{all:?}");
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(super) fn rows(index: &mut Index, rows: &[Row]) {
     }
 }
 
-/// Adds the bit fields and named values of a row. Their numbers, such as `bit 4`, are relative to the row, whose entry precedes them.
+/// Adds the bit fields, their named values, and the named values of a row. Their numbers, such as `bit 4`, are relative to the row, whose entry precedes them.
 fn parts(index: &mut Index, row: &Row) {
     let mut part = |number: &str, name: &str, names: &[(String, String)]| {
         if !name.is_empty() {
@@ -44,7 +44,9 @@ fn parts(index: &mut Index, row: &Row) {
         }
     };
     for field in row.bits.iter().flat_map(|bits| &bits.fields) {
-        part(&format!("bit {}", field.bits), &field.name, &field.names);
+        let number = format!("bit {}", field.bits);
+        part(&number, &field.name, &field.names);
+        field.values.iter().for_each(|value| part(&number, &value.name, &value.names));
     }
     for label in &row.labels {
         part(&format!("value {}", label.number), &label.name, &label.names);

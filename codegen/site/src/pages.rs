@@ -171,8 +171,9 @@ impl Listed {
 
     /// Returns the words that the search finds the device by, apart from its title.
     pub fn words(&self) -> String {
-        let words = [&self.order_code, &self.vendor, &self.family, &self.product_code, &self.revision, &self.buses];
-        words.map(String::as_str).join(" ")
+        let identity = [&self.order_code, &self.vendor, &self.family, &self.product_code, &self.revision];
+        let others = [&self.buses, &self.profiles, &self.file];
+        identity.into_iter().chain(others).map(String::as_str).collect::<Vec<_>>().join(" ")
     }
 
     /// Returns the path from a page of a list, from which `root` leads to the site's folder.

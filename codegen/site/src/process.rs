@@ -1,5 +1,7 @@
 //! Cyclic data (PDOs, process images and sync managers) with byte grids.
 
+use std::collections::HashMap;
+
 use super::anchor::Names;
 use super::grid;
 use super::words;
@@ -80,12 +82,21 @@ pub(super) struct About<'d> {
 
 /// Returns all cyclic data of a device or module.
 pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) -> Vec<Frame> {
-    let pdos = data.pdos.iter().map(|each| pdo(each, types, about));
-    let images = data.images.iter().enumerate().map(|(at, each)| Frame {
-        doubts: super::entry::about(about.doubts, SubjectKind::Image, &each.name, about.manual),
-        ..image(each, types, &format!("image-{at}"), "")
+    let mut counts = HashMap::new();
+    data.pdos.iter().for_each(|each| *counts.entry(each.mapping_index).or_insert(0) += 1);
+    let pdos = data.pdos.iter().map(|each| {
+        let frame = pdo(each, types, about);
+        // PDOs on different buses can have the same index, so their anchors contain the bus.
+        match each.buses.filter(|_| counts[&each.mapping_index] > 1) {
+            Some(buses) if buses.coe => Frame { anchor: format!("{}.EtherCAT", frame.anchor), ..frame },
+            Some(_) => Frame { anchor: format!("{}.CANopen", frame.anchor), ..frame },
+            None => frame,
+        }
     });
-    // PDOs on different buses can have the same index, so their anchors are made unique.
+    let images = data.images.iter().map(|each| Frame {
+        doubts: super::entry::about(about.doubts, SubjectKind::Image, &each.name, about.manual),
+        ..image(each, types, &format!("image-{}", each.name), "")
+    });
     let mut names = Names::default();
     let once = |frame: Frame| Frame { anchor: names.anchor(&frame.anchor), ..frame };
     pdos.chain(images).map(once).collect()

@@ -30,7 +30,7 @@ impl Severity {
 pub struct Diagnostic {
     /// Code of the diagnostic.
     pub code: &'static Code,
-    /// Severity of the diagnostic. [`Diagnostics::push`] sets it from the code and the levels.
+    /// Severity of the diagnostic. [`Diagnostics::push`](super::Diagnostics::push) sets it from the code and the levels.
     pub severity: Severity,
     /// Message that states the problem, in lower case and without a full stop.
     pub message: String,

@@ -1,6 +1,6 @@
 //! Items, messages and states that the texts of code tables mention.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::ir::{CodeRow, CodeTable, Device, Documentation, ItemId};
 
@@ -27,6 +27,8 @@ pub struct Mentions<'d> {
     objects: HashMap<u16, Mention>,
     /// States, which texts mention in quotes.
     states: HashMap<&'d str, Vec<Mention>>,
+    /// Items whose descriptions contain a quoted word, such as the name of a code table.
+    quoted: HashMap<&'d str, Vec<Mention>>,
 }
 
 impl<'d> Mentions<'d> {
@@ -36,6 +38,10 @@ impl<'d> Mentions<'d> {
         for (position, group) in (0..).zip(&device.groups) {
             for (id, item) in group.items_at(position) {
                 mentions.add(item.name.as_str(), Mention::Item(id));
+                let text = item.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+                for quoted in quoted(text) {
+                    mentions.quoted.entry(quoted).or_default().push(Mention::Item(id));
+                }
                 if let Some((index, _)) = item.object() {
                     mentions.objects.entry(index).or_insert(Mention::Object(index, id));
                 }
@@ -61,9 +67,13 @@ impl<'d> Mentions<'d> {
         }
     }
 
-    /// Returns the elements that the description of a code table mentions.
+    /// Returns the elements that the description of a code table mentions, and the items whose descriptions name the table in quotes.
     pub fn of_table(&self, table: &CodeTable) -> Vec<Mention> {
-        self.of_documentation(table.documentation.as_deref())
+        let mut all = self.of_documentation(table.documentation.as_deref());
+        let known: HashSet<Mention> = all.iter().copied().collect();
+        let items = self.quoted.get(table.name.as_str()).into_iter().flatten();
+        all.extend(items.filter(|mention| !known.contains(mention)));
+        all
     }
 
     /// Returns the elements that a row of a code table mentions: in its description, in its cells, and in a column that lists objects.
@@ -94,8 +104,7 @@ impl<'d> Mentions<'d> {
             all.extend(self.object(word));
             all.extend(self.capitalized.get(word).into_iter().flatten());
         }
-        let quoted = text.split('"').skip(1).step_by(2);
-        all.extend(quoted.filter_map(|name| self.states.get(name)).flatten());
+        all.extend(quoted(text).filter_map(|name| self.states.get(name)).flatten());
         all
     }
 
@@ -103,6 +112,11 @@ impl<'d> Mentions<'d> {
         let digits = word.strip_prefix("0x").filter(|digits| digits.len() == 4)?;
         self.objects.get(&u16::from_str_radix(digits, 16).ok()?).copied()
     }
+}
+
+/// Returns the parts of a text that are in quotes.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('"').skip(1).step_by(2)
 }
 
 /// Returns the words of a text. A word can contain `_` and `.`, but not end with `.`.
@@ -137,7 +151,29 @@ fn is_capitalized(word: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Binding, Group, Item, Message, ObjectCode, Pattern, SharedList, StateMachine};
+    use crate::ir::{Binding, Buses, Group, Item, Message, ObjectCode, Pattern, SharedList, StateMachine};
+    use crate::source::Origin;
+
+    #[test]
+    fn items_that_name_a_table() {
+        let mut group = Group::object(0x2000, ObjectCode::Var);
+        group.items.push(Item::new(Binding::canopen(0x2000, 0)));
+        let text = "Number of the alarm. The code table \"alarms\" lists the numbers".into();
+        group.items[0].documentation = Some(Box::new(Documentation { text, ..Documentation::default() }));
+        let device = Device { groups: vec![group], ..Device::default() };
+        let table = |name: &str| CodeTable {
+            name: name.into(),
+            columns: Vec::new(),
+            rows: SharedList::default(),
+            buses: Buses::NONE,
+            documentation: None,
+            stated_by: None,
+            origin: Origin::default(),
+        };
+        let mentions = Mentions::new(&device);
+        assert_eq!(mentions.of_table(&table("alarms")), [Mention::Item(ItemId { group: 0, item: 0 })]);
+        assert_eq!(mentions.of_table(&table("numbers")), []);
+    }
 
     #[test]
     fn names_indices_and_states() {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use socketcan::{CanError, CanSocket, Error, Socket};
 
 use super::frame::CanFrame;
-use super::port::{CanPort, BACKLOG};
+use super::port::{CanPort, MOST_WAITING};
 use crate::clock::{Clock, DefaultClock};
 
 impl CanPort for CanSocket {
@@ -39,7 +39,7 @@ impl CanPort for CanSocket {
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Error> {
         let end = Instant::now().checked_add(patience);
-        let mut waiting = BACKLOG;
+        let mut waiting = MOST_WAITING;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             match self.read_frame_timeout(left) {

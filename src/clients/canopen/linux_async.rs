@@ -9,7 +9,7 @@ use tokio::time::{sleep, timeout, Instant};
 
 use super::frame::CanFrame;
 use super::linux::{is_full, received as frame_of, PAUSE};
-use super::port::{AsyncCanPort, BACKLOG};
+use super::port::{AsyncCanPort, MOST_WAITING};
 
 impl AsyncCanPort for CanSocket {
     type Error = Error;
@@ -36,7 +36,7 @@ impl AsyncCanPort for CanSocket {
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Error> {
         let end = Instant::now().checked_add(patience);
-        let mut waiting = BACKLOG;
+        let mut waiting = MOST_WAITING;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
             // Read a frame that is already in the queue, even if the executor hasn't been notified yet.

@@ -3,7 +3,7 @@
 use core::time::Duration;
 
 use super::frame::CanFrame;
-use super::port::{CanPort, BACKLOG};
+use super::port::{CanPort, MOST_WAITING};
 
 /// Non-blocking interface of `embedded-can` with a clock: a function that returns the time since any fixed moment.
 #[derive(Clone, Debug)]
@@ -49,7 +49,7 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, C::Error> {
         let end = (self.clock)().saturating_add(patience);
-        let mut waiting = BACKLOG;
+        let mut waiting = MOST_WAITING;
         while waiting > 0 {
             let now = (self.clock)();
             let is_late = now >= end;
@@ -78,6 +78,8 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::clients::canopen::Node;
+    use crate::{CobId, NodeId};
 
     fn frame(id: u16) -> CanFrame {
         CanFrame::new(id.into(), &[]).expect("a frame")
@@ -184,6 +186,18 @@ mod tests {
         let mut port = Polled::new(Fifo { is_broken: true, ..Fifo::default() }, || Duration::ZERO);
         let overrun = embedded_can::ErrorKind::Overrun;
         assert_eq!(port.receive(Duration::ZERO, &mut |_| true), Err(overrun));
+    }
+
+    /// The frames of other nodes between two PDOs of a node don't hide the newer PDO.
+    #[test]
+    fn the_newest_pdo_follows_many_frames_of_other_nodes() {
+        let pdo = CobId::from_node(0x180);
+        let others = std::iter::repeat_n(0x300, 1000);
+        let waiting = [0x185].into_iter().chain(others).chain([0x185]).collect();
+        let id = NodeId::new(5).expect("a node-ID");
+        let mut node = Node::new(Polled::new(Fifo { waiting, ..Fifo::default() }, || Duration::ZERO), id);
+        assert_eq!(node.latest_pdo(pdo).map(|found| found.map(|found| found.id())), Ok(Some(0x185)));
+        assert!(node.into_port().into_inner().waiting.is_empty());
     }
 
     #[test]

@@ -218,7 +218,8 @@ function search() {
   found.replaceChildren(...list.map((place, at) => {
     const [name, names, unit] = textsOf(place), page = pages[pageAt[place]], number = printedAt(place).text, item = ownerOf(place);
     const owner = item === place ? "" : `${printedAt(item).text} ${textsOf(item)[0]}`;
-    const kind = number || page.kind === "device" ? page.kind : "page";
+    const kindOfItem = page.kind || (/^0x[0-9A-F]{4}(:|$)/i.test(number) ? "object" : "");
+    const kind = number || page.kind === "device" ? kindOfItem : "page";
     const more = element("small", { textContent: [owner, kind, names, unit, page.title].filter(Boolean).join(" · ") });
     const link = element("a", { role: "option", id: "found-" + at, href: linkOf(place), tabIndex: -1 }, `${number} ${name} `.trimStart(), more);
     return element("li", { role: "presentation" }, link);
