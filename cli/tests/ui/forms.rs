@@ -49,7 +49,7 @@ fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     let text = input.text();
     let mut forms = Vec::new();
     for (name, end) in [("LF", "\n"), ("CRLF", "\r\n"), ("CR", "\r")] {
-        let text = text.replace('\n', end);
+        let text = text.replace("\r\n", "\n").replace('\n', end);
         forms.push((name.to_owned(), text.clone().into_bytes()));
         if is_eds || !text.starts_with("<?xml") {
             forms.push((format!("{name} with a byte order mark"), [b"\xef\xbb\xbf", text.as_bytes()].concat()));

@@ -45,7 +45,7 @@ impl MachineModel {
 
     /// Returns whether the code of the machine uses the runtime.
     pub(super) fn uses_runtime(&self) -> bool {
-        self.has_transitions() || self.types().any(|patterns| patterns.texts.is_some())
+        self.has_transitions() || self.types().any(|patterns| patterns.texts.as_ref().is_some_and(Vec::is_empty))
     }
 
     /// Returns whether the machine has a list of transitions.
@@ -69,6 +69,8 @@ pub(super) struct PatternsModel {
     pub derives: Vec<String>,
     /// Condition for `Display` and `FromStr`. `None` if the options do not request them.
     pub texts: Option<Vec<String>>,
+    /// Path of the runtime in `FromStr`. If a feature adds `FromStr`, nothing else may use the import of the runtime.
+    pub runtime: String,
     /// Primitive integer that holds the bits.
     pub native: &'static str,
     pub patterns: Vec<PatternModel>,
@@ -356,6 +358,10 @@ fn patterns(
         name: name.to_owned(),
         docs: Vec::new(),
         derives: options.derives_of_integers(),
+        runtime: match options.debug {
+            super::Presence::Feature(_) => options.runtime.clone(),
+            _ => "rt".to_owned(),
+        },
         texts: RustOptions::gate(&options.debug),
         native,
         bits: bits.map(|model| (model.name.clone(), methods.map(str::to_owned))),

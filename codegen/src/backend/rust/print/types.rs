@@ -116,14 +116,14 @@ fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     line!(code, "const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
     code.close("}");
     bit_field::format(code, gate, "Display", name, call!("rt::display_name", "*self", "f"));
-    from_str(code, gate, name, call!("rt::parse_name", "text"));
+    from_str(code, gate, name, "rt", call!("rt::parse_name", "text"));
 }
 
-fn from_str(code: &mut Code, gate: &[String], name: &str, body: Doc) {
+fn from_str(code: &mut Code, gate: &[String], name: &str, runtime: &str, body: Doc) {
     code.lines(gate);
     open!(code, "impl core::str::FromStr for ", name, " {");
-    line!(code, "type Err = rt::UnknownName;");
-    open!(code, "fn from_str(text: &str) -> Result<Self, rt::UnknownName> {");
+    line!(code, "type Err = ", runtime, "::UnknownName;");
+    open!(code, "fn from_str(text: &str) -> Result<Self, ", runtime, "::UnknownName> {");
     line!(code, body);
     code.close("}");
     code.close("}");
@@ -229,7 +229,8 @@ fn patterns(code: &mut Code, patterns: &PatternsModel, noun: &str) {
     code.close("}");
     if let Some(gate) = &patterns.texts {
         bit_field::format(code, gate, "Display", name, call!("f.pad", "Self::NAMES[*self as usize].1"));
-        from_str(code, gate, name, call!("rt::find_name", "Self::NAMES", "text"));
+        let runtime = &patterns.runtime;
+        from_str(code, gate, name, runtime, call!(seq![runtime, "::find_name"], "Self::NAMES", "text"));
     }
 }
 

@@ -199,9 +199,11 @@ impl<'v> Field<'v> {
         let at = || seq![data, "[", byte, "]"];
         let cut = |name: &str| call!(seq!["rt::profinet::be::", name], data, byte, bit, bits);
         if let Some(enumeration) = self.enumeration {
+            // The enumeration can be defined for a type with another number of bits.
+            let is_whole = enumeration.native == native(self.is_signed(), bits);
             let raw = match self.kind {
-                FieldKind::Native { signed: false } if bits == 8 => at(),
-                FieldKind::Native { .. } if bits > 8 => from_bytes(enumeration.native),
+                FieldKind::Native { signed: false } if bits == 8 && is_whole => at(),
+                FieldKind::Native { .. } if bits > 8 && is_whole => from_bytes(enumeration.native),
                 _ => cut(&format!("bits_{}", enumeration.native)),
             };
             return call!(seq![enumeration.path, "::from_raw"], raw);
@@ -225,7 +227,14 @@ impl<'v> Field<'v> {
     /// mutable reference to it.
     pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> Doc {
         let FieldPosition { byte, bit, bits } = self.position;
-        let raw = if self.enumeration.is_some() { format!("{value}.raw()") } else { value.to_owned() };
+        let number = native(self.is_signed(), bits);
+        let raw = match self.enumeration {
+            Some(other) if other.native != number && matches!(self.kind, FieldKind::Native { .. }) => {
+                format!("({value}.raw() as {number})")
+            }
+            Some(_) => format!("{value}.raw()"),
+            None => value.to_owned(),
+        };
         let at = || seq![data, "[", byte, "] = "];
         let put = |bytes: Doc| seq![call!("rt::profinet::be::put", reference, byte, bytes), ";"];
         match self.kind {
