@@ -82,6 +82,8 @@ mod chapters {
     mod diff {}
     #[doc = include_str!("src/site.md")]
     mod site {}
+    #[doc = include_str!("src/ci.md")]
+    mod ci {}
     #[doc = include_str!("src/diagnostics.md")]
     mod diagnostics {}
     #[doc = include_str!("src/lints.md")]
