@@ -229,9 +229,10 @@ impl<'v> Field<'v> {
         let FieldPosition { byte, bit, bits } = self.position;
         let number = native(self.is_signed(), bits);
         let raw = match self.enumeration {
-            Some(other) if other.native != number && matches!(self.kind, FieldKind::Native { .. }) => {
-                format!("({value}.raw() as {number})")
-            }
+            Some(other) if other.native != number && matches!(self.kind, FieldKind::Native { .. }) => match number {
+                "u8" => format!("{value}.raw() as u8"),
+                _ => format!("({value}.raw() as {number})"),
+            },
             Some(_) => format!("{value}.raw()"),
             None => value.to_owned(),
         };
