@@ -9,7 +9,7 @@ const FOUND = [
   ["aec-s-r-l/vector-step/no-revision/index.html", "24640", /^0x6040 Controlword/, "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040"],
   ["aec-s-r-l/vector-step/no-revision/index.html", "0x1403:01", /^0x1403:01 /, "aec-s-r-l/vector-step/no-revision/communication-objects.html#0x1403:01"],
   ["aec-s-r-l/vector-step/no-revision/index.html", "rposact", /^0x2000:01 Rposact/, "aec-s-r-l/vector-step/no-revision/position-registers.html#Rposact"],
-  ["aec-s-r-l/vector-step/no-revision/codes.html", "impulsi giro encoder 1", /^0x4729:01 Renc1pulse Impulsi giro/, "aec-s-r-l/vector-step/no-revision/encoder-1.html#Renc1pulse"],
+  ["aec-s-r-l/vector-step/no-revision/codes.html", "impulsi giro encoder 1", /^0x4729:01 Renc1pulse object · Impulsi giro/, "aec-s-r-l/vector-step/no-revision/encoder-1.html#Renc1pulse"],
   ["hsd-s-p-a/hsd-motor/no-revision/index.html", "0x0105", /^parameter 0x0105 KP_VEL/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
   ["hsd-s-p-a/hsd-motor/no-revision/index.html", "261", /^parameter 0x0105 KP_VEL/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
   ["hsd-s-p-a/hsd-motor/no-revision/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-s-p-a/hsd-motor/no-revision/messages.html#Poll_theoretical_position"],
