@@ -84,7 +84,7 @@ pub fn find_name<T: Copy>(names: &[(T, &str)], text: &str) -> Result<T, UnknownN
     found.map(|(value, _)| *value).ok_or(UnknownName)
 }
 
-/// Returns the value with this name, ignoring case, or the value for an integer in decimal. Generated code calls this
+/// Returns the value with this name, as [`find_name`] does, or the value for an integer in decimal. Generated code calls this
 /// function. If several values have the name, the function returns the first.
 ///
 /// # Errors

@@ -67,8 +67,8 @@ impl StreamFault {
 /// # Ok::<(), std::io::Error>(())
 /// ```
 ///
-/// With the traits of `std::io`, `write` blocks the device until the delay of a late message has passed. `W` is the function that waits, by default
-/// `std::thread::sleep`. With the feature `modbus`, the stream also implements the traits of `tokio::io`. There, `write`
+/// With the traits of `std::io`, `write` blocks the device until the delay of a late message has passed. `W` is the function that
+/// waits, by default `std::thread::sleep`. With the feature `modbus`, the stream also implements the traits of `tokio::io`. There, `write`
 /// returns at once. The device sends a late message while it reads, flushes the stream or writes the next message. The
 /// runtime needs timers. Use the stream in one task: if `tokio::io::split` divides it between tasks, a late message can wait for the
 /// next call of the other task.

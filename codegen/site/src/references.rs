@@ -157,7 +157,6 @@ impl<'d> Targets<'d> {
             Referrer::WritableWhen(item) => related.dependents.extend(self.item(Some(item)).cloned()),
             Referrer::Replaced(item) => related.replaced.extend(self.item(Some(item)).cloned()),
             Referrer::Related(item) => related.items.extend(self.item(Some(item)).cloned()),
-            Referrer::Composite(_) => {}
         }
     }
 

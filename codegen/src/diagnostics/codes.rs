@@ -477,8 +477,8 @@ codes! {
         "An object, template or text refers to an element by its uniqueID, and no element has it. Lexibus ignores the \
         reference, so the content of the target is missing. Correct the uniqueID, or add the element."
     XDD005 UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in CiA 311"
-        "Lexibus keeps the element or attribute as an extension attribute if it has a value. Tools add attributes of their \
-        own to objects, so this lint is off by default. Turn the lint on to find misspelled names."
+        "Lexibus keeps the element or attribute as an extension attribute if it has a value. Many tools add \
+        attributes to objects, so this lint is off by default. Turn the lint on to find misspelled names."
     XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
         "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
         a prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if \

@@ -27,20 +27,21 @@ pub struct Mentions<'d> {
     objects: HashMap<u16, Mention>,
     /// States, which texts mention in quotes.
     states: HashMap<&'d str, Vec<Mention>>,
-    /// Items whose descriptions contain a quoted word, such as the name of a code table.
-    quoted: HashMap<&'d str, Vec<Mention>>,
+    /// Items whose descriptions contain the name of a code table in quotes.
+    of_tables: HashMap<&'d str, Vec<Mention>>,
 }
 
 impl<'d> Mentions<'d> {
     /// Collects the names of a device.
     pub fn new(device: &'d Device) -> Self {
         let mut mentions = Mentions::default();
+        let tables: HashSet<&str> = device.code_tables.iter().map(|table| table.name.as_str()).collect();
         for (position, group) in (0..).zip(&device.groups) {
             for (id, item) in group.items_at(position) {
                 mentions.add(item.name.as_str(), Mention::Item(id));
                 let text = item.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
-                for quoted in quoted(text) {
-                    mentions.quoted.entry(quoted).or_default().push(Mention::Item(id));
+                for table in quoted(text).filter(|name| tables.contains(name)) {
+                    mentions.of_tables.entry(table).or_default().push(Mention::Item(id));
                 }
                 if let Some((index, _)) = item.object() {
                     mentions.objects.entry(index).or_insert(Mention::Object(index, id));
@@ -71,7 +72,7 @@ impl<'d> Mentions<'d> {
     pub fn of_table(&self, table: &CodeTable) -> Vec<Mention> {
         let mut all = self.of_documentation(table.documentation.as_deref());
         let known: HashSet<Mention> = all.iter().copied().collect();
-        let items = self.quoted.get(table.name.as_str()).into_iter().flatten();
+        let items = self.of_tables.get(table.name.as_str()).into_iter().flatten();
         all.extend(items.filter(|mention| !known.contains(mention)));
         all
     }
@@ -160,7 +161,7 @@ mod tests {
         group.items.push(Item::new(Binding::canopen(0x2000, 0)));
         let text = "Number of the alarm. The code table \"alarms\" lists the numbers".into();
         group.items[0].documentation = Some(Box::new(Documentation { text, ..Documentation::default() }));
-        let device = Device { groups: vec![group], ..Device::default() };
+        let mut device = Device { groups: vec![group], ..Device::default() };
         let table = |name: &str| CodeTable {
             name: name.into(),
             columns: Vec::new(),
@@ -170,6 +171,7 @@ mod tests {
             stated_by: None,
             origin: Origin::default(),
         };
+        device.code_tables.extend([table("alarms"), table("numbers")]);
         let mentions = Mentions::new(&device);
         assert_eq!(mentions.of_table(&table("alarms")), [Mention::Item(ItemId { group: 0, item: 0 })]);
         assert_eq!(mentions.of_table(&table("numbers")), []);

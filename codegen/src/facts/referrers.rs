@@ -15,8 +15,6 @@ pub enum Referrer {
     Procedure(ProcedureId),
     /// A message that the device accepts only for some values of the item.
     Message(MessageId),
-    /// A composite number with the item as a part.
-    Composite(usize),
     /// A type whose bits or values depend on the item.
     Type(TypeId),
     /// An item that can be written only for some values of this item.
@@ -48,9 +46,6 @@ impl Referrers {
         }
         for (id, message) in (0..).map(MessageId).zip(&device.messages) {
             referrers.add_all(items_of(&message.accepted_when), Referrer::Message(id));
-        }
-        for (at, composite) in device.composites.iter().enumerate() {
-            referrers.add_all(&composite.parts, Referrer::Composite(at));
         }
         for (id, definition) in (0..).map(TypeId).zip(&device.types) {
             referrers.of_type(id, definition);

@@ -14,12 +14,12 @@ const namedRows = (section, kind) => [...section.querySelectorAll(`.${kind} tr[i
 // Returns the commands of the shortest path to each state. The reactions to a fault, which can start in any state, are no way to a state.
 // No path leads through an energized state, or from a state without a fault through a fault state.
 function nextSteps(transitions, from, classes) {
-  const steps = new Map(), paths = new Map([[from, []]]);
+  const steps = new Map(), paths = new Map([[from, []]]), isFault = (state) => classes.get(state) === "fault";
   for (const [state, path] of paths) {
     for (const { source, to, command } of transitions) {
       if (source === "any state" && command === "automatic") continue;
       if ((source !== state && source !== "any state") || to === from) continue;
-      const next = [...path, command], isFault = (name) => classes.get(name) === "fault";
+      const next = [...path, command];
       if (!steps.has(to)) steps.set(to, next);
       if (!paths.has(to) && classes.get(to) !== "energized" && (!isFault(to) || isFault(state))) paths.set(to, next);
     }
