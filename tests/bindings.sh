@@ -26,9 +26,9 @@ lexibus generate benches/instructions/axis.esi.xml -A warnings \
 lexibus generate tests/data/drive.gsdml.xml \
     --out benches/instructions/src/station.rs "$@"
 lexibus schema --out dictionaries/table.schema.json "$@"
-catalogue=$(lexibus explain --format markdown)
+catalog=$(lexibus explain --format markdown)
 if [[ ${1:-} == --check ]]; then
-    diff docs/src/lints.md <(echo "$catalogue") || { echo "docs/src/lints.md is stale: run tests/bindings.sh"; exit 1; }
+    diff docs/src/lints.md <(echo "$catalog") || { echo "docs/src/lints.md is stale: run tests/bindings.sh"; exit 1; }
 else
-    echo "$catalogue" >docs/src/lints.md
+    echo "$catalog" >docs/src/lints.md
 fi

@@ -32,7 +32,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     };
     let summary = Summary::of(&changes);
     let last = last_class(diff.show);
-    changes.retain(|change| change.judgement.class() <= last);
+    changes.retain(|change| change.judgment.class() <= last);
     let text = report(diff, &changes, summary)?;
     match &diff.out {
         Some(path) => write_if_changed(path, &text)

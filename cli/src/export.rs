@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::{Catalog, Device};
-use lexibus_export::eds::{self, Flavour, Reals};
+use lexibus_export::eds::{self, Flavor, Reals};
 use lexibus_export::{esi, gsdml, Export as Exported, Refusal};
 
 use super::args::{Export, ExportFormat, MessageFormat, RealForm};
@@ -27,8 +27,8 @@ impl Format {
             Some(RealForm::Hex) => Reals::Pattern,
         };
         let mut format = match export.format {
-            ExportFormat::Eds => Format::Eds(eds::Options { flavour: Flavour::Eds, reals }),
-            ExportFormat::Dcf => Format::Eds(eds::Options { flavour: Flavour::Dcf, reals }),
+            ExportFormat::Eds => Format::Eds(eds::Options { flavor: Flavor::Eds, reals }),
+            ExportFormat::Dcf => Format::Eds(eds::Options { flavor: Flavor::Dcf, reals }),
             ExportFormat::Esi => Format::Esi(Box::default()),
             ExportFormat::Gsdml => Format::Gsdml(Box::default()),
         };
@@ -57,7 +57,7 @@ impl Format {
 
     fn ending(&self) -> &'static str {
         match self {
-            Format::Eds(eds::Options { flavour: Flavour::Eds, .. }) => "eds",
+            Format::Eds(eds::Options { flavor: Flavor::Eds, .. }) => "eds",
             Format::Eds(_) => "dcf",
             Format::Esi(_) | Format::Gsdml(_) => "xml",
         }

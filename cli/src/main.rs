@@ -156,8 +156,8 @@ fn dump_files(inputs: &Inputs) -> Result<bool, Failure> {
 
 fn explain(code: Option<&str>, format: ExplainFormat) -> Result<bool, Failure> {
     let text = match code {
-        None if format == ExplainFormat::Markdown => explain::markdown::catalogue(),
-        None => explain::catalogue(),
+        None if format == ExplainFormat::Markdown => explain::markdown::catalog(),
+        None => explain::catalog(),
         Some(name) => match codes::find(name) {
             Some(code) if format == ExplainFormat::Markdown => explain::markdown::explain(code),
             Some(code) => explain::explain(code),

@@ -170,9 +170,9 @@ fn tables_are_tables() {
 }
 
 #[test]
-fn the_catalogue_of_codes_is_todays() {
+fn the_catalog_of_codes_is_todays() {
     let output = run("lexibus explain --format markdown", &docs()).expect("an output");
-    let text = std::fs::read_to_string(docs().join("src/lints.md")).expect("the catalogue");
+    let text = std::fs::read_to_string(docs().join("src/lints.md")).expect("the catalog");
     let is_same = String::from_utf8(output.stdout).expect("UTF-8") == text;
     assert!(is_same, "docs/src/lints.md is stale: tests/bindings.sh writes it again");
 }

@@ -93,7 +93,7 @@ fn wrong_tables_do_not_pass() {
         "[device]\nname = \"x\"\n".to_owned(),
         "lexibus = 2\n[device]\nname = \"x\"\n".to_owned(),
         "lexibus = 1\n".to_owned(),
-        format!("{head}colour = \"red\"\n"),
+        format!("{head}color = \"red\"\n"),
         format!("{head}buses = [\"can\"]\n"),
         format!("{head}vendor_id = \"0x10\"\n"),
         chapter("registers.a = { reg = 1, type = \"u16\", access = \"r/w\" }"),

@@ -87,7 +87,7 @@ fn pdos_that_follow_from_a_number() {
     let text = "[DeviceInfo]\nProductName=X\nCompactPDO=0x3F\nNrOfRXPDO=600\nNrOfTXPDO=0\n\
                 [2000]\nParameterName=A\nDataType=5\nAccessType=rw\n";
     let compilation = checked("pdos.eds", text.to_owned());
-    let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+    let device = &compilation.catalog.as_ref().expect("a catalog").devices[0];
     let made = device.groups.iter().filter(|group| group.index().is_some_and(|index| index < 0x1600)).count();
     assert_eq!(made, usize::from(limits::MAX_IMPLICIT_PDOS));
     assert_eq!(count(&compilation, "PDO010"), 1, "{:?}", codes(&compilation));
@@ -211,7 +211,7 @@ fn messages_of_a_table() {
     let messages = |number: usize| {
         let all = (0..number).map(|at| format!("[[messages]]\nname = \"m{at}\"\nrequest = [{{ bytes = [1] }}]\n"));
         let compilation = protocol(&all.collect::<String>());
-        let kept = compilation.catalog.as_ref().expect("a catalogue").devices[0].messages.len();
+        let kept = compilation.catalog.as_ref().expect("a catalog").devices[0].messages.len();
         (count(&compilation, "IO003"), kept)
     };
     assert_eq!(messages(limits::MAX_MESSAGES), (0, limits::MAX_MESSAGES));
@@ -228,7 +228,7 @@ fn rows_of_state_machines() {
              [machines.b]\nstates = \"State\"\n",
             "d".repeat(doc)
         ));
-        let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+        let device = &compilation.catalog.as_ref().expect("a catalog").devices[0];
         (
             count(&compilation, "IO003"),
             device.machines.iter().map(|machine| machine.name.to_string()).collect::<Vec<_>>(),
@@ -256,7 +256,7 @@ fn notes_of_many_cells() {
              [machines.a.matrix]\nstates = [{list}]\n[machines.a.matrix.notes]\n1 = \"{}\"\n[machines.a.matrix.rows]\n{rows}",
             "n".repeat(length)
         ));
-        (count(&compilation, "IO003"), compilation.catalog.as_ref().expect("a catalogue").devices[0].machines.len())
+        (count(&compilation, "IO003"), compilation.catalog.as_ref().expect("a catalog").devices[0].machines.len())
     };
     assert_eq!(machine(1000), (0, 1));
     assert_eq!(machine(2 * limits::ROW_BYTES_PER_ITEM), (1, 0));

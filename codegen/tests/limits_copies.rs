@@ -21,7 +21,7 @@ fn is_bounded(compilation: &Compilation) {
 fn is_bounded_by(compilation: &Compilation, items: usize) {
     let found = compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count();
     assert_eq!(found, 1, "{}", compilation.diagnostics.list().len());
-    let made = serde_json::to_vec(&compilation.catalog).expect("a catalogue").len();
+    let made = serde_json::to_vec(&compilation.catalog).expect("a catalog").len();
     let given: usize = compilation.sources.iter().map(|source| source.text().len()).sum();
     // An item without texts, or with an empty text, has a few hundred bytes.
     let most = given * (limits::MAX_COPIES_PER_BYTE + 20) + items * 2_000;
@@ -85,7 +85,7 @@ fn the_name_of_a_vendor_for_its_devices() {
     let text = esi(&long("v"), "", "").replace("<Devices>", &format!("<Devices>{}", device.repeat(5_000)));
     let compilation = read("vendor.xml", &text);
     is_bounded(&compilation);
-    let devices = &compilation.catalog.as_ref().expect("a catalogue").devices;
+    let devices = &compilation.catalog.as_ref().expect("a catalog").devices;
     assert!(devices.iter().all(|device| device.identity.vendor_id == Some(1)));
 }
 
@@ -114,7 +114,7 @@ fn texts_of_a_message_for_its_languages() {
     is_bounded(&of(5_000));
     let few = of(3);
     assert_eq!(few.diagnostics.list().len(), 0);
-    let rows = &few.catalog.as_ref().expect("a catalogue").code_tables[0].rows;
+    let rows = &few.catalog.as_ref().expect("a catalog").code_tables[0].rows;
     assert_eq!(rows[0].documentation.as_ref().expect("texts").translations.len(), 2);
 }
 
@@ -140,7 +140,7 @@ fn the_name_of_an_object_for_the_entries_that_map_it() {
     let text = esi("V", "", &object)
         .replace("</Device>", &format!("<RxPdo Sm='2'><Index>#x1600</Index><Name>P</Name>{entries}</RxPdo></Device>"));
     let compilation = read("entries.xml", &text);
-    let pdo = &compilation.catalog.as_ref().expect("a catalogue").devices[0].process_data.pdos[0];
+    let pdo = &compilation.catalog.as_ref().expect("a catalog").devices[0].process_data.pdos[0];
     assert!(pdo.entries.iter().all(|entry| entry.name.len() == 64));
 }
 

@@ -10405,7 +10405,7 @@ pub mod codes {
             "The motor has reached the negative limit switch. Available only on SM140.",
             &[
                 rt::codes::Cell::Text(
-                    "move towards higher positions, or disable the limit switch",
+                    "move toward higher positions, or disable the limit switch",
                 ),
             ],
         ),
@@ -10416,7 +10416,7 @@ pub mod codes {
             "The motor has reached the positive limit switch. Available only on SM140.",
             &[
                 rt::codes::Cell::Text(
-                    "move towards lower positions, or disable the limit switch",
+                    "move toward lower positions, or disable the limit switch",
                 ),
             ],
         ),

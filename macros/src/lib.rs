@@ -239,7 +239,7 @@ mod tests {
                 "`a feature` cannot be used as the name of a cargo feature",
             ),
             ("mod drive = \"a.eds\" { acessors: true }", "unknown option `acessors`; did you mean `accessors`?"),
-            ("mod drive = \"a.eds\" { colour: true }", "unknown option `colour`; the options are device, module"),
+            ("mod drive = \"a.eds\" { color: true }", "unknown option `color`; the options are device, module"),
             ("mod drive = \"a.eds\" { objects: \"6000..\" }", "6000.."),
             ("mod drive = \"a.eds\" { deny: \"EDS999999\" }", "EDS999999"),
             ("mod drive = \"a.eds\" { strict: true strict: true }", "expected `,`"),

@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn known_checks() {
         let digits = b"123456789";
-        // These are the check values of the CRC catalogue for MODBUS and ARC.
+        // These are the check values of the CRC catalog for MODBUS and ARC.
         assert_eq!(Check::Crc16(0xFFFF).of(digits), 0x4B37_u16.to_le_bytes());
         assert_eq!(Check::Crc16(0).of(digits), 0xBB3D_u16.to_le_bytes());
         // The sum of the digits is 477, which is 0x1DD.

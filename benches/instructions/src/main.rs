@@ -48,7 +48,7 @@ mod tests {
 
     /// Packing an unnamed enumeration value must not change the bits next to its field.
     #[test]
-    fn enumerations_leave_their_neighbours_alone() {
+    fn enumerations_leave_their_neighbors_alone() {
         use lexibus_instructions::axis::{pdo::Encoder, types::Mode};
 
         let zero = Encoder::unpack(&[0; 6]).unwrap();

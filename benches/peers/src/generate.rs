@@ -39,7 +39,7 @@ fn alone() -> Table {
     // The EDS has 1,110 records with nine entries each.
     let bytes = growing(InputFormat::Eds, 111);
     let compilation = check("bench.eds".to_owned(), bytes);
-    let catalog = compilation.catalog.as_ref().expect("a catalogue");
+    let catalog = compilation.catalog.as_ref().expect("a catalog");
     let options = RustOptions::default();
     let emit = |()| Ok(rust::emit(&catalog.devices[0], &catalog.files[0], &options));
     let outcome = in_turns(&mut [Contestant::new("Lexibus", || (), emit)]).remove(0);

@@ -24,7 +24,7 @@ pub fn explain(code: &Code) -> String {
 }
 
 /// Returns one line per code: identifier, name, class, default level and summary.
-pub fn catalogue() -> String {
+pub fn catalog() -> String {
     let width = |column: fn(&Code) -> &str| CODES.iter().map(|code| column(code).len()).max().unwrap_or(0);
     let (ids, names) = (width(|code| code.id), width(|code| code.name));
     let line = |code: &&Code| {
@@ -101,11 +101,11 @@ mod tests {
     }
 
     #[test]
-    fn the_catalogue_has_a_line_per_code() {
-        let catalogue = catalogue();
-        assert_eq!(catalogue.lines().count(), codes::CODES.len());
+    fn the_catalog_has_a_line_per_code() {
+        let catalog = catalog();
+        assert_eq!(catalog.lines().count(), codes::CODES.len());
         let columns = |id: &str| {
-            let line = catalogue.lines().find(|line| line.starts_with(id)).unwrap();
+            let line = catalog.lines().find(|line| line.starts_with(id)).unwrap();
             line.split_whitespace().take(4).collect::<Vec<_>>().join(" ")
         };
         assert_eq!(columns("EDS020"), "EDS020 octal-number repair warn");

@@ -23,7 +23,7 @@ const FAMILIES: [(&str, &str); 11] = [
 
 /// Returns the catalog. The catalog has one chapter per family and one section per code. The code is the anchor of the
 /// section.
-pub fn catalogue() -> String {
+pub fn catalog() -> String {
     let mut text = String::from(
         "# The catalog of codes\n\nThis page is the output of `lexibus explain --format markdown`. \
          [Diagnostics](diagnostics.md) explains classes and levels, and how to set a level. \
@@ -114,8 +114,8 @@ mod tests {
     }
 
     #[test]
-    fn every_code_is_in_the_catalogue() {
-        let text = catalogue();
+    fn every_code_is_in_the_catalog() {
+        let text = catalog();
         for code in CODES {
             assert_eq!(text.matches(&format!("<a id=\"{}\"></a>", code.id)).count(), 1, "{}", code.id);
         }

@@ -4,5 +4,5 @@ mod codes;
 mod example;
 pub mod markdown;
 
-pub use codes::{catalogue, explain};
+pub use codes::{catalog, explain};
 use codes::{level, strictness};

@@ -30,9 +30,9 @@ pub fn others(compilation: &Compilation) -> Outputs {
     };
     let Some(catalog) = &compilation.catalog else { return outputs };
     outputs.dump = json::dump(catalog);
-    for flavour in [eds::Flavour::Eds, eds::Flavour::Dcf] {
+    for flavor in [eds::Flavor::Eds, eds::Flavor::Dcf] {
         let devices = catalog.devices.iter().enumerate();
-        let export = |(at, device)| Some((at, eds::export(catalog, device, flavour)?.text));
+        let export = |(at, device)| Some((at, eds::export(catalog, device, flavor)?.text));
         outputs.eds.extend(devices.filter_map(export));
     }
     outputs.esi = completed(|options| esi::export(catalog, options), esi::Options::set);

@@ -114,9 +114,9 @@ fn changes_between_two_versions() {
     );
     let output = lexibus(&["diff", &old, &other, "--format", "json"]);
     let line: serde_json::Value = serde_json::from_str(out(&output).lines().next().expect("a change")).expect("JSON");
-    let judgement = [&line["api"], &line["wire"], &line["behavior"]];
+    let judgment = [&line["api"], &line["wire"], &line["behavior"]];
     assert_eq!(
-        (&line["fact"], judgement),
+        (&line["fact"], judgment),
         (&"type".into(), [&"breaking".into(), &"breaking".into(), &"unaffected".into()])
     );
     let page = folder.join("page.html");

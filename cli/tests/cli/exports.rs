@@ -83,7 +83,7 @@ fn export_writes_an_esi_and_asks_for_what_the_source_lacks() {
     let many = lexibus(&["export", "--format", "esi", COUPLER, "-A", "warnings"]);
     assert_eq!(code(&many), 0, "{}", err(&many));
     assert!(out(&many).matches("<Device ").count() > 1, "all devices are in one file");
-    for (key, what) in [("colour=red", "unknown option `colour`"), ("vendor-id=x", "a number of up to 32 bits")] {
+    for (key, what) in [("color=red", "unknown option `color`"), ("vendor-id=x", "a number of up to 32 bits")] {
         let wrong = lexibus(&["export", "--format", "esi", DEMO, "--set", key]);
         assert_eq!(code(&wrong), 2);
         assert!(err(&wrong).contains(what), "{}", err(&wrong));

@@ -123,8 +123,8 @@ fn findings_show_the_line_and_decide_the_exit_code() {
     assert_eq!(code(&lexibus(&["check", &path, "--strict", "-A", "EDS020"])), 0);
     assert_eq!(code(&lexibus(&["check", &path, "-D", "warnings", "-A", "warnings"])), 0, "the last setting counts");
     assert_eq!(code(&lexibus(&["check", &path, "-A", "warnings", "-D", "warnings"])), 1, "the last setting counts");
-    let coloured = lexibus(&["check", &path, "--color", "always"]);
-    assert!(err(&coloured).contains('\u{1b}'));
+    let colored = lexibus(&["check", &path, "--color", "always"]);
+    assert!(err(&colored).contains('\u{1b}'));
 }
 
 #[test]

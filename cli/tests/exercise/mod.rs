@@ -92,6 +92,6 @@ fn exported(catalog: &Catalog) {
     let _ = esi::export(catalog, &esi::Options::default());
     let _ = gsdml::export(catalog, &gsdml::Options::default());
     for device in catalog.devices.iter().take(2) {
-        eds::export(catalog, device, eds::Flavour::Dcf);
+        eds::export(catalog, device, eds::Flavor::Dcf);
     }
 }

@@ -5,7 +5,7 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Severity};
 use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
-use lexibus_export::eds::{self, Flavour, Reals};
+use lexibus_export::eds::{self, Flavor, Reals};
 use lexibus_export::{esi, gsdml, json, Export, Refusal};
 use lexibus_import::import;
 use lexibus_site::compare::{compare, Summary};
@@ -140,10 +140,10 @@ fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<E
     Ok(match name {
         "eds" | "dcf" => {
             options.select.mapping_objects(&mut catalog);
-            let flavour = if name == "eds" { Flavour::Eds } else { Flavour::Dcf };
+            let flavor = if name == "eds" { Flavor::Eds } else { Flavor::Dcf };
             let device = catalog.devices.first().ok_or("there is no device to export")?;
             let reals = if case.settings.real_hex { Reals::Pattern } else { Reals::Decimal };
-            eds::export(&catalog, device, eds::Options { flavour, reals }).ok_or(Refusal::Nothing)
+            eds::export(&catalog, device, eds::Options { flavor, reals }).ok_or(Refusal::Nothing)
         }
         "esi.xml" => {
             let mut options = esi::Options::default();

@@ -146,6 +146,6 @@ pub fn lints_declare_their_codes(cases: &[Case]) -> Trial {
         if unknown.is_empty() && undeclared.is_empty() && silent.is_empty() {
             return Ok(());
         }
-        Err(format!("not in the catalogue: {unknown:?}; not declared: {undeclared:?}; no case: {silent:?}").into())
+        Err(format!("not in the catalog: {unknown:?}; not declared: {undeclared:?}; no case: {silent:?}").into())
     })
 }

@@ -24,7 +24,7 @@ pub fn read(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
 /// Measures the passes that convert IR to checked IR.
 pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let count = BytesCount::new(bytes.len());
-    let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalogue");
+    let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalog");
     bencher.counter(count).with_inputs(|| catalog.clone()).bench_values(|mut catalog| {
         let mut diagnostics = Diagnostics::default();
         resolve(&mut catalog, Profiles::Applied, &mut diagnostics);

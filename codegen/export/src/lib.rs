@@ -11,7 +11,7 @@
 //! let table = "lexibus = 1\n[device]\nname = \"Pump\"\nbuses = [\"canopen\"]\n[[chapters]]\n[chapters.objects]\n\
 //!              0x2000 = { name = \"Speed\", type = \"u16\", access = \"rw\" }\n";
 //! let catalog = check(Source::new("pump.toml", table.into()), &Options::default()).catalog.expect("a device");
-//! let file = eds::export(&catalog, &catalog.devices[0], eds::Flavour::Eds).expect("a device with objects");
+//! let file = eds::export(&catalog, &catalog.devices[0], eds::Flavor::Eds).expect("a device with objects");
 //! assert!(file.text.contains("[2000]\r\nParameterName=Speed\r\n"));
 //! ```
 

@@ -99,7 +99,7 @@ kinds! {
     /// A PDO that no object describes.
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
     /// Storage behavior, side effects or conditions of an item.
-    Behaviour = "behaviour", "storage, conditions or side effects left out";
+    Behavior = "behavior", "storage, conditions or side effects left out";
     /// The models, versions or options in which an item exists.
     Availability = "availability", "models, versions or options of an item left out";
     /// A reference to another item that contains the same value or a part of it, or a mark as reserved or optional.

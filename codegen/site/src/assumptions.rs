@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::area::Area;
 use super::codes::Codes;
 use super::entry::Doubt;
-use super::machines::Behaviour;
+use super::machines::Behavior;
 use super::process::Frame;
 use super::protocol::Protocol;
 use super::split::Section;
@@ -73,7 +73,7 @@ pub(super) struct AmbiguitySources<'d> {
     /// The page of messages, if there is one.
     pub protocol: Option<(&'d str, &'d Protocol)>,
     /// The page of state machines and procedures, if there is one.
-    pub behaviour: Option<(&'d str, &'d Behaviour)>,
+    pub behavior: Option<(&'d str, &'d Behavior)>,
     /// The pages of code tables.
     pub codes: &'d [(String, String, Vec<Codes>)],
 }
@@ -133,9 +133,9 @@ impl<'d> AmbiguitySources<'d> {
                 }
             }
         }
-        if let Some((file, behaviour)) = self.behaviour {
-            let of_machines = behaviour.machines.iter().flat_map(|machine| &machine.doubts);
-            let doubts = of_machines.chain(behaviour.sequences.iter().flat_map(|sequence| &sequence.doubts));
+        if let Some((file, behavior)) = self.behavior {
+            let of_machines = behavior.machines.iter().flat_map(|machine| &machine.doubts);
+            let doubts = of_machines.chain(behavior.sequences.iter().flat_map(|sequence| &sequence.doubts));
             doubts.for_each(|doubt| visitor(file.to_owned(), "", doubt));
         }
         let mut visit_all = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {

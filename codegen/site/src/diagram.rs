@@ -102,8 +102,8 @@ struct Plan<'m> {
 pub(super) fn diagram(machine: &StateMachine, patterns: &[String]) -> Option<Diagram> {
     let plan = Plan::new(machine, patterns)?;
     let gaps = (GAP..MOST_GAP).step_by(GAP_STEP as usize);
-    let labelled = gaps.map(|gap| plan.drawn(gap)).find(|(_, is_complete)| *is_complete);
-    Some(labelled.unwrap_or_else(|| plan.drawn(MOST_GAP)).0)
+    let labeled = gaps.map(|gap| plan.drawn(gap)).find(|(_, is_complete)| *is_complete);
+    Some(labeled.unwrap_or_else(|| plan.drawn(MOST_GAP)).0)
 }
 
 impl<'m> Plan<'m> {

@@ -233,8 +233,8 @@ impl Rows<'_> {
             facts.extend(PLAIN.notes(quantity));
         }
         facts.extend(PLAIN.origins(item));
-        if let Some(behaviour) = &item.behaviour {
-            facts.extend(PLAIN.behaviour(behaviour));
+        if let Some(behavior) = &item.behavior {
+            facts.extend(PLAIN.behavior(behavior));
         }
         facts.extend(PLAIN.variants(item, self.known.manual));
         facts.extend(item.availability.as_ref().map(|availability| PLAIN.availability(availability)));

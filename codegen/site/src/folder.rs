@@ -260,13 +260,13 @@ impl<'a> Folder<'a> {
             About { buses: pdo::buses(device), manual, doubts: &device.doubts },
         );
         let protocol = protocol::protocol(device, manual);
-        let behaviour = machines::behaviour(device, manual);
+        let behavior = machines::behavior(device, manual);
         let tables = split::pages(codes::tables(device, manual));
         let mut parts = Parts {
             overview,
             process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
-            behaviour: further(behaviour.is_some(), "States and procedures").zip(behaviour),
+            behavior: further(behavior.is_some(), "States and procedures").zip(behavior),
             codes: Vec::new(),
             areas,
             data: ProcessPart { frames, builder: builder::data(device, &usage) },
@@ -291,10 +291,10 @@ impl<'a> Folder<'a> {
             self.index_page(file, "", "Messages", "");
             indexing::messages(&mut self.index, protocol);
         }
-        if let Some((file, behaviour)) = &parts.behaviour {
-            self.page(frame, file, Content::Machines(behaviour));
+        if let Some((file, behavior)) = &parts.behavior {
+            self.page(frame, file, Content::Machines(behavior));
             self.index_page(file, "", "States and procedures", "");
-            indexing::behaviour(&mut self.index, behaviour);
+            indexing::behavior(&mut self.index, behavior);
         }
         for (file, title, tables) in &parts.codes {
             self.page(frame, file, Content::Codes(tables));

@@ -10,7 +10,7 @@ use super::bits::{self, Grids};
 use super::codes::Codes;
 use super::diagnostics::DiagnosticGroup;
 use super::list::{self, Column};
-use super::machines::Behaviour;
+use super::machines::Behavior;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
@@ -57,7 +57,7 @@ templates! {
     ProcessPage = "process.html" { part: &'p ProcessPart, sync_managers: &'p [SyncManager] }
     ProtocolPage = "protocol.html" { protocol: &'p Protocol, grids: &'p Grids }
     CodesPage = "codes.html" { tables: &'p [Codes] }
-    MachinesPage = "machines.html" { behaviour: &'p Behaviour }
+    MachinesPage = "machines.html" { behavior: &'p Behavior }
     ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
@@ -178,7 +178,7 @@ impl Pages for Html {
                 written(&ProtocolPage { frame, file, protocol, grids })
             }
             Content::Codes(tables) => written(&CodesPage { frame, file, tables }),
-            Content::Machines(behaviour) => written(&MachinesPage { frame, file, behaviour }),
+            Content::Machines(behavior) => written(&MachinesPage { frame, file, behavior }),
             Content::Modules(modules) => {
                 let sections = modules.iter().flat_map(|module| &module.sections);
                 let grids = &grids_of_rows(sections.map(|(_, section)| section));

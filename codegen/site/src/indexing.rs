@@ -3,7 +3,7 @@
 use super::area::Area;
 use super::codes::Codes;
 use super::entry::Row;
-use super::machines::Behaviour;
+use super::machines::Behavior;
 use super::modules::ModuleModel;
 use super::process::Frame;
 use super::protocol::Protocol;
@@ -69,12 +69,12 @@ pub(super) fn messages(index: &mut Index, protocol: &Protocol) {
 }
 
 /// Adds states and procedures.
-pub(super) fn behaviour(index: &mut Index, behaviour: &Behaviour) {
-    for state in behaviour.machines.iter().flat_map(|machine| &machine.states) {
+pub(super) fn behavior(index: &mut Index, behavior: &Behavior) {
+    for state in behavior.machines.iter().flat_map(|machine| &machine.states) {
         let words = format!("{} {}", state.identifier, state.facts);
         index.entry(&Entry { names: &state.names, words: &words, ..entry(&state.anchor, "state", &state.name) });
     }
-    for sequence in &behaviour.sequences {
+    for sequence in &behavior.sequences {
         // The anchor is the identifier of the procedure.
         let words = format!("{} {}", sequence.anchor, sequence.facts.first().map_or("", String::as_str));
         index.entry(&Entry { words: &words, ..entry(&sequence.anchor, "procedure", &sequence.name) });

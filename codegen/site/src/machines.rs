@@ -96,18 +96,18 @@ pub(super) struct SequenceStep {
 
 /// The state machines and procedures of a device.
 #[derive(Debug)]
-pub(super) struct Behaviour {
+pub(super) struct Behavior {
     pub machines: Vec<Machine>,
     pub sequences: Vec<Sequence>,
 }
 
 /// Returns the state machines and procedures of a device, or `None` if it has neither.
-pub(super) fn behaviour(device: &Device, manual: &Manual) -> Option<Behaviour> {
+pub(super) fn behavior(device: &Device, manual: &Manual) -> Option<Behavior> {
     let mut names = Names::default();
     let machines: Vec<_> = device.machines.iter().map(|each| machine(each, device, manual, &mut names)).collect();
     let procedures = device.procedures.iter();
     let sequences: Vec<_> = procedures.map(|procedure| sequence(procedure, device, manual, &mut names)).collect();
-    (!machines.is_empty() || !sequences.is_empty()).then_some(Behaviour { machines, sequences })
+    (!machines.is_empty() || !sequences.is_empty()).then_some(Behavior { machines, sequences })
 }
 
 fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut Names) -> Machine {

@@ -12,7 +12,7 @@ use super::codes::Codes;
 use super::diagnostics::DiagnosticGroup;
 use super::diagram::ANY_STATE;
 use super::list::{self, Column};
-use super::machines::{Behaviour, Machine};
+use super::machines::{Behavior, Machine};
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
@@ -61,7 +61,7 @@ templates! {
     ProcessPage = "markdown/process.md" { frames: &'p [Frame], sync_managers: &'p [SyncManager] }
     ProtocolPage = "markdown/protocol.md" { protocol: &'p Protocol }
     CodesPage = "markdown/codes.md" { tables: &'p [Codes] }
-    MachinesPage = "markdown/machines.md" { behaviour: &'p Behaviour }
+    MachinesPage = "markdown/machines.md" { behavior: &'p Behavior }
     ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
@@ -121,7 +121,7 @@ impl Pages for Markdown {
             Content::Process(part, sync_managers) => written(&ProcessPage { frames: &part.frames, sync_managers }),
             Content::Protocol(protocol) => written(&ProtocolPage { protocol }),
             Content::Codes(tables) => written(&CodesPage { tables }),
-            Content::Machines(behaviour) => written(&MachinesPage { behaviour }),
+            Content::Machines(behavior) => written(&MachinesPage { behavior }),
             Content::Modules(modules) => written(&ModulesPage { modules }),
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),

@@ -9,7 +9,7 @@ use super::assumptions::Ranked;
 use super::codes::Codes;
 use super::diagnostics::DiagnosticGroup;
 use super::links::Links;
-use super::machines::Behaviour;
+use super::machines::Behavior;
 use super::modules::ModuleModel;
 use super::overview::{Contents, Overview};
 use super::process::{ProcessPart, SyncManager};
@@ -201,7 +201,7 @@ pub(super) enum Content<'p> {
     Process(&'p ProcessPart, &'p [SyncManager]),
     Protocol(&'p Protocol),
     Codes(&'p [Codes]),
-    Machines(&'p Behaviour),
+    Machines(&'p Behavior),
     Modules(&'p [ModuleModel]),
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [DiagnosticGroup<'p>]),

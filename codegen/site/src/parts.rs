@@ -20,7 +20,7 @@ pub(super) struct Parts {
     pub data: ProcessPart,
     pub process: Option<String>,
     pub protocol: Option<(String, Protocol)>,
-    pub behaviour: Option<(String, machines::Behaviour)>,
+    pub behavior: Option<(String, machines::Behavior)>,
     /// File, title and tables of each page of codes.
     pub codes: Vec<(String, String, Vec<Codes>)>,
 }
@@ -33,7 +33,7 @@ impl Parts {
             areas: &self.areas,
             process: self.process.as_deref().map(|file| (file, self.data.frames.as_slice())),
             protocol: page(&self.protocol),
-            behaviour: page(&self.behaviour),
+            behavior: page(&self.behavior),
             codes: &self.codes,
         };
         sources.ranked()
@@ -44,7 +44,7 @@ impl Parts {
         let pages = references::Pages {
             areas: &self.areas,
             frames: (self.process.as_deref(), &self.data.frames),
-            behaviour: page(&self.behaviour),
+            behavior: page(&self.behavior),
             protocol: page(&self.protocol),
         };
         let (targets, referrers) = (Targets::new(device, &pages), Referrers::new(device));
@@ -57,8 +57,8 @@ impl Parts {
         for entry in self.data.frames.iter_mut().flat_map(|frame| &mut frame.entries) {
             entry.target = targets.item(entry.item).map(|link| link.target.clone()).unwrap_or_default();
         }
-        if let Some((_, behaviour)) = &mut self.behaviour {
-            targets.link(behaviour);
+        if let Some((_, behavior)) = &mut self.behavior {
+            targets.link(behavior);
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::area::Area;
 use super::link::{Link, Relation};
-use super::machines::{Behaviour, Machine};
+use super::machines::{Behavior, Machine};
 use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::facts::mentions::Mention;
@@ -32,7 +32,7 @@ pub(super) struct Targets<'d> {
 pub(super) struct Pages<'p> {
     pub areas: &'p [Area],
     pub frames: (Option<&'p str>, &'p [Frame]),
-    pub behaviour: Option<(&'p str, &'p Behaviour)>,
+    pub behavior: Option<(&'p str, &'p Behavior)>,
     pub protocol: Option<(&'p str, &'p Protocol)>,
 }
 
@@ -62,11 +62,11 @@ impl<'d> Targets<'d> {
         let states = |file: &str, machine: &Machine| {
             machine.states.iter().map(|state| link(file, &state.anchor, &format!("state {}", state.name))).collect()
         };
-        let (machines, states, procedures) = match pages.behaviour {
-            Some((file, behaviour)) => (
-                behaviour.machines.iter().map(|machine| link(file, &machine.anchor, &machine.title)).collect(),
-                behaviour.machines.iter().map(|machine| states(file, machine)).collect(),
-                behaviour.sequences.iter().map(|sequence| link(file, &sequence.anchor, &sequence.name)).collect(),
+        let (machines, states, procedures) = match pages.behavior {
+            Some((file, behavior)) => (
+                behavior.machines.iter().map(|machine| link(file, &machine.anchor, &machine.title)).collect(),
+                behavior.machines.iter().map(|machine| states(file, machine)).collect(),
+                behavior.sequences.iter().map(|sequence| link(file, &sequence.anchor, &sequence.name)).collect(),
             ),
             None => Default::default(),
         };
@@ -102,12 +102,12 @@ impl<'d> Targets<'d> {
     }
 
     /// Adds the links to the items of the state machines and procedures.
-    pub fn link(&self, behaviour: &mut Behaviour) {
-        for (machine, shown) in self.device.machines.iter().zip(&mut behaviour.machines) {
+    pub fn link(&self, behavior: &mut Behavior) {
+        for (machine, shown) in self.device.machines.iter().zip(&mut behavior.machines) {
             let items = [machine.status_item.id, machine.control_item.id];
             shown.items = items.into_iter().filter_map(|item| self.item(item).cloned()).collect();
         }
-        for (procedure, shown) in self.device.procedures.iter().zip(&mut behaviour.sequences) {
+        for (procedure, shown) in self.device.procedures.iter().zip(&mut behavior.sequences) {
             for (step, shown) in procedure.steps.iter().zip(&mut shown.steps) {
                 shown.item = step.item().and_then(|item| self.item(item.id)).cloned();
             }
@@ -132,7 +132,7 @@ impl<'d> Targets<'d> {
         });
         related.mapped.extend(images.cloned());
         related.items.extend(self.refers(item.related.iter().flat_map(|related| related.all())));
-        let conditions = item.behaviour.iter().flat_map(|behaviour| &behaviour.write_when);
+        let conditions = item.behavior.iter().flat_map(|behavior| &behavior.write_when);
         let availability = item.availability.as_ref();
         let replacement = availability.and_then(|availability| availability.replaced_by.as_ref()?.id?.item());
         let lists = [

@@ -40,8 +40,8 @@ fn access_span(item: &Item, span: Span) -> Span {
 fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let (readable, writable) = (item.access.readable(), item.access.writable());
     let conflict = |span, text| Some((span, text));
-    let behaviour = stated::behaviour(item);
-    let saved = behaviour.filter(|behaviour| matches!(behaviour.storage, Storage::Immediate | Storage::OnCommand(_)));
+    let behavior = stated::behavior(item);
+    let saved = behavior.filter(|behavior| matches!(behavior.storage, Storage::Immediate | Storage::OnCommand(_)));
     let saved = match saved {
         Some(_) if !writable => conflict(Span::default(), ", but declared as non-volatile"),
         Some(saved) if saved.self_clearing => conflict(Span::default(), " and non-volatile, but the device clears it"),
@@ -52,7 +52,7 @@ fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
         mappable if mappable.tpdo && !readable => conflict(item.at.mappable, ", but can be mapped into a TPDO"),
         _ => None,
     };
-    let is_written = !writable && behaviour.is_some_and(|behaviour| !behaviour.writable_values.is_empty());
+    let is_written = !writable && behavior.is_some_and(|behavior| !behavior.writable_values.is_empty());
     let written = is_written.then_some((Span::default(), ", but has a list of writable values"));
     [saved, mapped, written]
 }
@@ -68,7 +68,7 @@ fn positive_limit_of_reading(owner: Owner<'_>, item: &Item) -> Option<i128> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Access, Behaviour, Binding, Mappable, Type, Value};
+    use crate::ir::{Access, Behavior, Binding, Mappable, Type, Value};
 
     fn found(change: impl FnOnce(&mut Item)) -> Vec<&'static str> {
         let mut item = Item::new(Binding::canopen(0x2000, 0));
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn read_only_values_are_neither_saved_nor_received() {
         let save = |item: &mut Item| {
-            item.behaviour = Some(Box::new(Behaviour { storage: Storage::Immediate, ..Behaviour::default() }));
+            item.behavior = Some(Box::new(Behavior { storage: Storage::Immediate, ..Behavior::default() }));
         };
         assert_eq!(found(|_| {}), [""; 0]);
         assert_eq!(found(save), ["TAB024"]);

@@ -12,7 +12,7 @@ use crate::text::brief;
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let owner = context.owner;
     for item in owner.items() {
-        for condition in stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.write_when) {
+        for condition in stated::behavior(item).into_iter().flat_map(|behavior| &behavior.write_when) {
             possible(context, condition, item.origin.span, diagnostics);
         }
     }

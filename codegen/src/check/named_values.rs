@@ -81,8 +81,8 @@ impl Check<'_, '_> {
         for number in self.values() {
             self.named(values, closed, number);
         }
-        let behaviour = stated::behaviour(self.item);
-        for value in behaviour.iter().flat_map(|behaviour| &behaviour.writable_values).filter_map(Value::as_int) {
+        let behavior = stated::behavior(self.item);
+        for value in behavior.iter().flat_map(|behavior| &behavior.writable_values).filter_map(Value::as_int) {
             self.named(values, true, Number { what: "writable value", value, span: Span::default() });
         }
         for limit in self.limits() {

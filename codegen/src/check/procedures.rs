@@ -94,7 +94,7 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     if let Some(limit) = beyond(item, number).filter(|_| are_ordered) {
         return Some(format!("whose {limit}"));
     }
-    let writable = stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.writable_values);
+    let writable = stated::behavior(item).into_iter().flat_map(|behavior| &behavior.writable_values);
     let writable: Vec<i128> = writable.filter_map(Value::as_int).collect();
     if !writable.is_empty() && !writable.contains(&number) {
         return Some("but this value is not one of the writable values".to_owned());

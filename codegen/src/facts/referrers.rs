@@ -72,8 +72,8 @@ impl Referrers {
     }
 
     fn of_item(&mut self, id: ItemId, item: &Item) {
-        if let Some(behaviour) = &item.behaviour {
-            self.add_all(items_of(&behaviour.write_when), Referrer::WritableWhen(id));
+        if let Some(behavior) = &item.behavior {
+            self.add_all(items_of(&behavior.write_when), Referrer::WritableWhen(id));
         }
         let availability = item.availability.as_ref();
         let other = availability.and_then(|availability| availability.replaced_by.as_ref()?.id?.item());

@@ -3,7 +3,7 @@
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Bus, Buses, CiteUnit, CompactString, Condition, Device, Direction,
+    Access, Availability, Behavior, Binding, Bus, Buses, CiteUnit, CompactString, Condition, Device, Direction,
     Documentation, Doubt, ElementId, Fact, FactOrigin, FactOrigins, Group, Item, ItemVariant, Limits, LocalText,
     Manual, Quantity, Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
@@ -156,7 +156,7 @@ pub fn fact_name(fact: Fact) -> &'static str {
         Fact::Default => "default",
         Fact::Limits => "range",
         Fact::Unit => "unit",
-        Fact::Behaviour => "storage and side effects",
+        Fact::Behavior => "storage and side effects",
         Fact::Availability => "availability",
         Fact::Variants => "differences between models",
         Fact::Description => "description",
@@ -219,34 +219,34 @@ impl Words<'_> {
     }
 
     /// Returns sentences about the storage of a value, the side effects of writing it, and the conditions for writing it.
-    pub fn behaviour(&self, behaviour: &Behaviour) -> Vec<String> {
+    pub fn behavior(&self, behavior: &Behavior) -> Vec<String> {
         let mut sentences = Vec::new();
-        sentences.extend(self.storage(&behaviour.storage).map(|storage| sentence(&capital(&storage))));
-        if let Some(access) = behaviour.pdi_access {
+        sentences.extend(self.storage(&behavior.storage).map(|storage| sentence(&capital(&storage))));
+        if let Some(access) = behavior.pdi_access {
             sentences.push(format!("Access rights of the slave application (PDI): {}.", access_name(access)));
         }
-        if let Some(effective) = &behaviour.effective {
+        if let Some(effective) = &behavior.effective {
             sentences.push(format!("Changes take effect after: {}", sentence(&self.escaped(effective))));
         }
-        for condition in &behaviour.write_when {
+        for condition in &behavior.write_when {
             sentences.push(format!("The value can be written only while {}.", self.holds(condition)));
         }
-        if !behaviour.writable_values.is_empty() {
-            sentences.push(format!("Only the value {} can be written.", self.values(&behaviour.writable_values)));
+        if !behavior.writable_values.is_empty() {
+            sentences.push(format!("Only the value {} can be written.", self.values(&behavior.writable_values)));
         }
-        if behaviour.self_clearing {
+        if behavior.self_clearing {
             sentences.push("The device resets the value automatically.".to_owned());
         }
-        if behaviour.write_once {
+        if behavior.write_once {
             sentences.push("The value can be written only once.".to_owned());
         }
-        sentences.extend(behaviour.srdo.map(|srdo| match srdo.inverted {
+        sentences.extend(behavior.srdo.map(|srdo| match srdo.inverted {
             Some((index, sub)) => {
                 format!("Mappable into SRDOs. The inverted data are in {}.", address::object(index, sub))
             }
             None => "Mappable into SRDOs.".to_owned(),
         }));
-        sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
+        sentences.extend(behavior.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
         sentences
     }
 

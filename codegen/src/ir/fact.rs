@@ -28,7 +28,7 @@ pub enum Fact {
     /// Unit, scale factor and rounding step of the item.
     Unit,
     /// Storage of the value, side effects of writing it, and conditions for writing it.
-    Behaviour,
+    Behavior,
     /// Models, firmware versions and buses on which the item exists.
     Availability,
     /// Differences of the item between models or buses.
@@ -49,7 +49,7 @@ impl Fact {
         Fact::Default,
         Fact::Limits,
         Fact::Unit,
-        Fact::Behaviour,
+        Fact::Behavior,
         Fact::Availability,
         Fact::Variants,
         Fact::Description,
@@ -67,7 +67,7 @@ impl Fact {
             Fact::Default => one.default != other.default,
             Fact::Limits => one.limits != other.limits,
             Fact::Unit => one.quantity != other.quantity,
-            Fact::Behaviour => one.behaviour != other.behaviour,
+            Fact::Behavior => one.behavior != other.behavior,
             Fact::Availability => one.availability != other.availability,
             Fact::Variants => one.variants != other.variants,
             Fact::Description => text(one) != text(other),
@@ -84,7 +84,7 @@ impl Fact {
             Fact::Default => item.default.is_some(),
             Fact::Limits => !item.limits.is_empty() || !item.limits.allowed.is_empty(),
             Fact::Unit => item.quantity.is_some(),
-            Fact::Behaviour => item.behaviour.is_some(),
+            Fact::Behavior => item.behavior.is_some(),
             Fact::Availability => item.availability.is_some(),
             Fact::Variants => !item.variants.is_empty(),
             Fact::Description => !text(item).is_empty(),

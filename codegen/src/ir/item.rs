@@ -4,7 +4,7 @@ use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, Bus, CompactString, Documentation, Doubts, Extensions, Fact, FactOrigin,
+    Access, Availability, Behavior, Binding, Bus, CompactString, Documentation, Doubts, Extensions, Fact, FactOrigin,
     FactOrigins, ItemRef, ItemVariant, Limits, Mappable, Missing, Quantity, Rare, Rule, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
@@ -37,7 +37,7 @@ pub struct Item {
     /// Unit and scale factor of the item.
     pub quantity: Option<Box<Quantity>>,
     /// Storage of the value, side effects of writing it, and conditions for writing it.
-    pub behaviour: Option<Box<Behaviour>>,
+    pub behavior: Option<Box<Behavior>>,
     /// Models, firmware versions, options and buses on which the item exists.
     pub availability: Option<Box<Availability>>,
     /// Items that contain the same value, a part of the value, or its length.
@@ -83,7 +83,7 @@ impl Item {
             variants: ThinVec::new(),
             configured: None,
             quantity: None,
-            behaviour: None,
+            behavior: None,
             availability: None,
             related: None,
             is_reserved: false,

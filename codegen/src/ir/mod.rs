@@ -21,7 +21,7 @@
 //! The IR can hold contradictory descriptions, because it holds what the source states. The lints of the module `check` report
 //! contradictions.
 
-mod behaviour;
+mod behavior;
 mod bus;
 mod catalog;
 mod composite;
@@ -51,7 +51,7 @@ mod types;
 mod value;
 mod variant;
 
-pub use behaviour::*;
+pub use behavior::*;
 pub use bus::*;
 pub use catalog::*;
 pub use composite::*;

@@ -4,7 +4,7 @@ use super::owner::Owner;
 #[cfg(feature = "table")]
 use super::Documentation;
 use super::{
-    Behaviour, CodeTable, Device, EnumValue, Fact, FactOrigin, FactOrigins, Item, Quantity, Type, TypeDef, TypeId,
+    Behavior, CodeTable, Device, EnumValue, Fact, FactOrigin, FactOrigins, Item, Quantity, Type, TypeDef, TypeId,
 };
 
 /// Returns whether a fact with this recorded origin was added by a profile.
@@ -47,8 +47,8 @@ pub(crate) fn quantity(item: &Item) -> Option<&Quantity> {
 }
 
 /// Returns the storage, the side effects and the conditions for writing of an item.
-pub(crate) fn behaviour(item: &Item) -> Option<&Behaviour> {
-    stated(&item.origins, Fact::Behaviour, item.behaviour.as_deref())
+pub(crate) fn behavior(item: &Item) -> Option<&Behavior> {
+    stated(&item.origins, Fact::Behavior, item.behavior.as_deref())
 }
 
 /// Returns the description of an item or group with these origins.

@@ -60,7 +60,7 @@ impl<'a> List<'a> {
         let span = item.origin.span;
         let documentation = stated::description(&item.origins, &item.documentation);
         self.documented(item.at.others.documentation.or(span), &item.name, documentation, &item.names);
-        let effects = stated::behaviour(item).into_iter().flat_map(|behaviour| &behaviour.side_effects);
+        let effects = stated::behavior(item).into_iter().flat_map(|behavior| &behavior.side_effects);
         effects.for_each(|effect| self.push(span, &item.name, effect));
     }
 

@@ -36,7 +36,7 @@ fn as_signed(value: &mut Value, bits: u32) {
 
 fn for_each(device: &mut Device, visit: &mut dyn FnMut(&mut Condition)) {
     let items = device.groups.iter_mut().flat_map(|group| &mut group.items);
-    let behaviours = items.filter_map(|item| item.behaviour.as_deref_mut());
-    behaviours.flat_map(|behaviour| &mut behaviour.write_when).for_each(&mut *visit);
+    let behaviors = items.filter_map(|item| item.behavior.as_deref_mut());
+    behaviors.flat_map(|behavior| &mut behavior.write_when).for_each(&mut *visit);
     for_each_condition(&mut device.types, visit);
 }

@@ -65,11 +65,11 @@ pub(super) fn of_items_and_types<'g>(
 }
 
 fn of_item(item: &mut Item, visit: Visit<'_>) {
-    if let Some(behaviour) = &mut item.behaviour {
-        if let Storage::OnCommand(command) = &mut behaviour.storage {
+    if let Some(behavior) = &mut item.behavior {
+        if let Storage::OnCommand(command) = &mut behavior.storage {
             visit(Mention::Element(command));
         }
-        behaviour.write_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
+        behavior.write_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
     }
     if let Some(availability) = &mut item.availability {
         availability.replaced_by.iter_mut().for_each(|other| visit(Mention::Element(other)));

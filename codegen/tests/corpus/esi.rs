@@ -22,7 +22,7 @@ struct Case {
 
 impl Case {
     fn catalog(&self) -> &Catalog {
-        self.read.catalog.as_ref().unwrap_or_else(|| panic!("{}: no catalogue", self.name))
+        self.read.catalog.as_ref().unwrap_or_else(|| panic!("{}: no catalog", self.name))
     }
 
     fn errors(&self) -> Vec<&Diagnostic> {
@@ -238,7 +238,7 @@ fn checked_files_are_consistent() {
     let mut findings = 0;
     for case in &cases {
         let checked = check(Source::read(&folder.join(&case.name)).expect("a file"), &Options::default());
-        let catalog = checked.catalog.as_ref().expect("a catalogue");
+        let catalog = checked.catalog.as_ref().expect("a catalog");
         for device in &catalog.devices {
             let indices: Vec<_> = device.groups.iter().map(Group::index).collect();
             assert!(indices.is_sorted_by(|one, other| one < other), "{}: {}", case.name, device.name);

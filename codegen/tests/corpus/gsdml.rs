@@ -26,7 +26,7 @@ struct Case {
 
 impl Case {
     fn catalog(&self) -> &Catalog {
-        self.compilation.catalog.as_ref().unwrap_or_else(|| panic!("{}: no catalogue", self.name))
+        self.compilation.catalog.as_ref().unwrap_or_else(|| panic!("{}: no catalog", self.name))
     }
 
     fn count(&self, key: &str) -> usize {

@@ -121,13 +121,13 @@ fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static st
     let in_object = identity.and_then(|at| case.ours.get(&format!("1018:{:02X}", at + 1))?.get("default"));
     match fact {
         "granularity" if peer == Some("1") && is_expected() => Some("E82"),
-        "comments" if is_misspelt(&case.text, "Line5") && is_expected() => Some("E59"),
+        "comments" if is_misspelled(&case.text, "Line5") && is_expected() => Some("E59"),
         "node-ID" if ours.is_none() && peer == Some("255") => Some("node-ID 255"),
         _ if peer.is_none_or(|peer| peer == "0") && ours.is_some() && ours == in_object.map(String::as_str) => {
             Some("identity of 1018")
         }
         _ if ours.is_none() && peer == Some("\"\"") => Some("E23"),
-        _ if keys.iter().any(|key| is_misspelt(&case.text, key)) && is_expected() => Some("E66"),
+        _ if keys.iter().any(|key| is_misspelled(&case.text, key)) && is_expected() => Some("E66"),
         _ => None,
     }
 }
@@ -138,7 +138,7 @@ fn has_key(text: &str, key: &str) -> bool {
 }
 
 /// Returns whether a file contains `key` only with different capitalization.
-fn is_misspelt(text: &str, key: &str) -> bool {
+fn is_misspelled(text: &str, key: &str) -> bool {
     has_key(text, key) && !lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(ours, _)| ours == key))
 }
 

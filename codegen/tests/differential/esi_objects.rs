@@ -101,11 +101,11 @@ fn item(item: &Item, types: &[TypeDef]) -> Facts {
     put_some(&mut facts, "default", item.default.as_ref().map(value));
     put_some(&mut facts, "low", item.limits.low.as_ref().map(value));
     put_some(&mut facts, "high", item.limits.high.as_ref().map(value));
-    let Some(behaviour) = &item.behaviour else { return facts };
-    put_flag(&mut facts, "backup", behaviour.backup);
-    put_flag(&mut facts, "setting", behaviour.setting);
-    put_some(&mut facts, "safety", behaviour.safety.as_deref());
-    put(&mut facts, "readable in", behaviour.read_states.join(" "));
-    put(&mut facts, "writable in", behaviour.write_states.join(" "));
+    let Some(behavior) = &item.behavior else { return facts };
+    put_flag(&mut facts, "backup", behavior.backup);
+    put_flag(&mut facts, "setting", behavior.setting);
+    put_some(&mut facts, "safety", behavior.safety.as_deref());
+    put(&mut facts, "readable in", behavior.read_states.join(" "));
+    put(&mut facts, "writable in", behavior.write_states.join(" "));
     facts
 }

@@ -33,7 +33,7 @@ def io_data(found, owner, submodule, texts):
                 # For an item that becomes one field of the process image, the type of the field is compared. For any other
                 # item, only the name of its type is compared.
                 several = named or subordinate or is_trailer or name in types.PAIRS or name == "OctetString_S"
-                facts |= {"spelt": name} if several else {"type": ty}
+                facts |= {"spelled": name} if several else {"type": ty}
                 found[f"{key} item {place}"] = facts
                 for bit in named:
                     offset = int(types.number(text(bit, "@BitOffset")))

@@ -31,7 +31,7 @@ pub fn io_data(elements: &mut Elements, key: &str, data: &IoData, types: &[TypeD
         let mut facts = Facts::new();
         put(&mut facts, "offset", item.bit_offset.to_string());
         put(&mut facts, "bits", item.bits.to_string());
-        put(&mut facts, "spelt", item.data_type.as_str());
+        put(&mut facts, "spelled", item.data_type.as_str());
         put_flag(&mut facts, "subordinate", item.subordinate);
         put_names(&mut facts, "name", &item.name, &item.names);
         let first = item.first_field as usize;
@@ -107,7 +107,7 @@ fn parameter(item: &Item, types: &[TypeDef]) -> Facts {
     put_some(&mut facts, "default", item.default.as_ref().map(value));
     put(&mut facts, "allowed", allowed(&item.limits));
     put_flag(&mut facts, "changeable", item.access == Access::ReadWrite);
-    put_flag(&mut facts, "visible", !item.behaviour.as_ref().is_some_and(|behaviour| behaviour.hidden));
+    put_flag(&mut facts, "visible", !item.behavior.as_ref().is_some_and(|behavior| behavior.hidden));
     let kept = item
         .extensions
         .iter()

@@ -26,7 +26,7 @@ pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
 }
 
 pub fn device(compilation: &Compilation) -> &Device {
-    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+    &compilation.catalog.as_ref().expect("a catalog").devices[0]
 }
 
 /// Returns the lines of the manual without page markers.

@@ -116,7 +116,7 @@ fn g06_an_empty_default_is_reported_at_its_place() {
 fn lengths_that_no_device_has_are_no_reason_to_panic() {
     let items = "<DataItem DataType=\"OctetString\" Length=\"65535\" TextId=\"T_Speed\"/>\n".repeat(9_000);
     let compilation = read(file(&inputs(&items), ""));
-    let submodules = &compilation.catalog.as_ref().expect("a catalogue").submodules;
+    let submodules = &compilation.catalog.as_ref().expect("a catalog").submodules;
     assert!(submodules[0].input.as_ref().expect("inputs").image.length > 0);
 }
 

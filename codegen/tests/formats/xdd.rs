@@ -547,7 +547,7 @@ fn what_an_object_says_counts_before_its_parameter() {
     assert_eq!((quantity.unit.as_str(), quantity.units[0].text.as_str()), ("rpm", "U/min"));
     assert_eq!(quantity.scale, Some(Scale::Linear { factor: 0.05, offset: 0.2 }));
     assert_eq!(quantity.step, Some(Value::Int(2)));
-    assert_eq!(first.behaviour.as_ref().unwrap().storage, Storage::Immediate);
+    assert_eq!(first.behavior.as_ref().unwrap().storage, Storage::Immediate);
     let group = device.object(0x2000).unwrap();
     assert!(matches!(group.kind, GroupKind::Object { category: Some(Category::Mandatory), .. }));
     let extensions: Vec<_> = group.extensions.iter().map(|e| (e.key.as_str(), e.value.as_str())).collect();
@@ -576,7 +576,7 @@ fn data_types_of_the_application_process() {
              <parameter uniqueID="mode"><dataTypeIDRef uniqueIDRef="e"/><defaultValue value="2"/></parameter>
              <parameter uniqueID="list" access="readWrite"><dataTypeIDRef uniqueIDRef="a"/></parameter>
              <parameter uniqueID="pair"><dataTypeIDRef uniqueIDRef="s"/></parameter>
-             <parameter uniqueID="labelled"><label lang="en">Switch</label><USINT/><allowedValues>
+             <parameter uniqueID="labeled"><label lang="en">Switch</label><USINT/><allowedValues>
                <value value="0"><label lang="en">Off</label></value><value value="1"><label lang="en">On</label></value>
              </allowedValues></parameter>
              <parameter uniqueID="several"><USINT/><allowedValues><range><minValue value="4"/><maxValue value="6"/></range>
@@ -589,7 +589,7 @@ fn data_types_of_the_application_process() {
            <CANopenObject index="2002" name="Pair" objectType="9" uniqueIDRef="pair" subNumber="2">
              <CANopenSubObject subIndex="01" objectType="7" accessType="ro" uniqueIDRef="s1"/>
              <CANopenSubObject subIndex="02" objectType="7" accessType="ro" uniqueIDRef="s2"/></CANopenObject>
-           <CANopenObject index="2003" name="Switch" objectType="7" uniqueIDRef="labelled"/>
+           <CANopenObject index="2003" name="Switch" objectType="7" uniqueIDRef="labeled"/>
            <CANopenObject index="2004" name="Several" objectType="7" uniqueIDRef="several"/>"#,
     );
     let (device, diagnostics) = read(&text);

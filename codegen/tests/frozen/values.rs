@@ -150,8 +150,8 @@ fn item(item: &Item, types: &[TypeDef]) -> String {
             .and_then(|configured| configured.value.as_ref())
             .map(|entry| format!("configured {}", value(entry))),
     );
-    if let Some(behaviour) = &item.behaviour {
-        parts.push(match &behaviour.storage {
+    if let Some(behavior) = &item.behavior {
+        parts.push(match &behavior.storage {
             Storage::Unknown => String::new(),
             Storage::Volatile => "volatile".to_owned(),
             Storage::Immediate => "saved at once".to_owned(),

@@ -25,8 +25,8 @@ fn alarms_and_warnings() {
             let raw = manual.line(*at);
             let name = cells[1].replace(['(', ')'], "").replace("1", "").replace("2 INTERP", "2INTERP");
             let name = if row.code == 0x400B { name.replace('2', "") } else { name };
-            let is_misspelt = name.trim() == "ALWROGSETP";
-            assert!(original(&row.names) == name.trim() || is_misspelt, "{name} {}", original(&row.names));
+            let is_misspelled = name.trim() == "ALWROGSETP";
+            assert!(original(&row.names) == name.trim() || is_misspelled, "{name} {}", original(&row.names));
             let models = row.availability.as_ref().map_or(&[][..], |availability| &availability.models);
             let is_marked = raw.split('|').nth(2).is_some_and(|cell| cell.replace("**", "").contains('*'));
             with_mark += usize::from(is_marked);
@@ -53,9 +53,9 @@ fn states_homing_states_and_types() {
         let values = values(device, name);
         assert_eq!((rows.len(), values.len()), (count, count), "{name}");
         for ((_, cells), value) in rows.iter().zip(values) {
-            let is_misspelt = cells[label] == "SARCHINGTACCA";
+            let is_misspelled = cells[label] == "SARCHINGTACCA";
             assert_eq!(number(&cells[code]), Some(value.value), "{name}");
-            assert!(original(&value.names) == cells[label] || is_misspelt || name == "MotorType", "{}", cells[label]);
+            assert!(original(&value.names) == cells[label] || is_misspelled || name == "MotorType", "{}", cells[label]);
         }
     };
     check("State", 1959, 1974, 14, 0, 2);

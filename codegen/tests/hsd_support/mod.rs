@@ -59,7 +59,7 @@ pub fn cells(line: &str) -> Option<Vec<String>> {
 }
 
 pub fn device(compilation: &Compilation) -> &Device {
-    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+    &compilation.catalog.as_ref().expect("a catalog").devices[0]
 }
 
 pub fn chapter<'d>(device: &'d Device, title: &str) -> &'d Group {

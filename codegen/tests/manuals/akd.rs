@@ -24,7 +24,7 @@ fn manual() -> Option<Vec<String>> {
 }
 
 fn device(compilation: &Compilation) -> &Device {
-    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+    &compilation.catalog.as_ref().expect("a catalog").devices[0]
 }
 
 /// Returns the cells of the manual's lines from `first` to `last`, each with its line number.
@@ -130,7 +130,7 @@ fn registers_of_the_slave_controller() {
         let length = cells[1].trim_start_matches("Massimo ").parse().expect("a length");
         let address = hex(cells[0]) as u16;
         assert_eq!(actual.bindings.as_slice(), [Binding::EscMemory { address, length }], "line {line}");
-        let pdi = actual.behaviour.as_ref().and_then(|behaviour| behaviour.pdi_access);
+        let pdi = actual.behavior.as_ref().and_then(|behavior| behavior.pdi_access);
         assert_eq!((actual.access, pdi), (access(cells[3]), Some(access(cells[4]))), "line {line}");
         let named = actual.names.iter().find(|name| name.language == "it").expect("a name in Italian");
         assert!(cells[2].starts_with(named.text.as_str()), "line {line}: {}", named.text);

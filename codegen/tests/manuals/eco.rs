@@ -95,7 +95,7 @@ fn limits(item: &Item) -> Option<(i128, i128)> {
 }
 
 fn is_saved(item: &Item) -> bool {
-    item.behaviour.as_ref().is_some_and(|behaviour| matches!(behaviour.storage, Storage::OnCommand(_)))
+    item.behavior.as_ref().is_some_and(|behavior| matches!(behavior.storage, Storage::OnCommand(_)))
 }
 
 #[test]

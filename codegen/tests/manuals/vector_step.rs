@@ -20,7 +20,7 @@ fn manual() -> Option<Vec<String>> {
 }
 
 fn device(compilation: &Compilation) -> &Device {
-    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+    &compilation.catalog.as_ref().expect("a catalog").devices[0]
 }
 
 fn chapters(device: &Device) -> impl Iterator<Item = &Group> {
@@ -138,7 +138,7 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
             ("MAP READ", !words.contains("MAP READ") || item.mappable.tpdo),
             ("MAP WRITE", !words.contains("MAP WRITE") || item.mappable.rpdo),
         ];
-        let storage = item.behaviour.as_ref().map(|behaviour| &behaviour.storage);
+        let storage = item.behavior.as_ref().map(|behavior| &behavior.storage);
         let is_saved = matches!(storage, Some(Storage::OnCommand(_) | Storage::Immediate));
         facts.push(("SAVE", !says("SAVE") || is_saved));
         facts.push(("type", printed_bits.is_none() || own_bits == printed_bits || row.first == 2011));
@@ -171,7 +171,7 @@ fn chapters_and_objects_are_complete() {
     // The count includes the 55 described entries, and five entries with sub-index 0 that the manual's boxes omit.
     assert_eq!(objects(0x6000, 0x67FF), (44, 60), "DSP-402");
     assert_eq!(objects(0x23E8, 0x23E8), (1, 7), "user variables");
-    let saved = registers(device).filter_map(|item| item.behaviour.as_ref());
+    let saved = registers(device).filter_map(|item| item.behavior.as_ref());
     assert_eq!(saved.filter(|entry| matches!(entry.storage, Storage::OnCommand(_) | Storage::Immediate)).count(), 319);
     let codes: BTreeMap<&str, usize> =
         device.code_tables.iter().map(|table| (table.name.as_str(), table.rows.len())).collect();

@@ -16,7 +16,7 @@ const EDS: &str = "[DeviceInfo]\nProductName=Drive\nCompactPDO=0x3\nNrOfRXPDO=1\
 
 fn device() -> Device {
     let compilation = check(Source::new("drive.eds", EDS.into()), &Options::default());
-    compilation.catalog.expect("a catalogue").devices.remove(0)
+    compilation.catalog.expect("a catalog").devices.remove(0)
 }
 
 fn item(device: &Device, index: u16, sub: u8) -> &Item {

@@ -14,7 +14,7 @@ const DEMO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-dr
 
 fn catalog(name: &str, text: &str, options: &Options) -> Catalog {
     let compilation = check(Source::new(name, text.as_bytes().to_vec()), options);
-    compilation.catalog.expect("a catalogue")
+    compilation.catalog.expect("a catalog")
 }
 
 fn device(text: &str) -> Device {

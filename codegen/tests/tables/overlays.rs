@@ -36,7 +36,7 @@ fn rows(rows: &str) -> String {
 }
 
 fn device(compilation: &Compilation) -> &Device {
-    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+    &compilation.catalog.as_ref().expect("a catalog").devices[0]
 }
 
 fn item(compilation: &Compilation, index: u16, sub: u8) -> &Item {
@@ -284,10 +284,10 @@ fn several_devices_and_modules_are_told_apart() {
     assert_eq!(findings(&compilation).len(), 1, "an error is reported once for both devices");
     let unit =
         |item: Option<&Item>| item.and_then(|item| item.quantity.as_ref()).map(|quantity| quantity.unit.to_string());
-    let catalog = compilation.catalog.as_ref().expect("a catalogue");
+    let catalog = compilation.catalog.as_ref().expect("a catalog");
     assert!(catalog.devices.iter().all(|device| unit(device.entry(0x2000, 0)).as_deref() == Some("V")));
     let of_module = |compilation: &Compilation| {
-        let module = &compilation.catalog.as_ref().expect("a catalogue").modules[0];
+        let module = &compilation.catalog.as_ref().expect("a catalog").modules[0];
         unit(module.groups.iter().find(|group| group.index() == Some(0x2000)).and_then(|group| group.items.first()))
     };
     assert_eq!(of_module(&compilation), None);
@@ -314,13 +314,13 @@ fn names_within_a_module_are_those_of_its_items() {
     let doubt = "doubt = { says = \"V and mV\", chose = \"V\", why = \"the scale\" }";
     let actual = applied(&format!("0x2000 = {{ enum = \"E\" }}\n[enums.E]\n{doubt}\nvalues = {{ 0 = \"off\" }}\n"));
     assert_eq!(findings(&actual), []);
-    let devices = &actual.catalog.as_ref().expect("a catalogue").devices;
+    let devices = &actual.catalog.as_ref().expect("a catalog").devices;
     let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
     assert_eq!(doubts, [0, 1], "the device that accepts the module has its doubts");
 }
 
 #[test]
-fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
+fn an_overlay_for_a_module_has_doubts_and_no_behavior() {
     let esi = ESI.replace("DICT", DICTIONARY);
     let applied = |more: &str| {
         let text =
@@ -329,10 +329,10 @@ fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
     };
     let doubtful = applied("[[doubts]]\nsays = \"V and mV\"\nchose = \"V\"\nwhy = \"the scale\"\n");
     assert_eq!(findings(&doubtful), []);
-    let devices = &doubtful.catalog.as_ref().expect("a catalogue").devices;
+    let devices = &doubtful.catalog.as_ref().expect("a catalog").devices;
     let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
     assert_eq!(doubts, [0, 1], "the device that accepts the module has its doubts");
-    let behaviour = [
+    let behavior = [
         ("[axes]\ncount = 2\n", ""),
         ("[codes.Faults]\nrows = { 1 = \"Short\" }\n", "Faults"),
         (
@@ -341,7 +341,7 @@ fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
         ),
         ("[procedures.Home]\ndoc = \"It goes home.\"\n", "Home"),
     ];
-    for (table, name) in behaviour {
+    for (table, name) in behavior {
         let found = findings(&applied(table));
         assert_eq!(found.len(), 1, "{table}: {found:?}");
         assert_eq!(found[0].0, "TAB004", "{table}");
@@ -393,7 +393,7 @@ fn a_submodule_of_several_devices_is_changed_once() {
         apply_to("GSDML-x.xml", &gsdml(), &text)
     };
     let speed = |compilation: &Compilation| {
-        let catalog = compilation.catalog.as_ref().expect("a catalogue");
+        let catalog = compilation.catalog.as_ref().expect("a catalog");
         assert_eq!((catalog.devices.len(), catalog.submodules.len()), (2, 2));
         catalog.submodules[0].records[0].items[0].clone()
     };
@@ -454,7 +454,7 @@ fn parameters_of_profinet_go_by_name() {
         let overlays = vec![Source::new("o.toml", text.clone().into_bytes())];
         let compilation = check(source, &Options { overlays, ..options.clone() });
         let changed =
-            compilation.catalog.as_ref().expect("a catalogue").submodules.iter().find(|submodule| submodule.id == id);
+            compilation.catalog.as_ref().expect("a catalog").submodules.iter().find(|submodule| submodule.id == id);
         let is_changed = changed.is_some_and(|entry| words(&entry.records[0].items[0]).starts_with("Told.\nChanged"));
         assert!(is_changed, "{}: {text}\n{:?}", path.display(), findings(&compilation));
         tried += 1;

@@ -60,7 +60,7 @@ fn mistakes_and_what_is_said_of_them() {
         ("no name", "lexibus = 1\n[device]\nvendor = \"x\"\n".to_owned()),
         ("a top key", format!("{HEAD}[chapter]\n")),
         ("a key of a row", rows(&format!("a = {{ reg = 1, type = \"u16\", acess = \"ro\" }}\n{b}"))),
-        ("a key far off", a(", colour = \"red\"")),
+        ("a key far off", a(", color = \"red\"")),
         ("a wrong kind", rows(&format!("a = {{ reg = 1, type = 16, access = \"ro\" }}\n{b}"))),
         ("a type", rows("a = { reg = 1, type = \"uint16\", access = \"ro\" }")),
         ("no type", rows("a = { reg = 1, access = \"ro\" }")),

@@ -19,7 +19,7 @@ fn codes(compilation: &Compilation) -> Vec<&'static str> {
 }
 
 fn items(compilation: &Compilation) -> Vec<&Item> {
-    let catalog = compilation.catalog.as_ref().expect("a catalogue");
+    let catalog = compilation.catalog.as_ref().expect("a catalog");
     catalog.devices[0].groups.iter().flat_map(|group| &group.items).collect()
 }
 
@@ -115,10 +115,10 @@ fn patterns_of_bits_are_signed_wherever_they_stand() {
     let int = |number: i128| Some(Value::Int(number));
     let allowed: Vec<_> = list[0].limits.allowed.iter().map(|(low, high)| (low.as_int(), high.as_int())).collect();
     assert_eq!(allowed, [(Some(-32768), Some(-32768)), (Some(7), Some(7)), (Some(-16), Some(-1))]);
-    let writable = &list[0].behaviour.as_ref().expect("what may be written").writable_values;
+    let writable = &list[0].behavior.as_ref().expect("what may be written").writable_values;
     assert_eq!((&list[0].default, &writable[..]), (&int(-32768), &[Value::Int(-32768), Value::Int(7)][..]));
     assert_eq!((&list[1].default, &list[3].default, &list[4].default), (&int(-1), &int(1), &int(-2)));
-    let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+    let device = &compilation.catalog.as_ref().expect("a catalog").devices[0];
     let values = device.types.iter().find_map(|definition| match &definition.shape {
         Shape::Enumeration { values, .. } => Some(values),
         _ => None,
@@ -143,7 +143,7 @@ fn conditions_compare_with_what_the_item_holds() {
                x = { reg = 1, type = \"u16\", access = \"rw\", when = { mode = [0xFFFF] } }\n";
     let compilation = read(&format!("{SPACE}{head}"), row);
     assert!(codes(&compilation).iter().all(|code| *code == "EDS063"), "{:?}", codes(&compilation));
-    let condition = &items(&compilation)[1].behaviour.as_ref().expect("a condition").write_when[0];
+    let condition = &items(&compilation)[1].behavior.as_ref().expect("a condition").write_when[0];
     assert_eq!(condition.values, [Value::Int(-1)]);
 }
 

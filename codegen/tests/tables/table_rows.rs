@@ -157,8 +157,8 @@ fn lists_and_ranges_of_values() {
     let compilation = read(&a(", allowed = [1, \"3..7\"], writable = [\"3..5\"], when = { b = [\"1..3\", 9] }"));
     let actual = item(&compilation, "a");
     assert_eq!(actual.limits.allowed[1], (Value::Int(3), Value::Int(7)));
-    let behaviour = actual.behaviour.as_ref().expect("a behaviour");
-    assert_eq!((behaviour.writable_values.len(), behaviour.write_when[0].values.len()), (3, 4));
+    let behavior = actual.behavior.as_ref().expect("a behavior");
+    assert_eq!((behavior.writable_values.len(), behavior.write_when[0].values.len()), (3, 4));
     is_wrong(", allowed = [\"low\"]", "`low` is neither a value of UNSIGNED16 nor a range of them");
     is_wrong(", writable = [0.5]", "`0.5` is neither a value of UNSIGNED16");
     is_wrong(", when = { b = \"on\" }", "`on` is neither a number");
@@ -315,7 +315,7 @@ fn buses_and_tables_of_modbus() {
         .replace("table = \"holding\"", "table = \"holding\", functions = [3, 6, 16], max_read = 125, max_write = 2")
         .replace("[device]\n", "[device]\nnode_ids = \"1..90\"\n");
     assert_eq!(reported(&facts), [""; 0]);
-    let device = read(&facts).catalog.expect("a catalogue").devices.remove(0);
+    let device = read(&facts).catalog.expect("a catalog").devices.remove(0);
     assert_eq!(
         (device.node_ids, device.modbus[0].max_write, device.modbus[0].functions.len()),
         (Some((1, 90)), Some(2), 3)

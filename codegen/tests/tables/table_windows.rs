@@ -29,7 +29,7 @@ fn rust(text: &str) -> String {
 }
 
 fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
-    let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+    let device = &compilation.catalog.as_ref().expect("a catalog").devices[0];
     device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == name).expect("an item")
 }
 
@@ -123,7 +123,7 @@ entries = ["lamp", "pad/8"]
 fn pdos_of_one_bus_beside_those_of_another() {
     assert_eq!(reported(PDOS), [""; 0]);
     let compilation = read(PDOS);
-    let pdos = &compilation.catalog.as_ref().expect("a catalogue").devices[0].process_data.pdos;
+    let pdos = &compilation.catalog.as_ref().expect("a catalog").devices[0].process_data.pdos;
     let entries: Vec<_> = pdos.iter().map(|pdo| (pdo.buses, pdo.entries.len())).collect();
     assert_eq!(entries, [(Some(ObjectBuses::COE), 2), (Some(ObjectBuses::CANOPEN), 0)]);
     let text = rust(PDOS);

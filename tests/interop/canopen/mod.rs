@@ -19,7 +19,7 @@ use lexibus::clients::canopen::{self, Buffered};
 use lexibus::NodeId;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
-use lexibus_export::eds::{export, Flavour};
+use lexibus_export::eds::{export, Flavor};
 use serde_json::{json, Value};
 use tokio_serial::SerialStream;
 
@@ -84,7 +84,7 @@ fn exported(test: &str, file: &str) -> PathBuf {
     let source = Source::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a description");
     let compilation = check(source, &Options::default());
     let catalog = compilation.catalog.expect("a catalog");
-    let eds = export(&catalog, &catalog.devices[0], Flavour::Eds).expect("a CANopen device");
+    let eds = export(&catalog, &catalog.devices[0], Flavor::Eds).expect("a CANopen device");
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("interop-{test}.eds"));
     std::fs::write(&path, eds.text).expect("a temporary file");
     path

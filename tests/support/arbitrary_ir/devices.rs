@@ -86,14 +86,14 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         ..Device::default()
     };
     if is_table || b.one_in(6) {
-        with_behaviour(b, device)
+        with_behavior(b, device)
     } else {
         device
     }
 }
 
 /// Adds facts that only register tables contain.
-fn with_behaviour(b: &mut Bytes<'_>, device: Device) -> Device {
+fn with_behavior(b: &mut Bytes<'_>, device: Device) -> Device {
     let of_items = |group: &Group| group.items.iter().map(|item| item.name.clone()).collect::<Vec<_>>();
     let items: Vec<CompactString> = device.groups.iter().flat_map(of_items).collect();
     let types: Vec<CompactString> = device.types.iter().map(|own| own.name.clone()).collect();

@@ -2,7 +2,7 @@
 //! variants.
 
 use lexibus_codegen::ir::{
-    Access, Availability, Behaviour, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Srdo, Storage, Type,
+    Access, Availability, Behavior, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Srdo, Storage, Type,
     Value,
 };
 use lexibus_codegen::source::Span;
@@ -73,8 +73,8 @@ fn conversion(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString]) -
     }
 }
 
-pub fn behaviour(b: &mut Bytes<'_>) -> Behaviour {
-    Behaviour {
+pub fn behavior(b: &mut Bytes<'_>) -> Behavior {
+    Behavior {
         storage: match b.within(0..=3) {
             0 => Storage::Unknown,
             1 => Storage::Volatile,

@@ -55,7 +55,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
             Box::new(Configured { value, denotation: b.maybe(2, names::text), upload_file, download_file })
         }),
         quantity: b.maybe(3, |b| Box::new(facts::quantity(b, around.given))),
-        behaviour: b.maybe(4, |b| Box::new(facts::behaviour(b))),
+        behavior: b.maybe(4, |b| Box::new(facts::behavior(b))),
         availability: b.maybe(6, |b| Box::new(facts::availability(b))),
         related: b.maybe(8, |b| {
             let mut item = || b.maybe(2, names::name).map(Into::into);

@@ -70,7 +70,7 @@ fn has_no_other_facts(item: &Item) -> bool {
         && item.names.is_empty()
         && item.bindings.len() == 1
         && item.quantity.is_none()
-        && item.behaviour.is_none()
+        && item.behavior.is_none()
         && item.availability.is_none()
         && note::relations(item) == 0
         && item.documentation.is_none()

@@ -4,7 +4,7 @@ use lexibus_codegen::ir::{Binding, Device, Group};
 
 /// The kind of file (CiA 306).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Flavour {
+pub enum Flavor {
     /// An electronic data sheet. An EDS describes a device type without its configuration.
     #[default]
     Eds,
@@ -27,21 +27,21 @@ pub enum Reals {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Kind of the file to write: EDS or DCF.
-    pub flavour: Flavour,
+    pub flavor: Flavor,
     /// Notation of real numbers in the file.
     pub reals: Reals,
 }
 
-impl From<Flavour> for Options {
-    fn from(flavour: Flavour) -> Self {
-        Options { flavour, ..Options::default() }
+impl From<Flavor> for Options {
+    fn from(flavor: Flavor) -> Self {
+        Options { flavor, ..Options::default() }
     }
 }
 
 /// Data that the writers of all parts of the file use.
 pub(super) struct Context<'a> {
     pub(super) device: &'a Device,
-    pub(super) flavour: Flavour,
+    pub(super) flavor: Flavor,
     pub(super) reals: Reals,
     /// Name of the source file.
     pub(super) file_name: &'a str,

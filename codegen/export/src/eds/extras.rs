@@ -6,7 +6,7 @@
 
 use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
-use super::{Context, Flavour};
+use super::{Context, Flavor};
 use lexibus_codegen::ir::Extension;
 
 /// The sections of the header and the object lists.
@@ -102,7 +102,7 @@ impl<'a> Extras<'a> {
         };
         let extra = Extra { key, value };
         match HEADERS.into_iter().find(|header| header.name() == section) {
-            Some(header) if header.configures() && context.flavour == Flavour::Eds => {
+            Some(header) if header.configures() && context.flavor == Flavor::Eds => {
                 notes.add(NoteKind::Configuration, Subject::Named(&extension.key));
             }
             Some(header) => self.header.push((header, extra)),
@@ -157,7 +157,7 @@ mod tests {
         let device = Device { extensions: keys.map(extension).into(), ..Device::default() };
         let context = Context {
             device: &device,
-            flavour: Flavour::Eds,
+            flavor: Flavor::Eds,
             reals: Reals::default(),
             file_name: "",
             is_verbatim: true,

@@ -16,7 +16,7 @@ use super::{Export, NoteKind};
 ///
 /// Lines end with CR LF (CiA 306). The file is encoded in UTF-8; it is ASCII if the device has only ASCII texts.
 pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -> Option<Export> {
-    let Options { flavour, reals } = options.into();
+    let Options { flavor, reals } = options.into();
     let registers = registers::objects(device, Item::object);
     let completed = registers::completed(&registers);
     let derived = [mapping::objects(device), registers].concat();
@@ -27,7 +27,7 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     let format = catalog.files.first().map(|file| file.format);
     let context = Context {
         device,
-        flavour,
+        flavor,
         reals,
         file_name: catalog.files.first().map_or("", |file| &file.name),
         is_verbatim: matches!(format, Some(Format::Eds | Format::Dcf)),

@@ -6,7 +6,7 @@
 use super::extras::Header;
 use super::note::{NoteKind, Subject};
 use super::section::Section;
-use super::{Context, Flavour};
+use super::{Context, Flavor};
 use lexibus_codegen::ir;
 
 /// EDSVersion of a file that is converted from another format. A converted file uses the sections and keys of CiA 306 1.3.
@@ -35,7 +35,7 @@ pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
             out.open().plain(key, text, subject);
         }
     }
-    if context.flavour == Flavour::Dcf && !header.last_eds.is_empty() {
+    if context.flavor == Flavor::Dcf && !header.last_eds.is_empty() {
         out.open().plain("LastEDS", &header.last_eds, subject);
     }
 }
@@ -45,7 +45,7 @@ fn convert(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> 
     let name = if given.file_name.is_empty() { context.file_name } else { &given.file_name };
     let name = lexibus_codegen::text::file_name(name);
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let ending = if context.flavour == Flavour::Dcf { "dcf" } else { "eds" };
+    let ending = if context.flavor == Flavor::Dcf { "dcf" } else { "eds" };
     let mut header = ir::Header {
         file_name: compact_str::format_compact!("{stem}.{ending}"),
         format_version: VERSION.into(),

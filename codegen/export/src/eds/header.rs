@@ -5,7 +5,7 @@ use super::note::{NoteKind, Subject};
 use super::object;
 use super::section::{comment_lines, indices, Section, BIT_RATES};
 use super::writer::Writer;
-use super::{file_info, Context, Flavour};
+use super::{file_info, Context, Flavor};
 use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
 
 /// Writes a header section unless it is empty. If the section is an object list, also writes the sections of its objects.
@@ -125,8 +125,7 @@ fn comments(out: &mut Section<'_>, lines: &[CompactString]) {
 }
 
 fn commissioning(out: &mut Section<'_>, context: &Context<'_>) {
-    let Some(commissioning) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf)
-    else {
+    let Some(commissioning) = context.device.commissioning.as_deref().filter(|_| context.flavor == Flavor::Dcf) else {
         return;
     };
     let is_of_modules =
@@ -161,8 +160,7 @@ fn supported_modules(out: &mut Section<'_>, context: &Context<'_>, catalog: &Cat
 }
 
 fn connected_modules(out: &mut Section<'_>, context: &Context<'_>) {
-    let Some(commissioning) = context.device.commissioning.as_deref().filter(|_| context.flavour == Flavour::Dcf)
-    else {
+    let Some(commissioning) = context.device.commissioning.as_deref().filter(|_| context.flavor == Flavor::Dcf) else {
         return;
     };
     if commissioning.connected_modules.is_empty() && !out.is_open {

@@ -4,13 +4,13 @@ use super::mapping;
 use super::note::{self, NoteKind, Notes, Subject};
 use super::registers;
 use super::section::BIT_RATES;
-use super::{is_coe_only, Context, Flavour};
-use lexibus_codegen::ir::{Behaviour, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
+use super::{is_coe_only, Context, Flavor};
+use lexibus_codegen::ir::{Behavior, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
 /// Adds notes for facts of the device, except its objects, that CiA 306 cannot express.
 pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut Notes) {
     let (device, subject) = (context.device, Subject::Device);
-    if context.flavour == Flavour::Eds && (device.commissioning.is_some() || !device.header.last_eds.is_empty()) {
+    if context.flavor == Flavor::Eds && (device.commissioning.is_some() || !device.header.last_eds.is_empty()) {
         notes.add(NoteKind::Configuration, subject);
     }
     let other_buses = usize::from(device.ethercat.is_some()) + usize::from(device.profinet.is_some());
@@ -93,8 +93,8 @@ pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     notes.add_many(NoteKind::Binding, item.bindings.iter().filter(|binding| is_other(binding)).count(), subject);
     notes.add_many(NoteKind::Language, item.names.len(), subject);
     notes.add_many(NoteKind::Quantity, item.quantity.is_some(), subject);
-    let is_lost = |behaviour: &Behaviour| *behaviour != Behaviour { srdo: behaviour.srdo, ..Behaviour::default() };
-    notes.add_many(NoteKind::Behaviour, item.behaviour.as_deref().is_some_and(is_lost), subject);
+    let is_lost = |behavior: &Behavior| *behavior != Behavior { srdo: behavior.srdo, ..Behavior::default() };
+    notes.add_many(NoteKind::Behavior, item.behavior.as_deref().is_some_and(is_lost), subject);
     let variants = item.variants.len();
     notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, subject);
     notes.add_many(NoteKind::Relation, note::relations(item), subject);

@@ -35,5 +35,5 @@ mod writer;
 pub use super::note::{Export, Note, NoteKind};
 use super::{note, registers};
 use context::{is_coe_only, Context};
-pub use context::{Flavour, Options, Reals};
+pub use context::{Flavor, Options, Reals};
 pub use file::export;

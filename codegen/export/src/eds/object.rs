@@ -9,7 +9,7 @@ use super::note::{NoteKind, Subject};
 use super::section::indices;
 use super::value::{self, Form, Role};
 use super::writer::Writer;
-use super::{Context, Flavour};
+use super::{Context, Flavor};
 use lexibus_codegen::ir::{
     Access, Bus, Configured, Extension, Group, Item, Mappable, ObjectCode, Type, TypeDef, Value,
 };
@@ -162,7 +162,7 @@ impl<'a> Object<'a> {
             }
         };
         list("Name", elements.names());
-        if self.context.flavour == Flavour::Dcf {
+        if self.context.flavor == Flavor::Dcf {
             let ty = self.data_type(elements.template).ty;
             list("Value", elements.values(|value| value::text(value, ty, Role::Value, self.form()).0));
             list("Denotation", elements.denotations());
@@ -201,7 +201,7 @@ impl<'a> Object<'a> {
         let ty = data_type.ty;
         self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, subject);
         writer.flag("PDOMapping", is_mappable);
-        if let Some(srdo) = item.behaviour.as_ref().and_then(|behaviour| behaviour.srdo) {
+        if let Some(srdo) = item.behavior.as_ref().and_then(|behavior| behavior.srdo) {
             writer.flag("SRDOMapping", true);
             if let Some((index, sub)) = srdo.inverted {
                 writer.entry("InvertedSRAD", format_args!("0x{index:04X}{sub:02X}"));
@@ -220,7 +220,7 @@ impl<'a> Object<'a> {
     }
 
     fn configured(&self, writer: &mut Writer, configured: &Configured, ty: Type, subject: Subject<'_>) {
-        if self.context.flavour == Flavour::Eds {
+        if self.context.flavor == Flavor::Eds {
             return writer.notes.add(NoteKind::Configuration, subject);
         }
         self.number(writer, "ParameterValue", configured.value.as_ref(), ty, Role::Value, subject);

@@ -124,7 +124,7 @@ pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue,
     xml.close();
     notes.add_many(NoteKind::ValueRange, value.last.is_some(), subject);
     let is_conditional = value.when.is_some() || value.zone.is_some();
-    notes.add_many(NoteKind::Behaviour, is_conditional, subject);
+    notes.add_many(NoteKind::Behavior, is_conditional, subject);
     notes.add_many(NoteKind::Availability, value.availability.is_some(), subject);
 }
 

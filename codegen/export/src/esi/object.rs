@@ -198,17 +198,17 @@ fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
         // Only one address of each item is exported, and each other address counts as a lost fact.
         let other_buses = item.bindings.len().saturating_sub(1);
         notes.add_many(NoteKind::Binding, other_buses, subject);
-        let more = item.behaviour.as_ref().is_some_and(|behaviour| {
-            behaviour.storage != Storage::Unknown
-                || behaviour.effective.is_some()
-                || !behaviour.write_when.is_empty()
-                || !behaviour.writable_values.is_empty()
-                || !behaviour.side_effects.is_empty()
-                || behaviour.self_clearing
-                || behaviour.write_once
-                || behaviour.hidden
+        let more = item.behavior.as_ref().is_some_and(|behavior| {
+            behavior.storage != Storage::Unknown
+                || behavior.effective.is_some()
+                || !behavior.write_when.is_empty()
+                || !behavior.writable_values.is_empty()
+                || !behavior.side_effects.is_empty()
+                || behavior.self_clearing
+                || behavior.write_once
+                || behavior.hidden
         });
-        notes.add_many(NoteKind::Behaviour, more, subject);
+        notes.add_many(NoteKind::Behavior, more, subject);
         let availability = usize::from(item.availability.is_some()) + item.variants.len();
         notes.add_many(NoteKind::Availability, availability, subject);
         notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);

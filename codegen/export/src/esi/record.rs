@@ -37,15 +37,15 @@ pub(super) struct FieldFacts {
 
 impl FieldFacts {
     pub(super) fn of(item: &Item) -> Self {
-        let behaviour = item.behaviour.as_deref();
+        let behavior = item.behavior.as_deref();
         FieldFacts {
             access: item.access_on(BUS),
             mappable: item.mappable,
-            backup: behaviour.is_some_and(|behaviour| behaviour.backup),
-            setting: behaviour.is_some_and(|behaviour| behaviour.setting),
-            safety: behaviour.and_then(|behaviour| behaviour.safety.clone()),
-            read_states: behaviour.map_or_else(Vec::new, |behaviour| behaviour.read_states.clone()),
-            write_states: behaviour.map_or_else(Vec::new, |behaviour| behaviour.write_states.clone()),
+            backup: behavior.is_some_and(|behavior| behavior.backup),
+            setting: behavior.is_some_and(|behavior| behavior.setting),
+            safety: behavior.and_then(|behavior| behavior.safety.clone()),
+            read_states: behavior.map_or_else(Vec::new, |behavior| behavior.read_states.clone()),
+            write_states: behavior.map_or_else(Vec::new, |behavior| behavior.write_states.clone()),
             names: if display_name(item).is_some() { Texts::default() } else { item.names.clone() },
             documentation: item.documentation.clone(),
         }

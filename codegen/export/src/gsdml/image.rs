@@ -384,7 +384,7 @@ fn losses(device: &Device, notes: &mut Notes) {
                     notes.add_many(NoteKind::Quantity, item.quantity.is_some(), subject);
                     let limits = usize::from(!item.limits.is_empty()) + usize::from(item.default.is_some());
                     notes.add_many(NoteKind::Limits, limits, subject);
-                    notes.add_many(NoteKind::Behaviour, item.behaviour.is_some(), subject);
+                    notes.add_many(NoteKind::Behavior, item.behavior.is_some(), subject);
                     let available = usize::from(item.availability.is_some()) + item.variants.len();
                     notes.add_many(NoteKind::Availability, available, subject);
                     notes.add_many(NoteKind::Relation, note::relations(item), subject);

@@ -127,7 +127,7 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     if !matches!(item.access, Access::ReadWrite) {
         xml.attribute("Changeable", "false");
     }
-    if item.behaviour.as_ref().is_some_and(|behaviour| behaviour.hidden) {
+    if item.behavior.as_ref().is_some_and(|behavior| behavior.hidden) {
         xml.attribute("Visible", "false");
     }
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));

@@ -12,7 +12,7 @@ use lexibus_codegen::compile::{check, read, Compilation, Options};
 use lexibus_codegen::diagnostics::Diagnostic;
 use lexibus_codegen::ir::{self, Device, Item, Type};
 use lexibus_codegen::source::{Source, Span};
-use lexibus_export::eds::{export, Flavour};
+use lexibus_export::eds::{export, Flavor};
 use serde_json::Value;
 
 /// Files that the library can load neither before nor after the export, with the reason.
@@ -79,7 +79,7 @@ fn pair(folder: &Path, file: File, number: usize) -> Option<Pair> {
     let File { name, bytes } = file;
     let compilation = read(Source::new(name.as_str(), bytes.clone()), &Options::default());
     let catalog = compilation.catalog.as_ref()?;
-    let text = export(catalog, &catalog.devices[0], Flavour::Dcf)?.text;
+    let text = export(catalog, &catalog.devices[0], Flavor::Dcf)?.text;
     let (original, exported) =
         (folder.join(format!("{number}-before.eds")), folder.join(format!("{number}-after.eds")));
     std::fs::write(&original, bytes).expect("a temporary file");
@@ -187,7 +187,7 @@ fn devices_of_other_formats_load() {
         let Some(catalog) = &compilation.catalog else { continue };
         let devices = catalog.devices.iter().filter(|device| !device.groups.is_empty() && !device.dictionary_only);
         for device in devices.take(2) {
-            let Some(file) = export(catalog, device, Flavour::Eds) else { continue };
+            let Some(file) = export(catalog, device, Flavor::Eds) else { continue };
             let path = folder.join(format!("{}.eds", paths.len()));
             std::fs::write(&path, file.text).expect("a temporary file");
             paths.push(path);
@@ -226,7 +226,7 @@ fn dictionaries_load() {
         let compilation = check(Source::new(source.to_string_lossy(), bytes), &Options::default());
         let catalog = compilation.catalog.as_ref().expect("a catalog");
         for device in &catalog.devices {
-            let Some(file) = export(catalog, device, Flavour::Eds) else { continue };
+            let Some(file) = export(catalog, device, Flavor::Eds) else { continue };
             let path = folder.join(format!("{}.eds", paths.len()));
             std::fs::write(&path, file.text).expect("a temporary file");
             paths.push(path);

@@ -9,7 +9,7 @@ use std::process::Command;
 use crate::corpus_support::{files_of, python};
 use lexibus_codegen::compile::{read, Options};
 use lexibus_codegen::source::Source;
-use lexibus_export::eds::{self, export, Flavour, Reals};
+use lexibus_export::eds::{self, export, Flavor, Reals};
 use serde::Deserialize;
 
 /// Files whose exports `dcfchk` rejects, with the reason.
@@ -41,7 +41,7 @@ fn exported_files_are_accepted_if_their_originals_are() {
     let (Some(python), Some(files)) = (python::with(&["dcf.lint"]), files_of("eds")) else { return };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("eds-in-dcf-tools");
     std::fs::create_dir_all(&folder).expect("a folder for temporary files");
-    let options = eds::Options { flavour: Flavour::Eds, reals: Reals::Pattern };
+    let options = eds::Options { flavor: Flavor::Eds, reals: Reals::Pattern };
     let (mut names, mut paths) = (Vec::new(), [Vec::new(), Vec::new()]);
     for (number, file) in files.into_iter().filter(|file| file.name.to_lowercase().ends_with(".eds")).enumerate() {
         let compilation = read(Source::new(file.name.as_str(), file.bytes.clone()), &Options::default());

@@ -11,7 +11,7 @@ use lexibus_codegen::compile::{check as compile, read, Compilation};
 use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::ir::{self, Catalog, Device, Type};
 use lexibus_codegen::source::Source;
-use lexibus_export::eds::{export, Export, Flavour};
+use lexibus_export::eds::{export, Export, Flavor};
 use serde_json::Value;
 
 /// Codes of diagnostics that the export of a file may cause although the original does not cause them, with the reason.
@@ -37,16 +37,16 @@ fn without_configuration(value: &mut Value) {
     }
 }
 
-fn exported(compilation: &Compilation, flavour: Flavour) -> Export {
+fn exported(compilation: &Compilation, flavor: Flavor) -> Export {
     let catalog = compilation.catalog.as_ref().expect("a catalog");
-    export(catalog, &catalog.devices[0], flavour).expect("a CANopen device has an EDS")
+    export(catalog, &catalog.devices[0], flavor).expect("a CANopen device has an EDS")
 }
 
 /// Compares the export of a file as EDS or DCF with its original. Returns the differences.
-fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
+fn check(file: &File, original: &Compilation, flavor: Flavor) -> Vec<String> {
     let options = options();
-    let Export { text, .. } = exported(original, flavour);
-    let ending = if flavour == Flavour::Dcf { "dcf" } else { "eds" };
+    let Export { text, .. } = exported(original, flavor);
+    let ending = if flavor == Flavor::Dcf { "dcf" } else { "eds" };
     let name = format!("export.{ending}");
     let again = read(Source::new(name.as_str(), text.clone().into()), &options);
     let mut wrong = Vec::new();
@@ -56,7 +56,7 @@ fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
         return wrong;
     };
     let mut before = content(&without_swapped_limits(original.catalog.as_ref().expect("a catalog")));
-    if flavour == Flavour::Eds {
+    if flavor == Flavor::Eds {
         without_configuration(&mut before);
     }
     if let Some(difference) = difference(&before, &content(catalog), "") {
@@ -70,13 +70,13 @@ fn check(file: &File, original: &Compilation, flavour: Flavour) -> Vec<String> {
             say(format!("{code} {was} times before, {count} times now: {}", again.one_line(first)));
         }
     }
-    if exported(&again, flavour).text != text {
+    if exported(&again, flavor).text != text {
         say("the second export differs".into());
     }
     for line in text.split_inclusive('\n').filter(|line| !line.ends_with("\r\n")) {
         say(format!("a line does not end with CR LF: {line:?}"));
     }
-    if flavour == Flavour::Dcf {
+    if flavor == Flavor::Dcf {
         wrong.extend(check_passes(file, &text));
     }
     wrong
@@ -111,7 +111,7 @@ fn check_passes(file: &File, text: &str) -> Vec<String> {
     if findings(&first) != findings(&second) {
         wrong.push(format!("{}: {:?} and {:?}", file.name, findings(&first), findings(&second)));
     }
-    if exported(&first, Flavour::Dcf).text != exported(&second, Flavour::Dcf).text {
+    if exported(&first, Flavor::Dcf).text != exported(&second, Flavor::Dcf).text {
         wrong.push(format!("{}: the export of the checked device differs", file.name));
     }
     wrong
@@ -128,8 +128,8 @@ fn eds_to_ir_to_eds_to_ir_is_the_identity() {
         }
         total += 1;
         let before = wrong.len();
-        wrong.extend(check(file, &original, Flavour::Dcf));
-        wrong.extend(check(file, &original, Flavour::Eds));
+        wrong.extend(check(file, &original, Flavor::Dcf));
+        wrong.extend(check(file, &original, Flavor::Eds));
         identical += usize::from(wrong.len() == before);
     }
     eprintln!("{identical} of {total} files are identical after export");
@@ -171,7 +171,7 @@ fn devices_of_other_formats_have_the_same_entries() {
         let Some(catalog) = &compilation.catalog else { continue };
         // Files with hundreds of devices repeat the same objects, so a few devices are sufficient.
         for device in catalog.devices.iter().filter(|device| !device.groups.is_empty()).take(3) {
-            let Some(exported) = export(catalog, device, Flavour::Dcf) else { continue };
+            let Some(exported) = export(catalog, device, Flavor::Dcf) else { continue };
             devices += 1;
             let again = read(Source::new("export.dcf", exported.text.into()), &options());
             let mut found = Vec::new();

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::Bus;
 use lexibus_codegen::source::Source;
-use lexibus_export::eds::{export, Flavour, NoteKind};
+use lexibus_export::eds::{export, Flavor, NoteKind};
 
 use crate::eco_support::{base, device, items, object, table};
 
@@ -14,7 +14,7 @@ use crate::eco_support::{base, device, items, object, table};
 fn its_eds_has_the_objects_of_canopen() {
     let compilation = table();
     let catalog = compilation.catalog.as_ref().expect("a catalog");
-    let eds = export(catalog, &catalog.devices[0], Flavour::Eds).expect("objects");
+    let eds = export(catalog, &catalog.devices[0], Flavor::Eds).expect("objects");
     let lost = eds.notes.iter().find(|note| note.kind == NoteKind::CoeOnly);
     assert_eq!(lost.map(|note| note.count), Some(4));
     let back = check(Source::new("eco.eds", eds.text.into_bytes()), &Options::default());

@@ -3,7 +3,7 @@
 use lexibus_codegen::compile::{check, read, Options};
 use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_codegen::source::Source;
-use lexibus_export::eds::{export, Export, Flavour, NoteKind};
+use lexibus_export::eds::{export, Export, Flavor, NoteKind};
 
 /// An EDS with most features and many typical mistakes of real files.
 const QUIRKY: &str = "\
@@ -66,7 +66,7 @@ DefaultValue=0x200+$NODEID
 ObjectLinks=1
 1=0x2000
 [Vendor stuff]
-Colour=red
+Color=red
 ; painted
 [2004Name]
 NrOfEntries=1
@@ -85,8 +85,8 @@ fn catalog(name: &str, text: &str) -> Catalog {
     check(Source::new(name, text.into()), &options()).catalog.expect("a catalog")
 }
 
-fn of(catalog: &Catalog, flavour: Flavour) -> Export {
-    export(catalog, &catalog.devices[0], flavour).expect("objects")
+fn of(catalog: &Catalog, flavor: Flavor) -> Export {
+    export(catalog, &catalog.devices[0], flavor).expect("objects")
 }
 
 fn notes(export: &Export) -> Vec<(NoteKind, usize, &str)> {
@@ -95,7 +95,7 @@ fn notes(export: &Export) -> Vec<(NoteKind, usize, &str)> {
 
 #[test]
 fn dcf_of_a_quirky_file() {
-    let exported = of(&catalog("pump.dcf", QUIRKY), Flavour::Dcf);
+    let exported = of(&catalog("pump.dcf", QUIRKY), Flavor::Dcf);
     assert_eq!(notes(&exported), [(NoteKind::NotAscii, 1, "[2002sub1]")]);
     assert_eq!(exported.text.matches('\n').count(), exported.text.matches("\r\n").count());
     insta::assert_snapshot!(exported.text.replace('\r', ""));
@@ -103,7 +103,7 @@ fn dcf_of_a_quirky_file() {
 
 #[test]
 fn an_eds_has_no_configuration() {
-    let exported = of(&catalog("pump.dcf", QUIRKY), Flavour::Eds);
+    let exported = of(&catalog("pump.dcf", QUIRKY), Flavor::Eds);
     for absent in ["[DeviceComissioning]", "ParameterValue", "NodeID="] {
         assert!(!exported.text.contains(absent), "{absent}");
     }
@@ -114,7 +114,7 @@ fn an_eds_has_no_configuration() {
 #[test]
 fn a_correct_file_stays_correct() {
     const DEMO: &str = include_str!("../../../../dictionaries/demo-drive.eds");
-    let exported = of(&catalog("demo-drive.eds", DEMO), Flavour::Eds);
+    let exported = of(&catalog("demo-drive.eds", DEMO), Flavor::Eds);
     assert_eq!(notes(&exported), []);
     let options = options();
     let [before, after] =
@@ -156,7 +156,7 @@ of operation</Name><Type>Mode</Type><BitSize>8</BitSize><Info><DefaultValue>1</D
 
 #[test]
 fn eds_of_an_ethercat_slave() {
-    let exported = of(&catalog("dio.xml", SLAVE), Flavour::Eds);
+    let exported = of(&catalog("dio.xml", SLAVE), Flavor::Eds);
     let lines: Vec<String> = exported.notes.iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(lines.join("\n") + "\n\n" + &exported.text.replace('\r', ""));
 }
@@ -167,25 +167,25 @@ fn compact_pdos_stay_compact() {
         "[DeviceInfo]\nNrOfRXPDO=4\nCompactPDO=0x17\n[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n";
     let catalog = catalog("compact.eds", eds);
     assert!(catalog.devices[0].object(0x1403).is_some());
-    let text = of(&catalog, Flavour::Eds).text;
+    let text = of(&catalog, Flavor::Eds).text;
     assert!(text.contains("NrOfRXPDO=4\r\n") && text.contains("CompactPDO=0x17\r\n") && !text.contains("[1403]"));
 }
 
 #[test]
 fn modules_keep_their_sections() {
     let eds = "[DeviceInfo]\nProductName=Head\n[SupportedModules]\nNrOfEntries=1\n\
-               [M1ModuleInfo]\nProductName=Four inputs\nProductVersion=1\nColour=grey\n\
+               [M1ModuleInfo]\nProductName=Four inputs\nProductVersion=1\nColor=gray\n\
                [M1Comments]\nLines=1\nLine1=fast\n\
                [M1FixedObjects]\nNrOfEntries=1\n1=0x2100\n\
                [M1Fixed2100]\nParameterName=Filter\nDataType=5\nAccessType=rw\n\
                [M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
                [M1SubExt6000]\nParameterName=Inputs\nDataType=5\nAccessType=ro\nPDOMapping=1\nCount=0;2\nObjExtend=1\nWire=4\n";
     let compilation = read(Source::new("head.eds", eds.into()), &Options::default());
-    let text = of(compilation.catalog.as_ref().expect("a catalog"), Flavour::Eds).text.replace('\r', "");
+    let text = of(compilation.catalog.as_ref().expect("a catalog"), Flavor::Eds).text.replace('\r', "");
     let sections = &text[text.find("[M1ModuleInfo]").expect("the module")..];
     assert_eq!(
         sections,
-        "[M1ModuleInfo]\nProductName=Four inputs\nProductVersion=1\nColour=grey\n\n\
+        "[M1ModuleInfo]\nProductName=Four inputs\nProductVersion=1\nColor=gray\n\n\
          [M1Comments]\nLines=1\nLine1=fast\n\n\
          [M1FixedObjects]\nNrOfEntries=1\n1=0x2100\n\n\
          [M1Fixed2100]\nParameterName=Filter\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\nPDOMapping=0\n\n\
@@ -197,5 +197,5 @@ fn modules_keep_their_sections() {
 #[test]
 fn a_device_without_objects_has_no_eds() {
     let catalog = Catalog { devices: vec![Device::default()], ..Catalog::default() };
-    assert_eq!(export(&catalog, &catalog.devices[0], Flavour::Eds), None);
+    assert_eq!(export(&catalog, &catalog.devices[0], Flavor::Eds), None);
 }

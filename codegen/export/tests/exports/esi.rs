@@ -168,7 +168,7 @@ fn missing_facts_are_listed() {
     assert_eq!(options.set("mailbox-out", "0x1000:128"), Ok(()));
     assert_eq!(options.mailbox_out, Some(Area { start: 0x1000, length: Some(128) }));
     assert!(options.set("mailbox-out", "here").is_err_and(|text| text.contains("an address")));
-    assert!(options.set("colour", "red").is_err_and(|text| text.contains("unknown option `colour`")));
+    assert!(options.set("color", "red").is_err_and(|text| text.contains("unknown option `color`")));
 }
 
 /// Returns facts that an EtherCAT slave requires and an EDS does not have.

@@ -139,8 +139,8 @@ fn hold(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String) {
 #[test]
 fn names_do_not_change_the_structure_of_an_eds() {
     for path in ["dictionaries/demo-drive.eds", "dictionaries/aec-vector-step.toml", "tests/data/coupler.esi.xml"] {
-        for flavour in [eds::Flavour::Eds, eds::Flavour::Dcf] {
-            let write = |catalog: &Catalog| eds::export(catalog, &catalog.devices[0], flavour).expect("an EDS").text;
+        for flavor in [eds::Flavor::Eds, eds::Flavor::Dcf] {
+            let write = |catalog: &Catalog| eds::export(catalog, &catalog.devices[0], flavor).expect("an EDS").text;
             hold(path, "again.dcf", &write);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::mem::discriminant;
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, part, text, Comparison, COMPARED};
 use super::show::Show;
 use super::types;
@@ -18,13 +18,13 @@ pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Compari
         match left.iter().position(|other| discriminant(*other) == discriminant(one)) {
             Some(at) => binding(one, left.remove(at), comparison),
             None if is_reached(one, new) => {
-                comparison.push("further address", address::number(one), String::new(), Judgement::WIRE);
+                comparison.push("further address", address::number(one), String::new(), Judgment::WIRE);
             }
             None => {}
         }
     }
     for one in left.into_iter().filter(|binding| is_reached(binding, old)) {
-        comparison.push("further address", String::new(), address::number(one), Judgement::WIRE_COMPATIBLE);
+        comparison.push("further address", String::new(), address::number(one), Judgment::WIRE_COMPATIBLE);
     }
 }
 
@@ -39,8 +39,8 @@ fn is_reached(binding: &Binding, others: &[Binding]) -> bool {
 fn buses(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     let (old, new) = (names_of(old), names_of(new));
     let is_lost = old.iter().any(|bus| !new.contains(bus));
-    let judgement = if is_lost { Judgement::API_AND_WIRE } else { Judgement::ADDITION };
-    comparison.texts("buses", old.join(", "), new.join(", "), judgement);
+    let judgment = if is_lost { Judgment::API_AND_WIRE } else { Judgment::ADDITION };
+    comparison.texts("buses", old.join(", "), new.join(", "), judgment);
 }
 
 fn names_of(bindings: &[Binding]) -> Vec<String> {
@@ -59,14 +59,14 @@ fn buses_of(binding: &Binding) -> Vec<String> {
 }
 
 fn binding(old: &Binding, new: &Binding, comparison: &mut Comparison<'_>) {
-    comparison.texts("address", address::number(old), address::number(new), Judgement::WIRE);
-    let bits = fact("length in bits", Judgement::WIRE);
+    comparison.texts("address", address::number(old), address::number(new), Judgment::WIRE);
+    let bits = fact("length in bits", Judgment::WIRE);
     match (old, new) {
         (Binding::Register(old), Binding::Register(new)) => register(old, new, comparison),
         (Binding::Record { bits: old, .. }, Binding::Record { bits: new, .. }) => bits(old, new, comparison),
         (Binding::Image(old), Binding::Image(new)) => image(old, new, comparison),
         (Binding::EscMemory { length: old, .. }, Binding::EscMemory { length: new, .. }) => {
-            fact("length in bytes", Judgement::WIRE)(old, new, comparison);
+            fact("length in bytes", Judgment::WIRE)(old, new, comparison);
         }
         (Binding::Indirect(old), Binding::Indirect(new)) => window(old, new, comparison),
         // All other bindings have no fields except the address. The buses of the item have already been compared.
@@ -76,7 +76,7 @@ fn binding(old: &Binding, new: &Binding, comparison: &mut Comparison<'_>) {
 
 fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Comparison<'_>) {
     // Word order only matters for items with several registers.
-    let word_order = if old.count.max(new.count) > 1 { Judgement::WIRE } else { Judgement::NONE };
+    let word_order = if old.count.max(new.count) > 1 { Judgment::WIRE } else { Judgment::NONE };
     compare_fields!(RegisterBinding, old, new, comparison, {
         // The printed address changes with the wire address and the length, so its changes are not reported separately.
         printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
@@ -84,29 +84,29 @@ fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Compa
                 text("printed address")(one, other, comparison);
             }
         },
-        is_order_assumed: fact("word order is an assumption", Judgement::NONE),
-        count: fact("number of registers", Judgement::WIRE),
+        is_order_assumed: fact("word order is an assumption", Judgment::NONE),
+        count: fact("number of registers", Judgment::WIRE),
         low_word_first: fact_as("word order", word_order, |low_word_first| {
             if *low_word_first { "low word first" } else { "high word first" }.to_owned()
         }),
-        bytes_swapped: fact_as("byte order", Judgement::WIRE, |swapped| {
+        bytes_swapped: fact_as("byte order", Judgment::WIRE, |swapped| {
             if *swapped { "low byte first" } else { "high byte first" }.to_owned()
         }),
-        words_per_address: fact("registers of one address", Judgement::WIRE),
-        extended: fact("extended to the length of the registers", Judgement::WIRE),
+        words_per_address: fact("registers of one address", Judgment::WIRE),
+        extended: fact("extended to the length of the registers", Judgment::WIRE),
     }, COMPARED => [space, address, bit_offset]);
 }
 
 fn image(old: &ImageBinding, new: &ImageBinding, comparison: &mut Comparison<'_>) {
     compare_fields!(ImageBinding, old, new, comparison, {
-        bits: fact("length in bits", Judgement::WIRE),
-        ty: types::compare_optional("type in the image", Judgement::WIRE),
+        bits: fact("length in bits", Judgment::WIRE),
+        ty: types::compare_optional("type in the image", Judgment::WIRE),
     }, COMPARED => [image, bit_offset]);
 }
 
 fn window(old: &IndirectBinding, new: &IndirectBinding, comparison: &mut Comparison<'_>) {
     compare_fields!(IndirectBinding, old, new, comparison, {
-        window: fact("number of the window", Judgement::WIRE),
+        window: fact("number of the window", Judgment::WIRE),
         read: part("read through the window", side),
         write: part("written through the window", side),
     }, COMPARED => [space, buses, number]);
@@ -115,13 +115,13 @@ fn window(old: &IndirectBinding, new: &IndirectBinding, comparison: &mut Compari
 fn side(old: &Option<WindowSide>, new: &Option<WindowSide>, comparison: &mut Comparison<'_>) {
     super::comparison::or_default(|old, new, comparison: &mut Comparison<'_>| {
         compare_fields!(WindowSide, old, new, comparison, {
-            number: fact("item of the number", Judgement::WIRE),
-            value: fact("item of the value", Judgement::WIRE),
-            number_first: fact("number is written first", Judgement::WIRE),
-            clears: fact("the device clears the number", Judgement::BEHAVIOR),
-            wait: fact("wait in ms", Judgement::BEHAVIOR),
-            timeout: fact("timeout in ms", Judgement::BEHAVIOR),
-            procedure: fact("procedure", Judgement::BEHAVIOR),
+            number: fact("item of the number", Judgment::WIRE),
+            value: fact("item of the value", Judgment::WIRE),
+            number_first: fact("number is written first", Judgment::WIRE),
+            clears: fact("the device clears the number", Judgment::BEHAVIOR),
+            wait: fact("wait in ms", Judgment::BEHAVIOR),
+            timeout: fact("timeout in ms", Judgment::BEHAVIOR),
+            procedure: fact("procedure", Judgment::BEHAVIOR),
         });
     })(old, new, comparison);
 }

@@ -1,6 +1,6 @@
 //! Compares catalogs: devices, modules, submodules and their shared data.
 
-use super::change::{Change, Judgement};
+use super::change::{Change, Judgment};
 use super::comparison::{compare_fields, fact_as, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION};
 use super::pairing::pairs;
 use super::show::Show;
@@ -21,7 +21,7 @@ pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     shared(old, new, &mut comparison);
     types::compare_unused(&mut comparison);
     let mut changes = comparison.changes;
-    changes.sort_by_key(|change| change.judgement.class());
+    changes.sort_by_key(|change| change.judgment.class());
     changes
 }
 
@@ -30,7 +30,7 @@ pub fn compare_devices(old_catalog: &Catalog, old: &Device, new_catalog: &Catalo
     let mut comparison = Comparison::new(old_catalog, new_catalog);
     comparison.in_types(&old.types, &new.types, |comparison| devices::compare(old, new, comparison));
     let mut changes = comparison.changes;
-    changes.sort_by_key(|change| change.judgement.class());
+    changes.sort_by_key(|change| change.judgment.class());
     changes
 }
 
@@ -40,8 +40,8 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
         code_tables: codes::tables(),
         unit_diagnoses: profinet::unit_diagnoses(),
         families: list(Elements::titled(|family: &Family| format!("family {}", family.id))
-            .judged(|_| Judgement::NONE, |_| Judgement::NONE), family),
-        graphics: part("the catalog", fact_as("pictures", Judgement::NONE, |list: &Vec<Graphic>| {
+            .judged(|_| Judgment::NONE, |_| Judgment::NONE), family),
+        graphics: part("the catalog", fact_as("pictures", Judgment::NONE, |list: &Vec<Graphic>| {
             list.iter().map(|graphic| format!("{} {}", graphic.id, graphic.file)).collect::<Vec<_>>().join("; ")
         })),
         extensions: part("the catalog", extensions),
@@ -90,8 +90,8 @@ fn owned<'a, T>(
     comparison.owner = owner;
     match pair {
         (Some(old), Some(new)) => compare(old, new, comparison),
-        (Some(_), None) => comparison.within(kind, |comparison| comparison.removed(Judgement::API_AND_WIRE)),
-        _ => comparison.within(kind, |comparison| comparison.added(Judgement::ADDITION)),
+        (Some(_), None) => comparison.within(kind, |comparison| comparison.removed(Judgment::API_AND_WIRE)),
+        _ => comparison.within(kind, |comparison| comparison.added(Judgment::ADDITION)),
     }
     comparison.owner.clear();
 }
@@ -100,6 +100,6 @@ fn family(old: &Family, new: &Family, comparison: &mut Comparison<'_>) {
     compare_fields!(Family, old, new, comparison, {
         name: text("name"),
         names,
-        descriptions: fact_as("description", Judgement::NONE, |list: &Vec<LocalText>| list.show()),
+        descriptions: fact_as("description", Judgment::NONE, |list: &Vec<LocalText>| list.show()),
     }, KEY => [id], POSITION => [origin]);
 }

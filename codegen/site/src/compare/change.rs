@@ -21,7 +21,7 @@ pub enum Effect {
 
 /// The effects of a change on the three aspects: Rust code, communication and behavior.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
-pub struct Judgement {
+pub struct Judgment {
     /// Rust code written for the old version: whether it still compiles and has the same meaning.
     pub api: Effect,
     /// The bytes on the bus: addresses, layouts, encodings and frames.
@@ -30,32 +30,31 @@ pub struct Judgement {
     pub behavior: Effect,
 }
 
-impl Judgement {
+impl Judgment {
     /// No effect, as for changes of texts and of facts about the file.
-    pub const NONE: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
+    pub const NONE: Judgment = Judgment::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
     /// Breaks Rust code only.
-    pub const API: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
+    pub const API: Judgment = Judgment::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
     /// Breaks the communication only.
-    pub const WIRE: Judgement = Judgement::new(Effect::Unaffected, Effect::Breaking, Effect::Unaffected);
+    pub const WIRE: Judgment = Judgment::new(Effect::Unaffected, Effect::Breaking, Effect::Unaffected);
     /// Breaks the behavior only.
-    pub const BEHAVIOR: Judgement = Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Breaking);
+    pub const BEHAVIOR: Judgment = Judgment::new(Effect::Unaffected, Effect::Unaffected, Effect::Breaking);
     /// Breaks Rust code and the communication, but not the behavior.
-    pub const API_AND_WIRE: Judgement = Judgement::new(Effect::Breaking, Effect::Breaking, Effect::Unaffected);
+    pub const API_AND_WIRE: Judgment = Judgment::new(Effect::Breaking, Effect::Breaking, Effect::Unaffected);
     /// Breaks Rust code and the behavior, but not the communication.
-    pub const API_AND_BEHAVIOR: Judgement = Judgement::new(Effect::Breaking, Effect::Unaffected, Effect::Breaking);
+    pub const API_AND_BEHAVIOR: Judgment = Judgment::new(Effect::Breaking, Effect::Unaffected, Effect::Breaking);
     /// Adds an element to the Rust code.
-    pub const API_COMPATIBLE: Judgement = Judgement::new(Effect::Compatible, Effect::Unaffected, Effect::Unaffected);
+    pub const API_COMPATIBLE: Judgment = Judgment::new(Effect::Compatible, Effect::Unaffected, Effect::Unaffected);
     /// Adds an element to the Rust code and to the communication.
-    pub const ADDITION: Judgement = Judgement::new(Effect::Compatible, Effect::Compatible, Effect::Unaffected);
+    pub const ADDITION: Judgment = Judgment::new(Effect::Compatible, Effect::Compatible, Effect::Unaffected);
     /// Adds an element to the communication.
-    pub const WIRE_COMPATIBLE: Judgement = Judgement::new(Effect::Unaffected, Effect::Compatible, Effect::Unaffected);
+    pub const WIRE_COMPATIBLE: Judgment = Judgment::new(Effect::Unaffected, Effect::Compatible, Effect::Unaffected);
     /// Changes the behavior without making any previous use invalid.
-    pub const BEHAVIOR_COMPATIBLE: Judgement =
-        Judgement::new(Effect::Unaffected, Effect::Unaffected, Effect::Compatible);
+    pub const BEHAVIOR_COMPATIBLE: Judgment = Judgment::new(Effect::Unaffected, Effect::Unaffected, Effect::Compatible);
 
-    /// Creates a judgement from the effects on the three aspects.
+    /// Creates a judgment from the effects on the three aspects.
     pub const fn new(api: Effect, wire: Effect, behavior: Effect) -> Self {
-        Judgement { api, wire, behavior }
+        Judgment { api, wire, behavior }
     }
 
     /// Returns whether the change breaks Rust code or the communication.
@@ -80,7 +79,7 @@ impl Judgement {
     }
 }
 
-impl fmt::Display for Judgement {
+impl fmt::Display for Judgment {
     /// Writes `breaks api, wire`, `compatible` or `no effect`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.class() {
@@ -120,17 +119,17 @@ pub struct Change {
     pub new: String,
     /// Effects of the change.
     #[serde(flatten)]
-    pub judgement: Judgement,
+    pub judgment: Judgment,
 }
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Change { owner, element, fact, old, new, judgement } = self;
+        let Change { owner, element, fact, old, new, judgment } = self;
         let (old, new) = excerpts(old, new);
         // Make control characters printable, because the texts come from descriptions and may be shown in a terminal.
         let [owner, element, old, new] = [owner, element, &old, &new].map(|text| printable(text));
         let of = if owner.is_empty() { String::new() } else { format!("{owner}: ") };
-        write!(f, "{judgement}: {of}{element}")?;
+        write!(f, "{judgment}: {of}{element}")?;
         match (old.is_empty(), new.is_empty()) {
             (true, true) => write!(f, ": {fact}"),
             (true, false) => write!(f, ": {fact}, {new}"),
@@ -183,14 +182,14 @@ impl Summary {
     /// Counts the changes of each class.
     pub fn of(changes: &[Change]) -> Self {
         let count =
-            |condition: &dyn Fn(Judgement) -> bool| changes.iter().filter(|change| condition(change.judgement)).count();
+            |condition: &dyn Fn(Judgment) -> bool| changes.iter().filter(|change| condition(change.judgment)).count();
         Summary {
             changes: changes.len(),
-            api: count(&|judgement| judgement.api == Effect::Breaking),
-            wire: count(&|judgement| judgement.wire == Effect::Breaking),
-            behavior: count(&|judgement| judgement.behavior == Effect::Breaking),
-            compatible: count(&|judgement| judgement.class() == Class::Compatible),
-            none: count(&|judgement| judgement.class() == Class::None),
+            api: count(&|judgment| judgment.api == Effect::Breaking),
+            wire: count(&|judgment| judgment.wire == Effect::Breaking),
+            behavior: count(&|judgment| judgment.behavior == Effect::Breaking),
+            compatible: count(&|judgment| judgment.class() == Class::Compatible),
+            none: count(&|judgment| judgment.class() == Class::None),
         }
     }
 }
@@ -215,14 +214,13 @@ mod tests {
 
     #[test]
     fn a_change_is_named_by_its_worst_effects() {
-        let text = |judgement: Judgement| judgement.to_string();
-        assert_eq!(text(Judgement::API_AND_WIRE), "breaks api, wire");
-        assert_eq!(text(Judgement { behavior: Effect::Breaking, ..Judgement::WIRE }), "breaks wire, behavior");
-        assert_eq!(text(Judgement { behavior: Effect::Breaking, ..Judgement::ADDITION }), "breaks behavior");
-        assert_eq!(text(Judgement::BEHAVIOR_COMPATIBLE), "compatible");
-        assert_eq!(text(Judgement::NONE), "no effect");
-        let classes =
-            [Judgement::WIRE, Judgement::BEHAVIOR, Judgement::ADDITION, Judgement::NONE].map(Judgement::class);
+        let text = |judgment: Judgment| judgment.to_string();
+        assert_eq!(text(Judgment::API_AND_WIRE), "breaks api, wire");
+        assert_eq!(text(Judgment { behavior: Effect::Breaking, ..Judgment::WIRE }), "breaks wire, behavior");
+        assert_eq!(text(Judgment { behavior: Effect::Breaking, ..Judgment::ADDITION }), "breaks behavior");
+        assert_eq!(text(Judgment::BEHAVIOR_COMPATIBLE), "compatible");
+        assert_eq!(text(Judgment::NONE), "no effect");
+        let classes = [Judgment::WIRE, Judgment::BEHAVIOR, Judgment::ADDITION, Judgment::NONE].map(Judgment::class);
         assert!(classes.is_sorted());
     }
 
@@ -238,16 +236,16 @@ mod tests {
     }
 
     #[test]
-    fn every_judgement_is_counted() {
-        let change = |judgement| Change {
+    fn every_judgment_is_counted() {
+        let change = |judgment| Change {
             owner: String::new(),
             element: String::new(),
             fact: "fact",
             old: String::new(),
             new: String::new(),
-            judgement,
+            judgment,
         };
-        let changes = [Judgement::API_AND_WIRE, Judgement::BEHAVIOR, Judgement::ADDITION, Judgement::NONE].map(change);
+        let changes = [Judgment::API_AND_WIRE, Judgment::BEHAVIOR, Judgment::ADDITION, Judgment::NONE].map(change);
         let text = Summary::of(&changes).to_string();
         assert_eq!(text, "4 changes; breaking: api 1, wire 1, behavior 1; compatible: 1; no effect: 1");
         assert_eq!(Summary::of(&[]).to_string(), "no changes");

@@ -1,6 +1,6 @@
 //! Compares code tables, which become enumerations in Rust.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact, list, text, Comparison, Elements, COMPARED, POSITION};
 use super::conditions::only_on;
 use super::names::identifier;
@@ -11,13 +11,13 @@ use lexibus_codegen::ir::{CodeRow, CodeTable};
 pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Comparison<'_>) {
     let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name))
         .paired_by(|table| identifier(&table.name));
-    list(elements.judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), table)
+    list(elements.judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), table)
 }
 
 fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
     compare_fields!(CodeTable, old, new, comparison, {
         name,
-        columns: fact("columns", Judgement::API),
+        columns: fact("columns", Judgment::API),
         rows: list(rows(), row),
         buses: only_on,
         documentation, stated_by,
@@ -30,8 +30,8 @@ fn rows() -> Elements<CodeRow> {
         title: |row| format!("code {} {}", code::text(row), row.name),
         name: |row| row.name.to_string(),
         position: |row| row.code.to_string(),
-        added: |_| Judgement::API,
-        removed: |_| Judgement::API,
+        added: |_| Judgment::API,
+        removed: |_| Judgment::API,
     }
 }
 
@@ -41,12 +41,12 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
         None => row.code.to_string(),
     };
     // A change of the notation does not affect the communication, as long as the code stays the same.
-    let judgement = if old.code == new.code { Judgement::API } else { Judgement::WIRE };
-    comparison.texts("code", number(old), number(new), judgement);
+    let judgment = if old.code == new.code { Judgment::API } else { Judgment::WIRE };
+    comparison.texts("code", number(old), number(new), judgment);
     compare_fields!(CodeRow, old, new, comparison, {
         printed: text("printed code"),
         printed_cells: text("printed cells"),
         name, names, availability, documentation, stated_by,
-        cells: fact("further columns", Judgement::BEHAVIOR),
+        cells: fact("further columns", Judgment::BEHAVIOR),
     }, COMPARED => [code, last]);
 }

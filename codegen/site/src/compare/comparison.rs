@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use std::fmt::Debug;
 use std::ops::Deref;
 
-use super::change::{Change, Judgement};
+use super::change::{Change, Judgment};
 use super::pairing;
 use super::show::Show;
 use lexibus_codegen::ir::{Catalog, Type, TypeDef};
@@ -82,9 +82,9 @@ impl<'a> Comparison<'a> {
     }
 
     /// Reports a changed fact of the current element.
-    pub fn push(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
+    pub fn push(&mut self, fact: &'static str, old: String, new: String, judgment: Judgment) {
         let (owner, element) = (self.owner.clone(), self.element.clone());
-        self.changes.push(Change { owner, element, fact, old, new, judgement });
+        self.changes.push(Change { owner, element, fact, old, new, judgment });
     }
 
     /// Reports a fact of the current element if its old and new values differ.
@@ -93,29 +93,29 @@ impl<'a> Comparison<'a> {
         fact: &'static str,
         [old, new]: [&T; 2],
         [old_text, new_text]: [String; 2],
-        judgement: Judgement,
+        judgment: Judgment,
     ) {
         // Compare the texts too: two NaN values are unequal, but equal texts mean no change.
         if old != new && format!("{old:?}") != format!("{new:?}") {
-            self.push(fact, old_text, new_text, judgement);
+            self.push(fact, old_text, new_text, judgment);
         }
     }
 
     /// Reports a fact of the current element if its old and new texts differ.
-    pub fn texts(&mut self, fact: &'static str, old: String, new: String, judgement: Judgement) {
+    pub fn texts(&mut self, fact: &'static str, old: String, new: String, judgment: Judgment) {
         if old != new {
-            self.push(fact, old, new, judgement);
+            self.push(fact, old, new, judgment);
         }
     }
 
     /// Reports that the current element was removed.
-    pub fn removed(&mut self, judgement: Judgement) {
-        self.push("removed", String::new(), String::new(), judgement);
+    pub fn removed(&mut self, judgment: Judgment) {
+        self.push("removed", String::new(), String::new(), judgment);
     }
 
     /// Reports that the current element was added.
-    pub fn added(&mut self, judgement: Judgement) {
-        self.push("added", String::new(), String::new(), judgement);
+    pub fn added(&mut self, judgment: Judgment) {
+        self.push("added", String::new(), String::new(), judgment);
     }
 }
 
@@ -177,38 +177,38 @@ pub(super) const COMPARED: &str = "compared together with another field";
 /// Compares a fact. All changes of the fact have the same effects.
 pub(super) fn fact<T: PartialEq + Debug + Show>(
     name: &'static str,
-    judgement: Judgement,
+    judgment: Judgment,
 ) -> impl Fn(&T, &T, &mut Comparison<'_>) {
-    fact_as(name, judgement, T::show)
+    fact_as(name, judgment, T::show)
 }
 
 /// Compares a fact. All changes of the fact have the same effects. `show` returns the text of a value for reports.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
-    judgement: Judgement,
+    judgment: Judgment,
     show: impl Fn(&T) -> String,
 ) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     move |old, new, comparison| {
         if old != new {
-            comparison.values(name, [old, new], [show(old), show(new)], judgement);
+            comparison.values(name, [old, new], [show(old), show(new)], judgment);
         }
     }
 }
 
 /// Compares a text whose changes have no effect.
 pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
-    fact(name, Judgement::NONE)
+    fact(name, Judgment::NONE)
 }
 
 /// Compares values by their texts, because the values contain positions in the source.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
-    judgement: Judgement,
+    judgment: Judgment,
     show: impl Fn(&T) -> String,
 ) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     move |old, new, comparison| {
         if old != new {
-            comparison.texts(name, show(old), show(new), judgement);
+            comparison.texts(name, show(old), show(new), judgment);
         }
     }
 }
@@ -216,7 +216,7 @@ pub(super) fn positioned<T: PartialEq>(
 /// Compares a fact. The effects of a change depend on its values.
 pub(super) fn judged<T: PartialEq + Debug + Show>(
     name: &'static str,
-    judge: impl Fn(&T, &T) -> Judgement,
+    judge: impl Fn(&T, &T) -> Judgment,
 ) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     move |old, new, comparison| {
         if old != new {
@@ -236,8 +236,8 @@ pub(super) fn part<T>(
 /// Compares an optional part. Adding or removing the part has the given effects.
 pub(super) fn optional<T, B: Borrow<T>>(
     name: &'static str,
-    added: Judgement,
-    removed: Judgement,
+    added: Judgment,
+    removed: Judgment,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
 ) -> impl Fn(&Option<B>, &Option<B>, &mut Comparison<'_>) {
     move |old, new, comparison| {
@@ -278,8 +278,8 @@ pub(super) struct Elements<T> {
     pub name: fn(&T) -> String,
     /// Function that returns the second key, which pairs elements that have no common first key.
     pub position: fn(&T) -> String,
-    pub added: fn(&T) -> Judgement,
-    pub removed: fn(&T) -> Judgement,
+    pub added: fn(&T) -> Judgment,
+    pub removed: fn(&T) -> Judgment,
 }
 
 impl<T> Elements<T> {
@@ -289,8 +289,8 @@ impl<T> Elements<T> {
             title,
             name: title,
             position: |_| String::new(),
-            added: |_| Judgement::ADDITION,
-            removed: |_| Judgement::API_AND_WIRE,
+            added: |_| Judgment::ADDITION,
+            removed: |_| Judgment::API_AND_WIRE,
         }
     }
 
@@ -300,7 +300,7 @@ impl<T> Elements<T> {
     }
 
     /// Sets the effects of all additions and of all removals.
-    pub fn judged(self, added: fn(&T) -> Judgement, removed: fn(&T) -> Judgement) -> Self {
+    pub fn judged(self, added: fn(&T) -> Judgment, removed: fn(&T) -> Judgment) -> Self {
         Elements { added, removed, ..self }
     }
 }

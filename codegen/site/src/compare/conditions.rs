@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact, judged, or_default, text, Comparison};
 use super::show::Show;
 use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
@@ -14,9 +14,9 @@ pub(super) fn restricted<T: PartialEq + Debug + Show>(
     judged(name, |old: &Vec<T>, new: &Vec<T>| {
         let is_narrower = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
         if is_narrower {
-            Judgement::BEHAVIOR
+            Judgment::BEHAVIOR
         } else {
-            Judgement::BEHAVIOR_COMPATIBLE
+            Judgment::BEHAVIOR_COMPATIBLE
         }
     })
 }
@@ -27,8 +27,8 @@ pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Co
         let text = |list: &[Condition]| list.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");
         if old != new {
             let is_weaker = new.iter().all(|condition| old.contains(condition));
-            let judgement = if is_weaker { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
-            comparison.values(name, [old, new], [text(old), text(new)], judgement);
+            let judgment = if is_weaker { Judgment::BEHAVIOR_COMPATIBLE } else { Judgment::BEHAVIOR };
+            comparison.values(name, [old, new], [text(old), text(new)], judgment);
         }
     }
 }
@@ -47,10 +47,10 @@ pub(super) fn availability(
     or_default(|old, new, comparison: &mut Comparison<'_>| {
         compare_fields!(Availability, old, new, comparison, {
             models: restricted("models"),
-            since: fact("since firmware", Judgement::BEHAVIOR),
-            until: fact("until firmware", Judgement::BEHAVIOR),
+            since: fact("since firmware", Judgment::BEHAVIOR),
+            until: fact("until firmware", Judgment::BEHAVIOR),
             replaced_by: text("replaced by"),
-            options: fact("needs", Judgement::BEHAVIOR),
+            options: fact("needs", Judgment::BEHAVIOR),
             buses: only_on,
         });
     })(old, new, comparison);

@@ -1,6 +1,6 @@
 //! Compares devices: identity, file header, CANopen and Modbus settings, models and axes.
 
-use super::change::{Effect, Judgement};
+use super::change::{Effect, Judgment};
 use super::comparison::{
     compare_fields, fact, fact_as, judged, list, optional, or_default, part, positioned, slice, text, Comparison,
     Elements, COMPARED, KEY, POSITION,
@@ -22,9 +22,9 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
     comparison.within("the device", |comparison| facts_of_device(old, new, comparison));
     compare_fields!(Device, old, new, comparison, {
         header: part("the file", header),
-        canopen: optional("CANopen", Judgement::ADDITION, Judgement::API_AND_WIRE, canopen),
-        ethercat: optional("EtherCAT", Judgement::ADDITION, Judgement::API_AND_WIRE, ethercat::compare),
-        profinet: optional("PROFINET", Judgement::ADDITION, Judgement::API_AND_WIRE, profinet::settings),
+        canopen: optional("CANopen", Judgment::ADDITION, Judgment::API_AND_WIRE, canopen),
+        ethercat: optional("EtherCAT", Judgment::ADDITION, Judgment::API_AND_WIRE, ethercat::compare),
+        profinet: optional("PROFINET", Judgment::ADDITION, Judgment::API_AND_WIRE, profinet::settings),
         modbus: slice(modbus_tables),
         commissioning: part("commissioning", or_default(commissioning)),
         groups: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
@@ -38,24 +38,24 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
         submodules: slice(profinet::compare_uses),
         messages: slice(messages::compare),
         parameter_spaces: messages::spaces(),
-        framing: optional("framing", Judgement::ADDITION, Judgement::API_AND_WIRE, messages::framing),
+        framing: optional("framing", Judgment::ADDITION, Judgment::API_AND_WIRE, messages::framing),
         given: list(Elements::titled(|number: &GivenNumber| format!("machine constant {}", number.name))
             .paired_by(|number| identifier(&number.name))
-            .judged(|_| Judgement::API, |_| Judgement::API), given),
+            .judged(|_| Judgment::API, |_| Judgment::API), given),
         code_tables: codes::tables(),
         machines: list(Elements::titled(|machine: &StateMachine| format!("machine {}", machine.name))
             .paired_by(|machine| identifier(&machine.name))
-            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::compare),
+            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), machines::compare),
         procedures: list(Elements::titled(|procedure: &Procedure| format!("procedure {}", procedure.name))
             .paired_by(|procedure| identifier(&procedure.name))
-            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), machines::procedure),
+            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), machines::procedure),
         composites: list(Elements::titled(|composite: &Composite| format!("composite {}", composite.name))
             .paired_by(|composite| identifier(&composite.name))
-            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), composite),
+            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), composite),
         variants: list(Elements::titled(|model: &Variant| format!("model {}", model.name))
             .paired_by(|model| identifier(&model.name))
-            .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API), model),
-        axes: optional("axes", Judgement::API_COMPATIBLE, Judgement::API, axes),
+            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), model),
+        axes: optional("axes", Judgment::API_COMPATIBLE, Judgment::API, axes),
         manual: part("the manual", manual),
     },
     COMPARED => [name, names, id, dictionary_only, identity, modbus_examples, node_ids, profiles, types, documentation,
@@ -74,15 +74,15 @@ fn facts_of_device(old: &Device, new: &Device, comparison: &mut Comparison<'_>) 
     }
     text("name in other languages")(&old.names, &new.names, comparison);
     text("identifier in the file")(&old.id, &new.id, comparison);
-    fact("dictionary without a device", Judgement::API)(&old.dictionary_only, &new.dictionary_only, comparison);
+    fact("dictionary without a device", Judgment::API)(&old.dictionary_only, &new.dictionary_only, comparison);
     identity(&old.identity, &new.identity, comparison);
-    positioned("examples of frames", Judgement::NONE, |examples: &Vec<MessageExample>| messages::examples(examples))(
+    positioned("examples of frames", Judgment::NONE, |examples: &Vec<MessageExample>| messages::examples(examples))(
         &old.modbus_examples,
         &new.modbus_examples,
         comparison,
     );
-    fact_as("node-IDs", Judgement::BEHAVIOR, node_ids)(&old.node_ids, &new.node_ids, comparison);
-    fact("profiles", Judgement::BEHAVIOR)(&old.profiles, &new.profiles, comparison);
+    fact_as("node-IDs", Judgment::BEHAVIOR, node_ids)(&old.node_ids, &new.node_ids, comparison);
+    fact("profiles", Judgment::BEHAVIOR)(&old.profiles, &new.profiles, comparison);
     documentation(&old.documentation, &new.documentation, comparison);
     doubts(&old.doubts, &new.doubts, comparison);
     extensions(&old.extensions, &new.extensions, comparison);
@@ -115,21 +115,21 @@ fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Compar
     compare_fields!(CanOpenSettings, old, new, comparison, {
         bit_rates: judged("bit rates in kbit/s", |old: &Vec<u16>, new: &Vec<u16>| {
             let is_lost = old.iter().any(|value| !new.contains(value));
-            if is_lost { Judgement::BEHAVIOR } else { Judgement::BEHAVIOR_COMPATIBLE }
+            if is_lost { Judgment::BEHAVIOR } else { Judgment::BEHAVIOR_COMPATIBLE }
         }),
-        auto_bit_rate: fact("detects the bit rate", Judgement::BEHAVIOR),
-        boot_up_master: fact("boot-up master", Judgement::BEHAVIOR),
-        boot_up_slave: fact("boot-up slave", Judgement::BEHAVIOR),
-        granularity: fact("granularity of mappings in bits", Judgement::BEHAVIOR),
-        dynamic_channels_supported: fact("support of dynamic channels", Judgement::BEHAVIOR),
-        group_messaging: fact("multiplexed PDOs", Judgement::BEHAVIOR),
-        rx_pdos: fact("number of RPDOs", Judgement::BEHAVIOR),
-        tx_pdos: fact("number of TPDOs", Judgement::BEHAVIOR),
-        lss: fact("layer setting services", Judgement::BEHAVIOR),
-        compact_pdo: fact("sub-indices of implicit PDOs", Judgement::BEHAVIOR),
-        dummies: fact("dummy entries", Judgement::BEHAVIOR),
-        dummies_given: fact("list of dummy entries", Judgement::NONE),
-        dynamic_channels: fact_as("dynamic channels", Judgement::BEHAVIOR, |list: &Vec<DynamicChannel>| {
+        auto_bit_rate: fact("detects the bit rate", Judgment::BEHAVIOR),
+        boot_up_master: fact("boot-up master", Judgment::BEHAVIOR),
+        boot_up_slave: fact("boot-up slave", Judgment::BEHAVIOR),
+        granularity: fact("granularity of mappings in bits", Judgment::BEHAVIOR),
+        dynamic_channels_supported: fact("support of dynamic channels", Judgment::BEHAVIOR),
+        group_messaging: fact("multiplexed PDOs", Judgment::BEHAVIOR),
+        rx_pdos: fact("number of RPDOs", Judgment::BEHAVIOR),
+        tx_pdos: fact("number of TPDOs", Judgment::BEHAVIOR),
+        lss: fact("layer setting services", Judgment::BEHAVIOR),
+        compact_pdo: fact("sub-indices of implicit PDOs", Judgment::BEHAVIOR),
+        dummies: fact("dummy entries", Judgment::BEHAVIOR),
+        dummies_given: fact("list of dummy entries", Judgment::NONE),
+        dynamic_channels: fact_as("dynamic channels", Judgment::BEHAVIOR, |list: &Vec<DynamicChannel>| {
             list.iter().map(dynamic_channel).collect::<Vec<_>>().join("; ")
         }),
     }, POSITION => [at]);
@@ -165,41 +165,41 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
         // removed.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
             let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
-            if is_lost { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
+            if is_lost { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }
         }),
         max_read: judged("longest read", shorter),
         max_write: judged("longest write", shorter),
         split: judged("longer values in several requests", |old: &bool, _: &bool| {
-            if *old { Judgement::WIRE } else { Judgement::WIRE_COMPATIBLE }
+            if *old { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }
         }),
     }, KEY => [space]);
 }
 
 /// Returns the effects of a change of a maximum request length.
-fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgement {
+fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgment {
     let is_shorter = new.is_some_and(|new| old.is_none_or(|old| new < old));
     let wire = if is_shorter { Effect::Breaking } else { Effect::Compatible };
-    Judgement { wire, ..Judgement::NONE }
+    Judgment { wire, ..Judgment::NONE }
 }
 
 fn commissioning(old: &Commissioning, new: &Commissioning, comparison: &mut Comparison<'_>) {
     compare_fields!(Commissioning, old, new, comparison, {
-        node_id: fact("node-ID", Judgement::WIRE),
+        node_id: fact("node-ID", Judgment::WIRE),
         node_name: text("name of the node"),
-        bit_rate: fact("bit rate in kbit/s", Judgement::WIRE),
-        net_number: fact("number of the network", Judgement::BEHAVIOR),
+        bit_rate: fact("bit rate in kbit/s", Judgment::WIRE),
+        net_number: fact("number of the network", Judgment::BEHAVIOR),
         network_name: text("name of the network"),
-        manager: fact("CANopen manager", Judgement::BEHAVIOR),
-        lss_serial_number: fact("serial number for layer setting services", Judgement::BEHAVIOR),
-        connected_modules: fact("connected modules", Judgement::BEHAVIOR),
+        manager: fact("CANopen manager", Judgment::BEHAVIOR),
+        lss_serial_number: fact("serial number for layer setting services", Judgment::BEHAVIOR),
+        connected_modules: fact("connected modules", Judgment::BEHAVIOR),
     });
 }
 
 fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) {
     compare_fields!(GivenNumber, old, new, comparison, {
         name,
-        unit: fact("unit", Judgement::API),
-        models: fact_as("numbers of models", Judgement::BEHAVIOR, constants),
+        unit: fact("unit", Judgment::API),
+        models: fact_as("numbers of models", Judgment::BEHAVIOR, constants),
         documentation, doubts,
     }, POSITION => [origin]);
 }
@@ -212,10 +212,10 @@ fn constants(constants: &Vec<(CompactString, Value)>) -> String {
 fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) {
     compare_fields!(Composite, old, new, comparison, {
         name, names,
-        parts: fact("parts", Judgement::API_AND_WIRE),
-        base: fact("base", Judgement::WIRE),
-        sign: fact("sign", Judgement::API_AND_WIRE),
-        unit: fact("unit", Judgement::API_AND_BEHAVIOR),
+        parts: fact("parts", Judgment::API_AND_WIRE),
+        base: fact("base", Judgment::WIRE),
+        sign: fact("sign", Judgment::API_AND_WIRE),
+        unit: fact("unit", Judgment::API_AND_BEHAVIOR),
         documentation,
     }, POSITION => [origin]);
 }
@@ -224,7 +224,7 @@ fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
     compare_fields!(Variant, old, new, comparison, {
         name,
         identity: identity,
-        constants: fact_as("constants", Judgement::BEHAVIOR, constants),
+        constants: fact_as("constants", Judgment::BEHAVIOR, constants),
         documentation,
     }, POSITION => [origin]);
 }
@@ -232,10 +232,10 @@ fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
 fn axes(old: &AxisRule, new: &AxisRule, comparison: &mut Comparison<'_>) {
     compare_fields!(AxisRule, old, new, comparison, {
         axes: judged("number of axes", |old: &u8, new: &u8| {
-            if new < old { Judgement::API_AND_WIRE } else { Judgement::ADDITION }
+            if new < old { Judgment::API_AND_WIRE } else { Judgment::ADDITION }
         }),
         models: restricted("models"),
-        rules: fact_as("addresses of further axes", Judgement::WIRE, |rules: &Vec<AxisRange>| {
+        rules: fact_as("addresses of further axes", Judgment::WIRE, |rules: &Vec<AxisRange>| {
             let rule = |rule: &AxisRange| format!("{} to {}: {}", index(&rule.indices.0), index(&rule.indices.1), rule.step.show());
             rules.iter().map(rule).collect::<Vec<_>>().join("; ")
         }),

@@ -1,6 +1,6 @@
 //! Compares the EtherCAT settings with which a master configures a slave.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
 use super::show::{index, Show};
 use lexibus_codegen::facts::address;
@@ -12,22 +12,22 @@ use lexibus_codegen::ir::{
 
 pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(EtherCatSettings, old, new, comparison, {
-        physics: fact("ports", Judgement::BEHAVIOR),
+        physics: fact("ports", Judgment::BEHAVIOR),
         group: text("family"),
-        hides: fact_as("hidden revisions", Judgement::NONE, |list: &Vec<(Option<u32>, Option<u32>)>| {
+        hides: fact_as("hidden revisions", Judgment::NONE, |list: &Vec<(Option<u32>, Option<u32>)>| {
             joined(list, hidden)
         }),
-        invisible: fact("hidden in lists of devices", Judgement::NONE),
-        fmmus: fact_as("FMMUs", Judgement::WIRE, |list: &Vec<Fmmu>| joined(list, fmmu)),
-        sync_units: fact_as("sync units", Judgement::WIRE, |list: &Vec<SyncUnit>| joined(list, sync_unit)),
-        mailbox: optional("mailbox", Judgement::ADDITION, Judgement::API_AND_WIRE, mailbox),
-        clocks: optional("distributed clocks", Judgement::ADDITION, Judgement::API_AND_WIRE, clocks),
-        slots: optional("slots", Judgement::ADDITION, Judgement::API_AND_WIRE, slots),
-        registers: fact_as("registers of the slave controller", Judgement::WIRE, |list: &Vec<(u16, u32)>| {
+        invisible: fact("hidden in lists of devices", Judgment::NONE),
+        fmmus: fact_as("FMMUs", Judgment::WIRE, |list: &Vec<Fmmu>| joined(list, fmmu)),
+        sync_units: fact_as("sync units", Judgment::WIRE, |list: &Vec<SyncUnit>| joined(list, sync_unit)),
+        mailbox: optional("mailbox", Judgment::ADDITION, Judgment::API_AND_WIRE, mailbox),
+        clocks: optional("distributed clocks", Judgment::ADDITION, Judgment::API_AND_WIRE, clocks),
+        slots: optional("slots", Judgment::ADDITION, Judgment::API_AND_WIRE, slots),
+        registers: fact_as("registers of the slave controller", Judgment::WIRE, |list: &Vec<(u16, u32)>| {
             joined(list, |(address, value)| format!("{} = 0x{value:X}", hex16(*address)))
         }),
-        eeprom: optional("EEPROM", Judgement::BEHAVIOR_COMPATIBLE, Judgement::BEHAVIOR, eeprom),
-        timeouts: fact("time limits in ms", Judgement::BEHAVIOR),
+        eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
+        timeouts: fact("time limits in ms", Judgment::BEHAVIOR),
     });
 }
 
@@ -66,15 +66,14 @@ fn sync_unit(sync_unit: &SyncUnit) -> String {
 }
 
 fn mailbox(old: &Mailbox, new: &Mailbox, comparison: &mut Comparison<'_>) {
-    let optional_protocol = |name: &'static str| {
-        optional::<Protocol, Protocol>(name, Judgement::ADDITION, Judgement::API_AND_WIRE, protocol)
-    };
+    let optional_protocol =
+        |name: &'static str| optional::<Protocol, Protocol>(name, Judgment::ADDITION, Judgment::API_AND_WIRE, protocol);
     compare_fields!(Mailbox, old, new, comparison, {
-        data_link_layer: fact("repeat requests", Judgement::WIRE),
-        real_time: fact("real-time mode", Judgement::BEHAVIOR),
+        data_link_layer: fact("repeat requests", Judgment::WIRE),
+        real_time: fact("real-time mode", Judgment::BEHAVIOR),
         aoe: optional_protocol("AoE"),
         eoe: optional_protocol("EoE"),
-        coe: optional::<Coe, Coe>("CoE", Judgement::ADDITION, Judgement::API_AND_WIRE, coe),
+        coe: optional::<Coe, Coe>("CoE", Judgment::ADDITION, Judgment::API_AND_WIRE, coe),
         foe: optional_protocol("FoE"),
         soe: optional_protocol("SoE"),
         voe: optional_protocol("VoE"),
@@ -83,21 +82,21 @@ fn mailbox(old: &Mailbox, new: &Mailbox, comparison: &mut Comparison<'_>) {
 
 fn protocol(old: &Protocol, new: &Protocol, comparison: &mut Comparison<'_>) {
     compare_fields!(Protocol, old, new, comparison, {
-        attributes: fact("attributes", Judgement::BEHAVIOR),
+        attributes: fact("attributes", Judgment::BEHAVIOR),
         init_commands: init_commands(),
     });
 }
 
 fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
     compare_fields!(Coe, old, new, comparison, {
-        sdo_info: fact("SDO information", Judgement::BEHAVIOR),
-        pdo_assign: fact("writable PDO assignment", Judgement::WIRE),
-        pdo_config: fact("writable PDO mapping", Judgement::WIRE),
-        pdo_upload: fact("the master reads the assignment", Judgement::WIRE),
-        complete_access: fact("complete access", Judgement::WIRE),
-        segmented_sdo: fact("segmented SDO transfer", Judgement::WIRE),
-        diag_history: fact("diagnosis history", Judgement::BEHAVIOR),
-        attributes: fact("attributes", Judgement::BEHAVIOR),
+        sdo_info: fact("SDO information", Judgment::BEHAVIOR),
+        pdo_assign: fact("writable PDO assignment", Judgment::WIRE),
+        pdo_config: fact("writable PDO mapping", Judgment::WIRE),
+        pdo_upload: fact("the master reads the assignment", Judgment::WIRE),
+        complete_access: fact("complete access", Judgment::WIRE),
+        segmented_sdo: fact("segmented SDO transfer", Judgment::WIRE),
+        diag_history: fact("diagnosis history", Judgment::BEHAVIOR),
+        attributes: fact("attributes", Judgment::BEHAVIOR),
         init_commands: init_commands(),
     });
 }
@@ -106,26 +105,26 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
 pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
     let title =
         |command: &InitCommand| format!("start-up write to {}", address::object(command.index, command.sub_index));
-    list(Elements::titled(title).judged(|_| Judgement::WIRE, |_| Judgement::WIRE), init_command)
+    list(Elements::titled(title).judged(|_| Judgment::WIRE, |_| Judgment::WIRE), init_command)
 }
 
 fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Comparison<'_>) {
     compare_fields!(InitCommand, old, new, comparison, {
-        transitions: fact("transitions", Judgement::WIRE),
-        data: fact_as("data", Judgement::WIRE, |data: &Vec<u8>| bytes(data)),
-        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
-        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
-        complete_access: fact("complete access", Judgement::WIRE),
-        fixed: fact("fixed", Judgement::NONE),
-        adapt: fact("adapted by the master", Judgement::WIRE),
-        overwritten_by_module: fact("replaced by a module", Judgement::WIRE),
+        transitions: fact("transitions", Judgment::WIRE),
+        data: fact_as("data", Judgment::WIRE, |data: &Vec<u8>| bytes(data)),
+        depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
+        complete_access: fact("complete access", Judgment::WIRE),
+        fixed: fact("fixed", Judgment::NONE),
+        adapt: fact("adapted by the master", Judgment::WIRE),
+        overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
         comment: text("comment"),
     }, KEY => [index, sub_index], POSITION => [origin]);
 }
 
 fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Comparison<'_>) {
     compare_fields!(DistributedClocks, old, new, comparison, {
-        attributes: fact("attributes", Judgement::BEHAVIOR),
+        attributes: fact("attributes", Judgment::BEHAVIOR),
         modes: list(Elements::titled(|mode: &ClockMode| format!("mode {}", mode.name)), clock_mode),
     });
 }
@@ -133,12 +132,12 @@ fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Com
 fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>) {
     compare_fields!(ClockMode, old, new, comparison, {
         description: text("description"),
-        assign_activate: fact_as("AssignActivate", Judgement::WIRE, |value| format!("0x{value:X}")),
-        cycle_sync0: fact_as("cycle of Sync0", Judgement::WIRE, clock_time),
-        shift_sync0: fact_as("shift of Sync0", Judgement::WIRE, clock_time),
-        cycle_sync1: fact_as("cycle of Sync1", Judgement::WIRE, clock_time),
-        shift_sync1: fact_as("shift of Sync1", Judgement::WIRE, clock_time),
-        sync_managers: fact_as("sync managers", Judgement::WIRE, |list: &Vec<ClockSyncManager>| {
+        assign_activate: fact_as("AssignActivate", Judgment::WIRE, |value| format!("0x{value:X}")),
+        cycle_sync0: fact_as("cycle of Sync0", Judgment::WIRE, clock_time),
+        shift_sync0: fact_as("shift of Sync0", Judgment::WIRE, clock_time),
+        cycle_sync1: fact_as("cycle of Sync1", Judgment::WIRE, clock_time),
+        shift_sync1: fact_as("shift of Sync1", Judgment::WIRE, clock_time),
+        sync_managers: fact_as("sync managers", Judgment::WIRE, |list: &Vec<ClockSyncManager>| {
             joined(list, clock_sync_manager)
         }),
     }, KEY => [name]);
@@ -159,18 +158,18 @@ fn clock_sync_manager(sync_manager: &ClockSyncManager) -> String {
 
 fn slots(old: &SlotRules, new: &SlotRules, comparison: &mut Comparison<'_>) {
     compare_fields!(SlotRules, old, new, comparison, {
-        max_slots: fact("maximum number of slots", Judgement::BEHAVIOR),
-        max_groups: fact("maximum number of slot groups", Judgement::BEHAVIOR),
-        index_increment: fact_as("index increment of a slot", Judgement::WIRE, index),
-        pdo_increment: fact("PDO increment of a slot", Judgement::WIRE),
-        group_index_increment: fact_as("index increment of a slot group", Judgement::WIRE, index),
-        group_pdo_increment: fact("PDO increment of a slot group", Judgement::WIRE),
-        download_idents: fact("the master writes module idents", Judgement::WIRE),
-        download_addresses: fact("the master writes module addresses", Judgement::WIRE),
-        download_transition: fact("transition of these writes", Judgement::WIRE),
-        pdo_groups: fact_as("module PDO groups", Judgement::WIRE, |list: &Vec<ModulePdoGroup>| joined(list, pdo_group)),
+        max_slots: fact("maximum number of slots", Judgment::BEHAVIOR),
+        max_groups: fact("maximum number of slot groups", Judgment::BEHAVIOR),
+        index_increment: fact_as("index increment of a slot", Judgment::WIRE, index),
+        pdo_increment: fact("PDO increment of a slot", Judgment::WIRE),
+        group_index_increment: fact_as("index increment of a slot group", Judgment::WIRE, index),
+        group_pdo_increment: fact("PDO increment of a slot group", Judgment::WIRE),
+        download_idents: fact("the master writes module idents", Judgment::WIRE),
+        download_addresses: fact("the master writes module addresses", Judgment::WIRE),
+        download_transition: fact("transition of these writes", Judgment::WIRE),
+        pdo_groups: fact_as("module PDO groups", Judgment::WIRE, |list: &Vec<ModulePdoGroup>| joined(list, pdo_group)),
         groups: text("names of slot groups"),
-        selections: fact_as("arrangements of modules", Judgement::NONE, |list: &Vec<(CompactString, Vec<u32>)>| {
+        selections: fact_as("arrangements of modules", Judgment::NONE, |list: &Vec<(CompactString, Vec<u32>)>| {
             joined(list, |(name, modules)| format!("{name}: {}", modules.show()))
         }),
     });
@@ -185,13 +184,13 @@ fn pdo_group(group: &ModulePdoGroup) -> String {
 fn eeprom(old: &Eeprom, new: &Eeprom, comparison: &mut Comparison<'_>) {
     let block = |data: &Vec<u8>| bytes(data);
     compare_fields!(Eeprom, old, new, comparison, {
-        data: fact_as("content", Judgement::BEHAVIOR, block),
-        byte_size: fact("size in bytes", Judgement::BEHAVIOR),
-        config_data: fact_as("configuration", Judgement::BEHAVIOR, block),
-        boot_strap: fact_as("bootstrap mailbox", Judgement::WIRE, block),
-        categories: fact_as("categories", Judgement::BEHAVIOR, |list: &Vec<(u16, Vec<u8>)>| {
+        data: fact_as("content", Judgment::BEHAVIOR, block),
+        byte_size: fact("size in bytes", Judgment::BEHAVIOR),
+        config_data: fact_as("configuration", Judgment::BEHAVIOR, block),
+        boot_strap: fact_as("bootstrap mailbox", Judgment::WIRE, block),
+        categories: fact_as("categories", Judgment::BEHAVIOR, |list: &Vec<(u16, Vec<u8>)>| {
             joined(list, |(number, data)| format!("{number}: {}", bytes(data)))
         }),
-        assign_to_pdi: fact("assigned to the process data interface", Judgement::BEHAVIOR),
+        assign_to_pdi: fact("assigned to the process data interface", Judgment::BEHAVIOR),
     });
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, Comparison, COMPARED, POSITION};
 use super::item;
 use super::names::{is_module, Identifiers};
@@ -26,8 +26,8 @@ pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Compariso
             }),
             None => {
                 let is_whole = entries.clone().all(|entry| items.new_of_old[entry].is_none());
-                let judgement = if is_whole { Judgement::API_AND_WIRE } else { Judgement::NONE };
-                comparison.within(&title(group), |comparison| comparison.removed(judgement));
+                let judgment = if is_whole { Judgment::API_AND_WIRE } else { Judgment::NONE };
+                comparison.within(&title(group), |comparison| comparison.removed(judgment));
                 if is_whole {
                     continue;
                 }
@@ -37,7 +37,7 @@ pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Compariso
             let old_entry = &old.entries[entry];
             match items.new_of_old[entry] {
                 Some(other) => pair(old_entry, &new.entries[other], comparison),
-                None => comparison.within(&old_entry.title(), |comparison| comparison.removed(Judgement::API_AND_WIRE)),
+                None => comparison.within(&old_entry.title(), |comparison| comparison.removed(Judgment::API_AND_WIRE)),
             }
         }
     }
@@ -45,14 +45,14 @@ pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Compariso
         let entries = new.entries_of(at);
         if !groups.is_new_paired[at] {
             let is_whole = entries.clone().all(|entry| !items.is_new_paired[entry]);
-            let judgement = if is_whole { Judgement::ADDITION } else { Judgement::NONE };
-            comparison.within(&title(group), |comparison| comparison.added(judgement));
+            let judgment = if is_whole { Judgment::ADDITION } else { Judgment::NONE };
+            comparison.within(&title(group), |comparison| comparison.added(judgment));
             if is_whole {
                 continue;
             }
         }
         for entry in entries.filter(|entry| !items.is_new_paired[*entry]) {
-            comparison.within(&new.entries[entry].title(), |comparison| comparison.added(Judgement::ADDITION));
+            comparison.within(&new.entries[entry].title(), |comparison| comparison.added(Judgment::ADDITION));
         }
     }
 }
@@ -156,11 +156,11 @@ fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
 fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
     let [old, new] = names.map(CompactString::to_string);
     let [old_identifier, new_identifier] = identifiers.map(str::to_owned);
-    let judgement = if old_identifier == new_identifier { Judgement::NONE } else { Judgement::API };
+    let judgment = if old_identifier == new_identifier { Judgment::NONE } else { Judgment::API };
     if old != new {
-        comparison.push("name", old, new, judgement);
+        comparison.push("name", old, new, judgment);
     } else {
-        comparison.texts("identifier", old_identifier, new_identifier, judgement);
+        comparison.texts("identifier", old_identifier, new_identifier, judgment);
     }
 }
 
@@ -172,13 +172,13 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         },
         names,
         kind: |_: &GroupKind, _: &GroupKind, comparison: &mut Comparison<'_>| kind(old, new, comparison),
-        links: fact_as("linked objects", Judgement::NONE, |links: &Vec<u16>| {
+        links: fact_as("linked objects", Judgment::NONE, |links: &Vec<u16>| {
             links.iter().map(index).collect::<Vec<_>>().join(", ")
         }),
-        flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
-        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
-        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
-        described: fact("number of described entries", Judgement::NONE),
+        flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| format!("0x{flags:X}")),
+        depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
+        described: fact("number of described entries", Judgment::NONE),
         documentation, doubts, extensions, origins,
     }, COMPARED => [items], POSITION => [origin, name_at]);
 }
@@ -191,18 +191,18 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
         ) => {
             // If all items have the index of their object, the comparison of the items' addresses reports the changed index.
             if !(has_index_of_items(old) && has_index_of_items(new)) {
-                fact_as("index", Judgement::WIRE, index)(one, other, comparison);
+                fact_as("index", Judgment::WIRE, index)(one, other, comparison);
             }
             // In Rust, an object with entries becomes a module, and an object without entries becomes a constant.
-            let judgement = if is_module(old) == is_module(new) { Judgement::NONE } else { Judgement::API };
-            fact("object code", judgement)(old_code, code, comparison);
-            fact("category", Judgement::NONE)(old_category, category, comparison);
+            let judgment = if is_module(old) == is_module(new) { Judgment::NONE } else { Judgment::API };
+            fact("object code", judgment)(old_code, code, comparison);
+            fact("category", Judgment::NONE)(old_category, category, comparison);
         }
         (GroupKind::Record(old), GroupKind::Record(new)) => record(old, new, comparison),
         (GroupKind::Image { length: old }, GroupKind::Image { length: new }) => {
-            fact("length in bytes", Judgement::WIRE)(old, new, comparison);
+            fact("length in bytes", Judgment::WIRE)(old, new, comparison);
         }
-        _ => comparison.texts("kind", position(old), position(new), Judgement::API_AND_WIRE),
+        _ => comparison.texts("kind", position(old), position(new), Judgment::API_AND_WIRE),
     }
 }
 
@@ -214,11 +214,11 @@ fn has_index_of_items(group: &Group) -> bool {
 
 fn record(old: &Record, new: &Record, comparison: &mut Comparison<'_>) {
     compare_fields!(Record, old, new, comparison, {
-        index: fact_as("index", Judgement::WIRE, index),
-        length: fact("length in bytes", Judgement::API_AND_WIRE),
-        transfer_sequence: fact("order of transfer", Judgement::WIRE),
-        changeable_with_bump: fact("a change disturbs operation", Judgement::BEHAVIOR),
-        constants: fact_as("fixed bytes", Judgement::WIRE, |constants: &Vec<(u32, Vec<u8>)>| {
+        index: fact_as("index", Judgment::WIRE, index),
+        length: fact("length in bytes", Judgment::API_AND_WIRE),
+        transfer_sequence: fact("order of transfer", Judgment::WIRE),
+        changeable_with_bump: fact("a change disturbs operation", Judgment::BEHAVIOR),
+        constants: fact_as("fixed bytes", Judgment::WIRE, |constants: &Vec<(u32, Vec<u8>)>| {
             constants.iter().map(|(offset, constant)| format!("{offset}: {}", bytes(constant))).collect::<Vec<_>>().join("; ")
         }),
     });

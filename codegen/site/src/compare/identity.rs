@@ -1,6 +1,6 @@
 //! Compares the vendor, product and revision of devices, modules and submodules.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact_as, text, Comparison};
 use super::show::ident;
 use lexibus_codegen::facts::number::hex32;
@@ -9,14 +9,14 @@ use lexibus_codegen::ir::{CompactString, Identity};
 /// Compares identities. A program can check the identity, but the identity does not affect any other bytes.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
     compare_fields!(Identity, old, new, comparison, {
-        vendor_id: fact_as("vendor-ID", Judgement::BEHAVIOR, ident),
+        vendor_id: fact_as("vendor-ID", Judgment::BEHAVIOR, ident),
         vendor_name: text("name of the vendor"),
-        product_code: fact_as("product code", Judgement::BEHAVIOR, ident),
+        product_code: fact_as("product code", Judgment::BEHAVIOR, ident),
         product_name: text("name of the product"),
-        revision_number: fact_as("revision", Judgement::BEHAVIOR, ident),
+        revision_number: fact_as("revision", Judgment::BEHAVIOR, ident),
         order_code: text("order code"),
-        serial_number: fact_as("serial number", Judgement::BEHAVIOR, ident),
-        others: fact_as("further identity", Judgement::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
+        serial_number: fact_as("serial number", Judgment::BEHAVIOR, ident),
+        others: fact_as("further identity", Judgment::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
             others.iter().map(|(name, number)| format!("{name} {}", hex32(*number))).collect::<Vec<_>>().join(", ")
         }),
     });

@@ -1,7 +1,7 @@
 //! Compares items: their values, limits, access rights and behavior.
 
 use super::bindings;
-use super::change::{Effect, Judgement};
+use super::change::{Effect, Judgment};
 use super::comparison::{
     compare_fields, fact, fact_as, judged, list, or_default, positioned, slice, text, Comparison, Elements, POSITION,
 };
@@ -12,7 +12,7 @@ use super::types;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
-    Access, Behaviour, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
+    Access, Behavior, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
     Quantity, Rare, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
 };
 
@@ -45,13 +45,13 @@ pub(super) fn compare_named(
         }),
         configured: or_default(configured),
         quantity: or_default(quantity),
-        behaviour: or_default(behaviour),
+        behavior: or_default(behavior),
         availability,
         related: or_default(related),
-        is_reserved: fact("reserved", Judgement::NONE),
-        is_optional: fact("optional", Judgement::BEHAVIOR),
-        shared_by_axes: fact("shared by all axes", Judgement::API),
-        flags: fact_as("flags of the object", Judgement::BEHAVIOR, |flags| format!("0x{flags:X}")),
+        is_reserved: fact("reserved", Judgment::NONE),
+        is_optional: fact("optional", Judgment::BEHAVIOR),
+        shared_by_axes: fact("shared by all axes", Judgment::API),
+        flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| format!("0x{flags:X}")),
         documentation, doubts, extensions, origins,
     }, POSITION => [origin, at]);
 }
@@ -59,15 +59,15 @@ pub(super) fn compare_named(
 /// Compares the references to related items.
 fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'_>) {
     compare_fields!(RelatedItems, old, new, comparison, {
-        same_as: fact("same value as", Judgement::NONE),
-        same_quantity: fact("same quantity as", Judgement::NONE),
-        upper_half: fact("upper half", Judgement::BEHAVIOR),
-        valid_count: fact("number of valid elements", Judgement::BEHAVIOR),
+        same_as: fact("same value as", Judgment::NONE),
+        same_quantity: fact("same quantity as", Judgment::NONE),
+        upper_half: fact("upper half", Judgment::BEHAVIOR),
+        valid_count: fact("number of valid elements", Judgment::BEHAVIOR),
     });
 }
 
 /// Returns the effects of a change of access rights.
-fn access_effects(old: &Access, new: &Access) -> Judgement {
+fn access_effects(old: &Access, new: &Access) -> Judgment {
     let lost = old.readable() && !new.readable() || old.writable() && !new.writable();
     let gained = !old.readable() && new.readable() || !old.writable() && new.writable();
     let api = match (lost, gained) {
@@ -80,14 +80,14 @@ fn access_effects(old: &Access, new: &Access) -> Judgement {
         (_, Access::Constant) => Effect::Compatible,
         _ => Effect::Unaffected,
     };
-    Judgement { api, behavior, ..Judgement::NONE }
+    Judgment { api, behavior, ..Judgment::NONE }
 }
 
 fn mappable(old: &Mappable, new: &Mappable, comparison: &mut Comparison<'_>) {
     let lost = old.rpdo && !new.rpdo || old.tpdo && !new.tpdo;
-    let judgement = if lost { Judgement::API } else { Judgement::API_COMPATIBLE };
+    let judgment = if lost { Judgment::API } else { Judgment::API_COMPATIBLE };
     let text = |mappable: &Mappable| facts::item::mappable(*mappable).unwrap_or("none").to_owned();
-    comparison.texts("mappable into", text(old), text(new), judgement);
+    comparison.texts("mappable into", text(old), text(new), judgment);
 }
 
 fn default(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
@@ -99,10 +99,10 @@ fn default(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {
 }
 
 /// Returns the effects of a changed fact on the behavior. Adding a fact that the old description lacks breaks nothing.
-fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgement {
+fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgment {
     match old {
-        None => Judgement::BEHAVIOR_COMPATIBLE,
-        Some(_) => Judgement::BEHAVIOR,
+        None => Judgment::BEHAVIOR_COMPATIBLE,
+        Some(_) => Judgment::BEHAVIOR,
     }
 }
 
@@ -118,12 +118,12 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
 
 /// Returns the effects of changed limits. A change is breaking if a previously valid value becomes invalid for writing, or if a
 /// read value can be outside of the old limits.
-fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgement {
+fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgment {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
     if is_broken {
-        Judgement::BEHAVIOR
+        Judgment::BEHAVIOR
     } else {
-        Judgement::BEHAVIOR_COMPATIBLE
+        Judgment::BEHAVIOR_COMPATIBLE
     }
 }
 
@@ -154,16 +154,16 @@ fn variants() -> Elements<ItemVariant> {
         let all: Vec<&str> = models.chain(variant.buses.iter().map(|bus| bus.name())).collect();
         format!("on {}", all.join(", "))
     })
-    .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
+    .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR)
 }
 
 /// Compares a variant, which applies to some models or buses, in both descriptions.
 fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: &mut Comparison<'_>) {
     let access = new.access.unwrap_or(items[1].access);
     compare_fields!(ItemVariant, old, new, comparison, {
-        models: fact("models", Judgement::BEHAVIOR),
-        buses: fact("buses", Judgement::BEHAVIOR),
-        ty: types::compare_optional("type", Judgement::API_AND_WIRE),
+        models: fact("models", Judgment::BEHAVIOR),
+        buses: fact("buses", Judgment::BEHAVIOR),
+        ty: types::compare_optional("type", Judgment::API_AND_WIRE),
         access: judged("access", |old: &Option<Access>, new: &Option<Access>| {
             access_effects(&old.unwrap_or(items[0].access), &new.unwrap_or(items[1].access))
         }),
@@ -178,7 +178,7 @@ fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: 
             range(items, [old, new], access, comparison);
         },
         step: judged("step", stated_effects),
-        scale: fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale: &Option<Scale>| {
+        scale: fact_as("scale", Judgment::API_AND_BEHAVIOR, |scale: &Option<Scale>| {
             scale.as_ref().map(|scale| PLAIN.scale(scale, "")).unwrap_or_default()
         }),
         documentation,
@@ -195,7 +195,7 @@ fn configured(old: &Configured, new: &Configured, comparison: &mut Comparison<'_
         value: judged("configured value", stated_effects),
         denotation: text("denotation"),
         upload_file: text("upload file"),
-        download_file: fact("download file", Judgement::BEHAVIOR),
+        download_file: fact("download file", Judgment::BEHAVIOR),
     });
 }
 
@@ -203,15 +203,15 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     compare_fields!(Quantity, old, new, comparison, {
         // A unit that the old description lacks breaks nothing.
         unit: judged("unit", |old: &CompactString, _: &CompactString| match old.is_empty() {
-            true => Judgement::API_COMPATIBLE,
-            false => Judgement::API_AND_BEHAVIOR,
+            true => Judgment::API_COMPATIBLE,
+            false => Judgment::API_AND_BEHAVIOR,
         }),
         units: text("unit in other languages"),
         scale: |_: &_, _: &_, comparison: &mut Comparison<'_>| scale(old, new, comparison),
         sentinels: slice(sentinels),
         step: judged("step", stated_effects),
         machine: or_default(machine_unit),
-        conversions: positioned("examples of conversions", Judgement::NONE, |examples: &Vec<Conversion>| {
+        conversions: positioned("examples of conversions", Judgment::NONE, |examples: &Vec<Conversion>| {
             examples.iter().map(conversion).collect::<Vec<_>>().join("; ")
         }),
     });
@@ -227,24 +227,24 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
                 .map(|scale| PLAIN.scale(scale, facts::physical::shown_unit(quantity)))
                 .unwrap_or_default()
         };
-        comparison.values("scale", [&old.scale, &new.scale], [text(old), text(new)], Judgement::API_AND_BEHAVIOR);
+        comparison.values("scale", [&old.scale, &new.scale], [text(old), text(new)], Judgment::API_AND_BEHAVIOR);
     }
 }
 
 /// Compares sentinels: raw values that do not represent a number. The Rust type excludes them.
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
     let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
-    fact("special value", Judgement::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
+    fact("special value", Judgment::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
     let meanings =
         |list: &[(Value, CompactString)]| list.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
-    comparison.texts("meaning of special values", meanings(old), meanings(new), Judgement::NONE);
+    comparison.texts("meaning of special values", meanings(old), meanings(new), Judgment::NONE);
 }
 
 fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Comparison<'_>) {
     compare_fields!(MachineUnit, old, new, comparison, {
-        unit: fact("machine unit", Judgement::API),
-        times: fact("multiplied by", Judgement::API),
-        over: fact("divided by", Judgement::API),
+        unit: fact("machine unit", Judgment::API),
+        times: fact("multiplied by", Judgment::API),
+        over: fact("divided by", Judgment::API),
     });
 }
 
@@ -257,30 +257,30 @@ fn conversion(conversion: &Conversion) -> String {
     format!("{} = {} {unit}{} {model} {by} {text}", raw.show(), value.show(), given.concat())
 }
 
-fn behaviour(old: &Behaviour, new: &Behaviour, comparison: &mut Comparison<'_>) {
-    compare_fields!(Behaviour, old, new, comparison, {
+fn behavior(old: &Behavior, new: &Behavior, comparison: &mut Comparison<'_>) {
+    compare_fields!(Behavior, old, new, comparison, {
         storage: storage,
         effective: judged("takes effect", stated_effects),
         write_when: conditions("writable while"),
         writable_values: restricted("writable values"),
-        side_effects: fact_as("side effects", Judgement::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
-        self_clearing: fact("cleared by the device", Judgement::BEHAVIOR),
-        write_once: fact("writable only once", Judgement::BEHAVIOR),
-        backup: fact("part of a backup", Judgement::BEHAVIOR),
-        setting: fact("setting of the application", Judgement::NONE),
-        safety: fact("role in functional safety", Judgement::BEHAVIOR),
-        srdo: fact_as("mapping into SRDOs", Judgement::BEHAVIOR, |srdo: &Option<Srdo>| {
-            PLAIN.behaviour(&Behaviour { srdo: *srdo, ..Behaviour::default() }).concat()
+        side_effects: fact_as("side effects", Judgment::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
+        self_clearing: fact("cleared by the device", Judgment::BEHAVIOR),
+        write_once: fact("writable only once", Judgment::BEHAVIOR),
+        backup: fact("part of a backup", Judgment::BEHAVIOR),
+        setting: fact("setting of the application", Judgment::NONE),
+        safety: fact("role in functional safety", Judgment::BEHAVIOR),
+        srdo: fact_as("mapping into SRDOs", Judgment::BEHAVIOR, |srdo: &Option<Srdo>| {
+            PLAIN.behavior(&Behavior { srdo: *srdo, ..Behavior::default() }).concat()
         }),
-        hidden: fact("hidden by tools", Judgement::NONE),
-        pdi_access: fact("access of the device's processor", Judgement::BEHAVIOR),
+        hidden: fact("hidden by tools", Judgment::NONE),
+        pdi_access: fact("access of the device's processor", Judgment::BEHAVIOR),
         read_states: restricted("readable in states"),
         write_states: restricted("writable in states"),
     });
 }
 
 fn storage(old: &Storage, new: &Storage, comparison: &mut Comparison<'_>) {
-    let judgement = if *old == Storage::Unknown { Judgement::BEHAVIOR_COMPATIBLE } else { Judgement::BEHAVIOR };
+    let judgment = if *old == Storage::Unknown { Judgment::BEHAVIOR_COMPATIBLE } else { Judgment::BEHAVIOR };
     let text = |storage: &Storage| PLAIN.storage(storage).unwrap_or_default();
-    comparison.texts("storage", text(old), text(new), judgement);
+    comparison.texts("storage", text(old), text(new), judgment);
 }

@@ -1,6 +1,6 @@
 //! Compares state machines and procedures.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, list, text, Comparison, Elements, COMPARED, KEY, POSITION};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
@@ -8,18 +8,18 @@ use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMac
 pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut Comparison<'_>) {
     compare_fields!(StateMachine, old, new, comparison, {
         name,
-        status_item: fact("status", Judgement::API_AND_WIRE),
-        control_item: fact("control", Judgement::API_AND_WIRE),
-        state_type: fact("enumeration of the states", Judgement::API),
+        status_item: fact("status", Judgment::API_AND_WIRE),
+        control_item: fact("control", Judgment::API_AND_WIRE),
+        state_type: fact("enumeration of the states", Judgment::API),
         // An added state breaks Rust code that matches all variants of the enumeration.
         states: list(patterns(|state| format!("state {}", state.name)), pattern),
-        initial: fact("state after power-on", Judgement::BEHAVIOR),
-        faults: fact("fault states", Judgement::BEHAVIOR),
+        initial: fact("state after power-on", Judgment::BEHAVIOR),
+        faults: fact("fault states", Judgment::BEHAVIOR),
         commands: list(patterns(|command| format!("command {}", command.name)), pattern),
         transitions: list(transitions(), transition),
         outcomes: list(
             Elements::titled(|outcomes: &CommandOutcomes| format!("command {} by state", outcomes.name))
-                .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR),
+                .judged(|_| Judgment::BEHAVIOR_COMPATIBLE, |_| Judgment::BEHAVIOR),
             command_outcomes,
         ),
         documentation, stated_by,
@@ -31,7 +31,7 @@ fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
     Elements {
         name: |pattern| pattern.name.to_string(),
         position: bits,
-        ..Elements::titled(title).judged(|_| Judgement::API, |_| Judgement::API)
+        ..Elements::titled(title).judged(|_| Judgment::API, |_| Judgment::API)
     }
 }
 
@@ -40,7 +40,7 @@ fn bits(pattern: &Pattern) -> String {
 }
 
 fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
-    comparison.texts("bits", bits(old), bits(new), Judgement::WIRE);
+    comparison.texts("bits", bits(old), bits(new), Judgment::WIRE);
     compare_fields!(Pattern, old, new, comparison, {
         name, names, documentation,
     }, COMPARED => [mask, value]);
@@ -53,25 +53,25 @@ fn transitions() -> Elements<Transition> {
         let command = command.map_or_else(|| "without a command".to_owned(), |command| format!("by {command}"));
         format!("transition from {from} to {} {command}", transition.to)
     })
-    .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR)
+    .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR)
 }
 
 fn transition(old: &Transition, new: &Transition, comparison: &mut Comparison<'_>) {
     compare_fields!(Transition, old, new, comparison, {
         number: text("number"),
-        from: fact("from", Judgement::BEHAVIOR),
-        command: fact("command", Judgement::BEHAVIOR),
+        from: fact("from", Judgment::BEHAVIOR),
+        command: fact("command", Judgment::BEHAVIOR),
         documentation,
     }, KEY => [to]);
 }
 
 fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &mut Comparison<'_>) {
     compare_fields!(CommandOutcomes, old, new, comparison, {
-        commands: fact("commands", Judgement::BEHAVIOR),
+        commands: fact("commands", Judgment::BEHAVIOR),
         availability,
         cells: list(
             Elements::titled(|outcome: &StateOutcome| format!("in state {}", outcome.state))
-                .judged(|_| Judgement::BEHAVIOR, |_| Judgement::BEHAVIOR),
+                .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR),
             state_outcome,
         ),
         documentation,
@@ -85,7 +85,7 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
         Outcome::States(states) => states.join(", then "),
     };
     compare_fields!(StateOutcome, old, new, comparison, {
-        outcomes: fact_as("outcome", Judgement::BEHAVIOR, |list: &Vec<Outcome>| {
+        outcomes: fact_as("outcome", Judgment::BEHAVIOR, |list: &Vec<Outcome>| {
             list.iter().map(outcome).collect::<Vec<_>>().join(" or ")
         }),
         documentation,
@@ -96,8 +96,8 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
 pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
     compare_fields!(Procedure, old, new, comparison, {
         name, names,
-        arguments: fact("arguments", Judgement::API),
-        steps: fact_as("steps", Judgement::BEHAVIOR, |steps: &Vec<Step>| {
+        arguments: fact("arguments", Judgment::API),
+        steps: fact_as("steps", Judgment::BEHAVIOR, |steps: &Vec<Step>| {
             steps.iter().map(step).collect::<Vec<_>>().join(" ")
         }),
         documentation,

@@ -1,6 +1,6 @@
 //! Compares command protocols: messages, parameter spaces and framing.
 
-use super::change::{Effect, Judgement};
+use super::change::{Effect, Judgment};
 use super::comparison::{compare_fields, fact, fact_as, list, positioned, Comparison, Elements, KEY, POSITION};
 use super::conditions::{conditions, restricted};
 use super::item;
@@ -27,16 +27,16 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
         reply: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
             frame("reply", old, new, comparison);
         },
-        completion: fact_as("completion", Judgement::BEHAVIOR, completion),
-        reply_time: fact("time of the reply in ms", Judgement::BEHAVIOR),
-        after: fact("after the message", Judgement::API),
-        by_default: fact("default after power-on", Judgement::BEHAVIOR),
-        error: fact("error reply", Judgement::API_AND_WIRE),
-        side_effects: fact_as("side effects", Judgement::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
+        completion: fact_as("completion", Judgment::BEHAVIOR, completion),
+        reply_time: fact("time of the reply in ms", Judgment::BEHAVIOR),
+        after: fact("after the message", Judgment::API),
+        by_default: fact("default after power-on", Judgment::BEHAVIOR),
+        error: fact("error reply", Judgment::API_AND_WIRE),
+        side_effects: fact_as("side effects", Judgment::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
         accepted_when: conditions("accepted while"),
         names, availability,
         accepted_in: restricted("accepted in"),
-        examples: positioned("examples", Judgement::NONE, |list: &Vec<MessageExample>| examples(list)),
+        examples: positioned("examples", Judgment::NONE, |list: &Vec<MessageExample>| examples(list)),
         documentation, doubts,
     }, POSITION => [origin]);
 }
@@ -91,18 +91,18 @@ fn values(fields: &[MessageField]) -> Vec<&MessageValue> {
 fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>) {
     compare_fields!(MessageValue, old, new, comparison, {
         item: item::compare,
-        byte_order: fact("order of the bytes", Judgement::WIRE),
-        counts: fact("byte count starts at", Judgement::WIRE),
+        byte_order: fact("order of the bytes", Judgment::WIRE),
+        counts: fact("byte count starts at", Judgment::WIRE),
     });
 }
 
 /// Returns the effects of a changed layout. The fields become fields of a Rust struct with the same names. The types of values
 /// are compared with the values.
-fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgement {
+fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgment {
     let names = |fields| values(fields).iter().map(|value| identifier(&value.item.name)).collect::<Vec<_>>();
     let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };
     let is_wire = layout(old, false) != layout(new, false);
-    Judgement { api: effect(names(old) != names(new)), wire: effect(is_wire), behavior: Effect::Unaffected }
+    Judgment { api: effect(names(old) != names(new)), wire: effect(is_wire), behavior: Effect::Unaffected }
 }
 
 /// Formats the fields of a frame in their order.
@@ -136,10 +136,10 @@ fn field(field: &MessageField, with_names: bool) -> String {
 /// Compares the number ranges in which the protocol addresses items.
 pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut Comparison<'_>) {
     compare_fields!(ParameterSpace, old, new, comparison, {
-        read: fact("read by", Judgement::WIRE),
-        write: fact("written by", Judgement::WIRE),
-        store: fact("stored by", Judgement::WIRE),
-        byte_order: fact("order of the bytes", Judgement::WIRE),
+        read: fact("read by", Judgment::WIRE),
+        write: fact("written by", Judgment::WIRE),
+        store: fact("stored by", Judgment::WIRE),
+        byte_order: fact("order of the bytes", Judgment::WIRE),
         documentation,
     }, KEY => [name], POSITION => [origin]);
 }
@@ -153,17 +153,17 @@ pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &m
 pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<'_>) {
     let byte = |value: &Option<u8>| value.map(hex8).unwrap_or_default();
     compare_fields!(Framing, old, new, comparison, {
-        start: fact_as("first byte", Judgement::WIRE, byte),
-        end: fact_as("last byte", Judgement::WIRE, byte),
-        escape: fact_as("escape byte", Judgement::WIRE, byte),
-        escape_xor: fact_as("escaped bytes are combined with", Judgement::WIRE, |value| hex8(*value)),
-        escaped: fact_as("escaped bytes", Judgement::WIRE, |escaped: &Vec<u8>| bytes(escaped)),
-        check: fact("check", Judgement::WIRE),
-        check_from: fact("check counts from", Judgement::WIRE),
-        check_escaped: fact("check is escaped", Judgement::WIRE),
-        check_seed: fact_as("start value of the check", Judgement::WIRE, |value| format!("0x{value:X}")),
-        max_data: fact("maximum number of data bytes", Judgement::BEHAVIOR),
-        address: fact("device address field", Judgement::API_AND_WIRE),
+        start: fact_as("first byte", Judgment::WIRE, byte),
+        end: fact_as("last byte", Judgment::WIRE, byte),
+        escape: fact_as("escape byte", Judgment::WIRE, byte),
+        escape_xor: fact_as("escaped bytes are combined with", Judgment::WIRE, |value| hex8(*value)),
+        escaped: fact_as("escaped bytes", Judgment::WIRE, |escaped: &Vec<u8>| bytes(escaped)),
+        check: fact("check", Judgment::WIRE),
+        check_from: fact("check counts from", Judgment::WIRE),
+        check_escaped: fact("check is escaped", Judgment::WIRE),
+        check_seed: fact_as("start value of the check", Judgment::WIRE, |value| format!("0x{value:X}")),
+        max_data: fact("maximum number of data bytes", Judgment::BEHAVIOR),
+        address: fact("device address field", Judgment::API_AND_WIRE),
         documentation,
     }, POSITION => [origin]);
 }

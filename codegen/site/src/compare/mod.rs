@@ -12,7 +12,7 @@
 //!     check(Source::new("d.eds", text.into()), &Options::default()).catalog.expect("a device")
 //! };
 //! let changes = compare(&eds("rw"), &eds("ro"));
-//! assert_eq!((changes.len(), changes[0].judgement.api), (1, Effect::Breaking));
+//! assert_eq!((changes.len(), changes[0].judgment.api), (1, Effect::Breaking));
 //! assert_eq!(changes[0].to_string(), "breaks api: 0x2000:00 Gain: access rw, now ro");
 //! ```
 //!
@@ -43,4 +43,4 @@ mod texts;
 mod types;
 
 pub use catalog::{compare, compare_devices};
-pub use change::{Change, Class, Effect, Judgement, Summary};
+pub use change::{Change, Class, Effect, Judgment, Summary};

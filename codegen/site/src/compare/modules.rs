@@ -1,6 +1,6 @@
 //! Compares modular devices: slots and pluggable modules.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{
     compare_fields, fact, fact_as, judged, list, part, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
@@ -23,15 +23,15 @@ pub(super) fn slots() -> Elements<Slot> {
 pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
     compare_fields!(Slot, old, new, comparison, {
         name: text("name"),
-        instances: fact("minimum and maximum number of modules", Judgement::BEHAVIOR),
+        instances: fact("minimum and maximum number of modules", Judgment::BEHAVIOR),
         names,
         fits: restricted("fitting modules"),
-        default: fact("default module", Judgement::BEHAVIOR),
-        group: fact("slot group", Judgement::WIRE),
-        index_increment: fact_as("index increment", Judgement::WIRE, index),
-        pdo_increment: fact("PDO increment", Judgement::WIRE),
-        group_index_increment: fact_as("index increment of the group", Judgement::WIRE, index),
-        group_pdo_increment: fact("PDO increment of the group", Judgement::WIRE),
+        default: fact("default module", Judgment::BEHAVIOR),
+        group: fact("slot group", Judgment::WIRE),
+        index_increment: fact_as("index increment", Judgment::WIRE, index),
+        pdo_increment: fact("PDO increment", Judgment::WIRE),
+        group_index_increment: fact_as("index increment of the group", Judgment::WIRE, index),
+        group_pdo_increment: fact("PDO increment of the group", Judgment::WIRE),
     }, KEY => [number]);
 }
 
@@ -61,7 +61,7 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
     let all =
         |module: &'_ Module| -> Vec<Group> { module.fixed_objects.iter().chain(&module.groups).cloned().collect() };
     compare_fields!(Module, old, new, comparison, {
-        class: part("module", fact("class", Judgement::BEHAVIOR)),
+        class: part("module", fact("class", Judgment::BEHAVIOR)),
         name: part("module", judged("name", renamed)),
         names: part("module", text("name in other languages")),
         version: part("module", text("version")),
@@ -80,14 +80,14 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         process_data: |old: &ProcessData, new: &ProcessData, comparison: &mut Comparison<'_>| {
             pdos::compare(old, new, ObjectBuses::COE, comparison);
         },
-        pdo_group: part("module", fact("module PDO group", Judgement::WIRE)),
+        pdo_group: part("module", fact("module PDO group", Judgment::WIRE)),
         init_commands: init_commands(),
         submodules: part("module", slice(profinet::compare_uses)),
-        subslots: part("module", fact("subslots", Judgement::BEHAVIOR)),
-        subslot_names: part("module", fact_as("names of subslots", Judgement::NONE, |list: &Vec<SubslotName>| {
+        subslots: part("module", fact("subslots", Judgment::BEHAVIOR)),
+        subslot_names: part("module", fact_as("names of subslots", Judgment::NONE, |list: &Vec<SubslotName>| {
             profinet::subslot_names(list)
         })),
-        profiles: part("module", fact("profiles", Judgement::BEHAVIOR)),
+        profiles: part("module", fact("profiles", Judgment::BEHAVIOR)),
         extensions: part("module", extensions),
     }, KEY => [number, id], COMPARED => [types, groups], POSITION => [origin]);
     types::compare_unused(comparison);
@@ -95,9 +95,9 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
 
 fn sub_extension(old: &SubExtension, new: &SubExtension, comparison: &mut Comparison<'_>) {
     compare_fields!(SubExtension, old, new, comparison, {
-        count: fact("number of entries", Judgement::WIRE),
-        per: fact("modules of one entry", Judgement::WIRE),
-        extends_object: fact("continues at the next index", Judgement::WIRE),
+        count: fact("number of entries", Judgment::WIRE),
+        per: fact("modules of one entry", Judgment::WIRE),
+        extends_object: fact("continues at the next index", Judgment::WIRE),
         template: item::compare,
     }, KEY => [index]);
 }

@@ -1,6 +1,6 @@
 //! Compares cyclic data: PDOs, sync managers and process images.
 
-use super::change::{Effect, Judgement};
+use super::change::{Effect, Judgment};
 use super::comparison::{
     compare_fields, fact, fact_as, list, or_default, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
@@ -23,7 +23,7 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
     compare_fields!(ProcessData, old, new, comparison, {
         pdos: |old: &Vec<Pdo>, new: &Vec<Pdo>, comparison: &mut Comparison<'_>| pdos(old, new, buses, comparison),
         sync_managers: list(Elements::titled(|sync_manager: &SyncManager| format!("sync manager {}", sync_manager.number))
-            .judged(|_| Judgement::WIRE, |_| Judgement::WIRE), sync_manager),
+            .judged(|_| Judgment::WIRE, |_| Judgment::WIRE), sync_manager),
         images: list(images(), image),
     });
 }
@@ -36,46 +36,46 @@ fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Compariso
         let title = format!("{} {}", title(either, buses), either.name);
         comparison.within(title.trim(), |comparison| match (old, new) {
             (Some(old), Some(new)) => pdo(old, new, comparison),
-            (Some(_), None) => comparison.removed(Judgement::API_AND_WIRE),
-            _ => comparison.added(Judgement::ADDITION),
+            (Some(_), None) => comparison.removed(Judgment::API_AND_WIRE),
+            _ => comparison.added(Judgment::ADDITION),
         });
     }
 }
 
 fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
     compare_fields!(Pdo, old, new, comparison, {
-        number: fact("number", Judgement::WIRE),
+        number: fact("number", Judgment::WIRE),
         name,
         communication: or_default(|one, other, comparison: &mut Comparison<'_>| {
             communication(one, other, new.direction, comparison);
         }),
         entries: slice(entries),
-        fixed: fact_as("mapping", if new.fixed { Judgement::API } else { Judgement::API_COMPATIBLE }, |fixed| {
+        fixed: fact_as("mapping", if new.fixed { Judgment::API } else { Judgment::API_COMPATIBLE }, |fixed| {
             if *fixed { "fixed" } else { "variable" }.to_owned()
         }),
-        mandatory: fact("has to be assigned", Judgement::BEHAVIOR),
-        sync_manager: fact("sync manager", Judgement::WIRE),
+        mandatory: fact("has to be assigned", Judgment::BEHAVIOR),
+        sync_manager: fact("sync manager", Judgment::WIRE),
         excludes: |old: &Vec<u16>, new: &Vec<u16>, comparison: &mut Comparison<'_>| excludes(old, new, comparison),
-        excluded_sync_managers: fact("excluded sync managers", Judgement::BEHAVIOR),
-        sync_unit: fact("sync unit", Judgement::WIRE),
-        from_object: fact("follows from its mapping object", Judgement::NONE),
-        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
-        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
-        is_virtual: fact("carries no data", Judgement::API_AND_WIRE),
-        overwritten_by_module: fact("replaced by a module", Judgement::WIRE),
-        oversampling: fact("oversampling", Judgement::WIRE),
+        excluded_sync_managers: fact("excluded sync managers", Judgment::BEHAVIOR),
+        sync_unit: fact("sync unit", Judgment::WIRE),
+        from_object: fact("follows from its mapping object", Judgment::NONE),
+        depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
+        is_virtual: fact("carries no data", Judgment::API_AND_WIRE),
+        overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
+        oversampling: fact("oversampling", Judgment::WIRE),
         names,
-        max_bytes: fact("maximum length in bytes", Judgement::BEHAVIOR),
+        max_bytes: fact("maximum length in bytes", Judgment::BEHAVIOR),
         documentation, doubts, extensions,
-        implicit: fact("follows from the number of PDOs", Judgement::NONE),
+        implicit: fact("follows from the number of PDOs", Judgment::NONE),
     }, KEY => [direction, mapping_index, buses], POSITION => [origin]);
 }
 
 fn excludes(old: &[u16], new: &[u16], comparison: &mut Comparison<'_>) {
     let text = |list: &[u16]| list.iter().map(index).collect::<Vec<_>>().join(", ");
     let is_more = new.iter().any(|index| !old.contains(index));
-    let judgement = if is_more { Judgement::BEHAVIOR } else { Judgement::BEHAVIOR_COMPATIBLE };
-    comparison.texts("excludes", text(old), text(new), judgement);
+    let judgment = if is_more { Judgment::BEHAVIOR } else { Judgment::BEHAVIOR_COMPATIBLE };
+    comparison.texts("excludes", text(old), text(new), judgment);
 }
 
 fn communication(
@@ -89,13 +89,13 @@ fn communication(
         id.as_ref().map(text).unwrap_or_default()
     };
     compare_fields!(PdoCommunication, old, new, comparison, {
-        index: fact_as("index", Judgement::WIRE, index),
-        cob_id: fact_as("COB-ID", Judgement::WIRE, cob_id),
-        transmission_type: fact("transmission type", Judgement::BEHAVIOR),
-        inhibit_time: fact("inhibit time in 100 µs", Judgement::BEHAVIOR),
-        event_timer: fact("event timer in ms", Judgement::BEHAVIOR),
-        sync_start: fact("SYNC start value", Judgement::BEHAVIOR),
-        writable: fact("writable sub-indices", Judgement::BEHAVIOR),
+        index: fact_as("index", Judgment::WIRE, index),
+        cob_id: fact_as("COB-ID", Judgment::WIRE, cob_id),
+        transmission_type: fact("transmission type", Judgment::BEHAVIOR),
+        inhibit_time: fact("inhibit time in 100 µs", Judgment::BEHAVIOR),
+        event_timer: fact("event timer in ms", Judgment::BEHAVIOR),
+        sync_start: fact("SYNC start value", Judgment::BEHAVIOR),
+        writable: fact("writable sub-indices", Judgment::BEHAVIOR),
     });
 }
 
@@ -140,12 +140,12 @@ impl Layout<'_> {
 
     /// Returns the effects of a changed layout. The entries become fields of a Rust struct, with the same names and
     /// types.
-    fn effects_of(&self, new: &Layout<'_>) -> Judgement {
+    fn effects_of(&self, new: &Layout<'_>) -> Judgment {
         let fields = |layout: &Layout<'_>| -> Vec<(String, String)> {
             layout.fields().map(|entry| (identifier(&entry.name), types::name(layout.types, entry.ty))).collect()
         };
         let api = if fields(self) != fields(new) { Effect::Breaking } else { Effect::Unaffected };
-        Judgement { api, wire: self.wire_effect_of(new), ..Judgement::NONE }
+        Judgment { api, wire: self.wire_effect_of(new), ..Judgment::NONE }
     }
 
     /// Returns the effect on the communication. The communication breaks if an entry has another position, or if the
@@ -179,9 +179,9 @@ fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     let of_each =
         |entries: &[PdoEntry]| entries.iter().map(|entry| entry.bits.to_string()).collect::<Vec<_>>().join(", ");
     if length(old) != length(new) {
-        comparison.push("length", of_all(old), of_all(new), Judgement::WIRE);
+        comparison.push("length", of_all(old), of_all(new), Judgment::WIRE);
     } else {
-        comparison.texts("lengths of entries in bits", of_each(old), of_each(new), Judgement::WIRE);
+        comparison.texts("lengths of entries in bits", of_each(old), of_each(new), Judgment::WIRE);
     }
 }
 
@@ -193,21 +193,21 @@ fn entry_title(entry: &PdoEntry) -> String {
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
     compare_fields!(PdoEntry, old, new, comparison, {
         // All differences of positions except those of paddings are reported with the layout.
-        bit_offset: fact("first bit", Judgement::NONE),
-        kind: fact_as("kind", Judgement::API, |kind| kind_name(*kind).to_owned()),
+        bit_offset: fact("first bit", Judgment::NONE),
+        kind: fact_as("kind", Judgment::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),
         ty: |one: &Type, other: &Type, comparison: &mut Comparison<'_>| match new.kind {
             PdoEntryKind::Padding => {
                 let (old_types, new_types) = comparison.types;
                 let (old, new) = (types::name(old_types, *one), types::name(new_types, *other));
-                comparison.texts("type", old, new, Judgement::NONE);
+                comparison.texts("type", old, new, Judgment::NONE);
             }
             // The layout texts contain the types, so only the definitions of named types are compared.
             _ => types::compare_definitions(*one, *other, comparison),
         },
-        fixed: fact("part of every mapping", Judgement::BEHAVIOR),
-        depends_on_slot: fact("index grows with the slot", Judgement::WIRE),
-        depends_on_slot_group: fact("index grows with the slot group", Judgement::WIRE),
+        fixed: fact("part of every mapping", Judgment::BEHAVIOR),
+        depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
+        depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
         names,
     }, COMPARED => [index, sub_index, bits], "follows from index and sub-index" => [item], POSITION => [origin]);
 }
@@ -229,7 +229,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     let (mut old, mut new) = (objects(old), objects(new));
     if old != new {
         shorten(&mut old, &mut new);
-        comparison.push("mapped objects", old.join(", "), new.join(", "), Judgement::WIRE);
+        comparison.push("mapped objects", old.join(", "), new.join(", "), Judgment::WIRE);
     }
 }
 
@@ -250,15 +250,15 @@ fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
 
 fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Comparison<'_>) {
     compare_fields!(SyncManager, old, new, comparison, {
-        purpose: fact_as("purpose", Judgement::WIRE, |purpose: &SyncManagerPurpose| purpose.label().to_owned()),
+        purpose: fact_as("purpose", Judgment::WIRE, |purpose: &SyncManagerPurpose| purpose.label().to_owned()),
         label: text("name of the purpose"),
-        start_address: fact_as("start address", Judgement::WIRE, index),
-        default_size: fact("length in bytes", Judgement::WIRE),
-        size_range: fact("minimum and maximum length", Judgement::BEHAVIOR),
-        control: fact_as("control register", Judgement::WIRE, |control| hex8(*control)),
-        enable: fact("enabled", Judgement::WIRE),
-        op_only: fact("in Op only", Judgement::BEHAVIOR),
-        is_virtual: fact("exists in the description only", Judgement::WIRE),
+        start_address: fact_as("start address", Judgment::WIRE, index),
+        default_size: fact("length in bytes", Judgment::WIRE),
+        size_range: fact("minimum and maximum length", Judgment::BEHAVIOR),
+        control: fact_as("control register", Judgment::WIRE, |control| hex8(*control)),
+        enable: fact("enabled", Judgment::WIRE),
+        op_only: fact("in Op only", Judgment::BEHAVIOR),
+        is_virtual: fact("exists in the description only", Judgment::WIRE),
     }, KEY => [number], POSITION => [origin]);
 }
 
@@ -279,10 +279,10 @@ fn image_title(image: &ProcessImage) -> String {
 pub(super) fn image(old: &ProcessImage, new: &ProcessImage, comparison: &mut Comparison<'_>) {
     compare_fields!(ProcessImage, old, new, comparison, {
         name,
-        direction: fact("direction", Judgement::API_AND_WIRE),
-        length: fact("length", Judgement::API_AND_WIRE),
-        overhead: fact("further bytes", Judgement::WIRE),
-        big_endian: fact_as("byte order", Judgement::WIRE, |big_endian| {
+        direction: fact("direction", Judgment::API_AND_WIRE),
+        length: fact("length", Judgment::API_AND_WIRE),
+        overhead: fact("further bytes", Judgment::WIRE),
+        big_endian: fact_as("byte order", Judgment::WIRE, |big_endian| {
             if *big_endian { "big-endian" } else { "little-endian" }.to_owned()
         }),
         fields: slice(entries),

@@ -1,6 +1,6 @@
 //! Compares PROFINET descriptions: device access points, submodules, records and diagnosis.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{
     compare_fields, fact, fact_as, judged, list, optional, part, text, Comparison, Elements, KEY, POSITION,
 };
@@ -21,26 +21,26 @@ use lexibus_codegen::ir::{
 
 pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(ProfinetSettings, old, new, comparison, {
-        ident: fact_as("ident number", Judgement::WIRE, |ident| hex32(*ident)),
-        device_id: fact_as("device ID", Judgement::WIRE, index),
+        ident: fact_as("ident number", Judgment::WIRE, |ident| hex32(*ident)),
+        device_id: fact_as("device ID", Judgment::WIRE, index),
         family: text("family"),
         pnio_version: text("version of PROFINET"),
-        slots: fact("slots", Judgement::BEHAVIOR),
-        dns_name: fact("name of a new device", Judgement::BEHAVIOR),
-        min_device_interval: fact("minimum interval in 31.25 µs", Judgement::BEHAVIOR),
-        max_record_size: fact("maximum length of a record", Judgement::BEHAVIOR),
-        relations: fact("maximum number of application relations", Judgement::BEHAVIOR),
-        startup_modes: fact("start-up modes", Judgement::BEHAVIOR),
-        max_lengths: fact_as("maximum lengths", Judgement::BEHAVIOR, lengths),
-        send_clocks: fact("send clock factors", Judgement::BEHAVIOR),
-        reduction_ratios: fact("reduction ratios", Judgement::BEHAVIOR),
-        places: fact("slots of the device access point", Judgement::BEHAVIOR),
-        subslot_names: fact_as("names of subslots", Judgement::NONE, |list: &Vec<SubslotName>| subslot_names(list)),
+        slots: fact("slots", Judgment::BEHAVIOR),
+        dns_name: fact("name of a new device", Judgment::BEHAVIOR),
+        min_device_interval: fact("minimum interval in 31.25 µs", Judgment::BEHAVIOR),
+        max_record_size: fact("maximum length of a record", Judgment::BEHAVIOR),
+        relations: fact("maximum number of application relations", Judgment::BEHAVIOR),
+        startup_modes: fact("start-up modes", Judgment::BEHAVIOR),
+        max_lengths: fact_as("maximum lengths", Judgment::BEHAVIOR, lengths),
+        send_clocks: fact("send clock factors", Judgment::BEHAVIOR),
+        reduction_ratios: fact("reduction ratios", Judgment::BEHAVIOR),
+        places: fact("slots of the device access point", Judgment::BEHAVIOR),
+        subslot_names: fact_as("names of subslots", Judgment::NONE, |list: &Vec<SubslotName>| subslot_names(list)),
         vendor_blocks: list(
             Elements::titled(|block: &VendorBlock| format!("vendor block {:X}/{:04X}", block.api, block.identifier)),
             vendor_block,
         ),
-        attributes: fact("attributes", Judgement::BEHAVIOR),
+        attributes: fact("attributes", Judgment::BEHAVIOR),
     });
 }
 
@@ -62,7 +62,7 @@ fn vendor_block(old: &VendorBlock, new: &VendorBlock, comparison: &mut Compariso
         record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
             comparison.in_types_of_catalog(|comparison| groups::compare(&[old], &[new], comparison));
         },
-        menus: fact_as("menus", Judgement::NONE, |list: &Vec<Menu>| menus(list)),
+        menus: fact_as("menus", Judgment::NONE, |list: &Vec<Menu>| menus(list)),
     }, KEY => [api, identifier]);
 }
 
@@ -80,22 +80,22 @@ pub(super) fn submodule_key(submodule: &Submodule) -> String {
 
 pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Comparison<'_>) {
     compare_fields!(Submodule, old, new, comparison, {
-        kind: part("submodule", fact_as("kind", Judgement::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
-        api: part("submodule", fact_as("API", Judgement::WIRE, |api| hex16(*api))),
+        kind: part("submodule", fact_as("kind", Judgment::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
+        api: part("submodule", fact_as("API", Judgment::WIRE, |api| hex16(*api))),
         name: part("submodule", judged("name", renamed)),
         names: part("submodule", text("name in other languages")),
         documentation: part("submodule", documentation),
         identity: part("submodule", identity),
-        input: optional("input", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, io_data),
-        output: optional("output", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, io_data),
-        status_lengths: part("submodule", fact("lengths of provider and consumer status", Judgement::WIRE)),
+        input: optional("input", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
+        output: optional("output", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
+        status_lengths: part("submodule", fact("lengths of provider and consumer status", Judgment::WIRE)),
         records: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
             groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
         },
-        f_parameters: optional("F-parameters", Judgement::API_AND_WIRE, Judgement::API_AND_WIRE, f_parameters),
-        menus: part("submodule", fact_as("menus", Judgement::NONE, |list: &Vec<Menu>| menus(list))),
-        graphics: part("submodule", fact("pictures", Judgement::NONE)),
-        attributes: part("submodule", fact("attributes", Judgement::BEHAVIOR)),
+        f_parameters: optional("F-parameters", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, f_parameters),
+        menus: part("submodule", fact_as("menus", Judgment::NONE, |list: &Vec<Menu>| menus(list))),
+        graphics: part("submodule", fact("pictures", Judgment::NONE)),
+        attributes: part("submodule", fact("attributes", Judgment::BEHAVIOR)),
         extensions: part("submodule", extensions),
     }, KEY => [id, ident], POSITION => [origin]);
 }
@@ -112,9 +112,9 @@ fn kind_name(kind: SubmoduleKind) -> &'static str {
 fn io_data(old: &IoData, new: &IoData, comparison: &mut Comparison<'_>) {
     compare_fields!(IoData, old, new, comparison, {
         image: pdos::image,
-        consistent: fact("consistent as a whole", Judgement::BEHAVIOR),
-        items: fact_as("data items", Judgement::NONE, |list: &Vec<IoItem>| joined(list, io_item)),
-        channels: fact_as("channels", Judgement::BEHAVIOR, |list: &Vec<IoChannel>| joined(list, channel)),
+        consistent: fact("consistent as a whole", Judgment::BEHAVIOR),
+        items: fact_as("data items", Judgment::NONE, |list: &Vec<IoItem>| joined(list, io_item)),
+        channels: fact_as("channels", Judgment::BEHAVIOR, |list: &Vec<IoChannel>| joined(list, channel)),
     });
 }
 
@@ -136,26 +136,26 @@ fn channel(channel: &IoChannel) -> String {
 
 fn f_parameters(old: &FParameters, new: &FParameters, comparison: &mut Comparison<'_>) {
     compare_fields!(FParameters, old, new, comparison, {
-        index: fact_as("index", Judgement::WIRE, index),
-        transfer_sequence: fact("order of transfer", Judgement::WIRE),
-        description_crc: fact_as("checksum of the description", Judgement::WIRE, |crc: &Option<u16>| {
+        index: fact_as("index", Judgment::WIRE, index),
+        transfer_sequence: fact("order of transfer", Judgment::WIRE),
+        description_crc: fact_as("checksum of the description", Judgment::WIRE, |crc: &Option<u16>| {
             crc.as_ref().map(index).unwrap_or_default()
         }),
         parameters: list(Elements::titled(|parameter: &FParameter| parameter.name.to_string())
-            .judged(|_| Judgement::API_AND_WIRE, |_| Judgement::API_AND_WIRE), f_parameter),
+            .judged(|_| Judgment::API_AND_WIRE, |_| Judgment::API_AND_WIRE), f_parameter),
     }, POSITION => [origin]);
 }
 
 fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'_>) {
     compare_fields!(FParameter, old, new, comparison, {
-        default: fact("default", Judgement::BEHAVIOR),
+        default: fact("default", Judgment::BEHAVIOR),
         label: text("name of the default"),
-        allowed: fact_as("range", Judgement::BEHAVIOR, |list: &Vec<(i128, i128)>| {
+        allowed: fact_as("range", Judgment::BEHAVIOR, |list: &Vec<(i128, i128)>| {
             joined(list, |(first, last)| facts::types::numbers(*first, Some(*last)))
         }),
-        allowed_labels: fact("names of the range", Judgement::NONE),
-        changeable: fact("changeable", Judgement::BEHAVIOR),
-        visible: fact("shown by tools", Judgement::NONE),
+        allowed_labels: fact("names of the range", Judgment::NONE),
+        changeable: fact("changeable", Judgment::BEHAVIOR),
+        visible: fact("shown by tools", Judgment::NONE),
     }, KEY => [name]);
 }
 
@@ -194,8 +194,8 @@ fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparis
             title: |field: &UnitDiagnosisField| format!("field {}", field.name),
             name: |field| field.name.to_string(),
             position: |field| field.bit_offset.to_string(),
-            added: |_| Judgement::API_AND_WIRE,
-            removed: |_| Judgement::API_AND_WIRE,
+            added: |_| Judgment::API_AND_WIRE,
+            removed: |_| Judgment::API_AND_WIRE,
         }, diagnosis_field),
         extensions,
     }, KEY => [api, identifier], POSITION => [origin]);
@@ -204,13 +204,13 @@ fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparis
 fn diagnosis_field(old: &UnitDiagnosisField, new: &UnitDiagnosisField, comparison: &mut Comparison<'_>) {
     compare_fields!(UnitDiagnosisField, old, new, comparison, {
         name, names,
-        bit_offset: fact("first bit", Judgement::WIRE),
-        bits: fact("length in bits", Judgement::WIRE),
+        bit_offset: fact("first bit", Judgment::WIRE),
+        bits: fact("length in bits", Judgment::WIRE),
         ty: types::compare,
         values: |old: &Option<TypeId>, new: &Option<TypeId>, comparison: &mut Comparison<'_>| {
             let named = |value: &Option<TypeId>| value.map(Type::Named);
-            types::compare_optional("values", Judgement::API)(&named(old), &named(new), comparison);
+            types::compare_optional("values", Judgment::API)(&named(old), &named(new), comparison);
         },
-        default: fact("default", Judgement::BEHAVIOR),
+        default: fact("default", Judgment::BEHAVIOR),
     });
 }

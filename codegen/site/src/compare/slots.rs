@@ -1,6 +1,6 @@
 //! Compares slots and subslots and the modules and submodules that fit into them.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{fact, slices, Comparison, Elements};
 use lexibus_codegen::ir::SlotNumbers;
 
@@ -18,9 +18,9 @@ pub(super) fn compare_slots(old: &[Use], new: &[Use], comparison: &mut Compariso
         name: |plugged: &Use| plugged.key.clone(),
         ..Elements::titled(|plugged: &Use| plugged.title.clone())
     }
-    .judged(|_| Judgement::BEHAVIOR_COMPATIBLE, |_| Judgement::BEHAVIOR);
+    .judged(|_| Judgment::BEHAVIOR_COMPATIBLE, |_| Judgment::BEHAVIOR);
     let compare = |old: &Use, new: &Use, comparison: &mut Comparison<'_>| {
-        fact("slots", Judgement::BEHAVIOR)(&old.slots, &new.slots, comparison);
+        fact("slots", Judgment::BEHAVIOR)(&old.slots, &new.slots, comparison);
     };
     slices(old, new, &elements, compare, comparison);
 }

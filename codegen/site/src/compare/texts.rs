@@ -1,6 +1,6 @@
 //! Compares texts about an element. Changes of texts have no effect.
 
-use super::change::Judgement;
+use super::change::Judgment;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
 use super::names::identifier;
 use super::show::Show;
@@ -19,7 +19,7 @@ pub(super) fn documentation(
         compare_fields!(Documentation, old, new, comparison, {
             text: text("description"),
             translations: text("description in other languages"),
-            text_from: positioned("origin of the description", Judgement::NONE, text_from),
+            text_from: positioned("origin of the description", Judgment::NONE, text_from),
         }, CITATION => [cite]);
     })(old, new, comparison);
 }
@@ -39,7 +39,7 @@ pub(super) fn origin(origin: &FactOrigin) -> String {
 
 /// Compares the origins of the facts of an item or group.
 pub(super) fn origins(old: &FactOrigins, new: &FactOrigins, comparison: &mut Comparison<'_>) {
-    positioned("origins", Judgement::NONE, |origins: &FactOrigins| {
+    positioned("origins", Judgment::NONE, |origins: &FactOrigins| {
         let all = origins.0.iter().map(|(fact, from)| format!("{}: {}", fact_name(*fact), origin(from)));
         all.collect::<Vec<_>>().join("; ")
     })(old, new, comparison);
@@ -47,7 +47,7 @@ pub(super) fn origins(old: &FactOrigins, new: &FactOrigins, comparison: &mut Com
 
 /// Compares the origins of a definition.
 pub(super) fn stated_by(old: &Option<Box<FactOrigin>>, new: &Option<Box<FactOrigin>>, comparison: &mut Comparison<'_>) {
-    positioned("origin", Judgement::NONE, text_from)(old, new, comparison);
+    positioned("origin", Judgment::NONE, text_from)(old, new, comparison);
 }
 
 fn text_from(from: &Option<Box<FactOrigin>>) -> String {
@@ -63,9 +63,9 @@ pub(super) fn described(documentation: Option<&Documentation>) -> String {
 
 /// Compares ambiguities in the source and the related assumptions.
 pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>) {
-    positioned("assumptions", Judgement::NONE, |doubts: &Doubts| {
-        doubts.iter().map(doubt).collect::<Vec<_>>().join(" ")
-    })(old, new, comparison);
+    positioned("assumptions", Judgment::NONE, |doubts: &Doubts| doubts.iter().map(doubt).collect::<Vec<_>>().join(" "))(
+        old, new, comparison,
+    );
 }
 
 fn doubt(doubt: &Doubt) -> String {
@@ -80,7 +80,7 @@ fn doubt(doubt: &Doubt) -> String {
 
 /// Compares extensions: facts of the source for which the intermediate representation has no field.
 pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Comparison<'_>) {
-    positioned("further keys", Judgement::NONE, |extensions: &Extensions| {
+    positioned("further keys", Judgment::NONE, |extensions: &Extensions| {
         extensions
             .iter()
             .map(|extension| format!("{} = {}", extension.key, extension.value))
@@ -97,7 +97,7 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
             edition: text("edition"),
             language: text("language"),
             documentation: text("description"),
-            sections: positioned("sections", Judgement::NONE, |sections: &Vec<ManualSection>| {
+            sections: positioned("sections", Judgment::NONE, |sections: &Vec<ManualSection>| {
                 sections.iter().map(|section| section.title.as_str()).collect::<Vec<_>>().join("; ")
             }),
         }, CITATION => [counts]);
@@ -106,9 +106,9 @@ pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, compa
 
 /// Returns the effects of renaming an element. The Rust method, field or constant of the element has this name in
 /// `snake_case`.
-pub(super) fn renamed<T: AsRef<str>>(old: &T, new: &T) -> Judgement {
+pub(super) fn renamed<T: AsRef<str>>(old: &T, new: &T) -> Judgment {
     match identifier(old.as_ref()) == identifier(new.as_ref()) {
-        true => Judgement::NONE,
-        false => Judgement::API,
+        true => Judgment::NONE,
+        false => Judgment::API,
     }
 }

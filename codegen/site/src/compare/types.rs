@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::change::{Effect, Judgement};
+use super::change::{Effect, Judgment};
 use super::comparison::{compare_fields, fact, fact_as, judged, slices, Comparison, Elements, COMPARED, POSITION};
 use super::pairing::pairs;
 use super::show::Show;
@@ -16,8 +16,8 @@ use lexibus_codegen::ir::{BitFieldEntry, BitMeaning, EnumValue, Field, Shape, Ty
 pub(super) fn compare(old: &Type, new: &Type, comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let (old_text, new_text) = (name(old_types, *old), name(new_types, *new));
-    let judgement = effects(basic_of(old_types, *old), basic_of(new_types, *new));
-    comparison.texts("type", old_text, new_text, judgement);
+    let judgment = effects(basic_of(old_types, *old), basic_of(new_types, *new));
+    comparison.texts("type", old_text, new_text, judgment);
     compare_definitions(*old, *new, comparison);
 }
 
@@ -33,7 +33,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
         // Both types are names of the same basic type. If one type had a definition, its text would differ.
         (one, other) if name(old_types, old) == name(new_types, new) => {
             let text = |value: Option<&TypeDef>| value.map(|value| value.name.to_string()).unwrap_or_default();
-            comparison.push("name of the type", text(one), text(other), Judgement::NONE);
+            comparison.push("name of the type", text(one), text(other), Judgment::NONE);
         }
         _ => {}
     }
@@ -42,14 +42,14 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
 /// Compares two optional types.
 pub(super) fn compare_optional(
     fact: &'static str,
-    judgement: Judgement,
+    judgment: Judgment,
 ) -> impl Fn(&Option<Type>, &Option<Type>, &mut Comparison<'_>) {
     move |old, new, comparison| match (old, new) {
         (Some(old), Some(new)) => comparison.within(fact, |comparison| compare(old, new, comparison)),
         (old, new) => {
             let (old_types, new_types) = comparison.types;
             let text = |types, ty: &Option<Type>| ty.map(|ty| name(types, ty)).unwrap_or_default();
-            comparison.texts(fact, text(old_types, old), text(new_types, new), judgement);
+            comparison.texts(fact, text(old_types, old), text(new_types, new), judgment);
         }
     }
 }
@@ -65,7 +65,7 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     let (old_compared, new_compared) = comparison.compared_types();
     let (old, new) = (unused(old_types, old_compared), unused(new_types, new_compared));
     let elements = Elements::<(TypeId, String)>::titled(|(_, name)| format!("type {name}"))
-        .judged(|_| Judgement::API_COMPATIBLE, |_| Judgement::API);
+        .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API);
     slices(
         &old,
         &new,
@@ -99,20 +99,20 @@ fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
 }
 
 /// Returns the effects of a change of the type.
-fn effects(old: Option<Type>, new: Option<Type>) -> Judgement {
-    let (Some(old), Some(new)) = (old, new) else { return Judgement::API_AND_WIRE };
+fn effects(old: Option<Type>, new: Option<Type>) -> Judgment {
+    let (Some(old), Some(new)) = (old, new) else { return Judgment::API_AND_WIRE };
     match (old, new) {
         // The basic types are equal, but names of bits or values make a different Rust type.
-        (old, new) if old == new => Judgement::API,
+        (old, new) if old == new => Judgment::API,
         // The length of a string does not affect the Rust type.
         (Type::VisibleString(_), Type::VisibleString(_))
         | (Type::OctetString(_), Type::OctetString(_))
-        | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgement::BEHAVIOR,
+        | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgment::BEHAVIOR,
         // Signed and unsigned types differ only in the meaning of the highest bit.
         (Type::Integer(old), Type::Unsigned(new)) | (Type::Unsigned(old), Type::Integer(new)) if old == new => {
-            Judgement { wire: Effect::Compatible, ..Judgement::API }
+            Judgment { wire: Effect::Compatible, ..Judgment::API }
         }
-        _ => Judgement::API_AND_WIRE,
+        _ => Judgment::API_AND_WIRE,
     }
 }
 
@@ -128,11 +128,11 @@ pub(super) fn wire_effect(old_types: &[TypeDef], old: Type, new_types: &[TypeDef
 fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mut Comparison<'_>) {
     compare_fields!(TypeDef, old, new, comparison, {
         name: judged("name of the type", renamed),
-        code: fact("number of the type", Judgement::NONE),
+        code: fact("number of the type", Judgment::NONE),
         shape: shapes,
         bits: |old: &Option<u32>, new: &Option<u32>, comparison: &mut Comparison<'_>| {
             if is_same_type {
-                fact("length of the type in bits", Judgement::WIRE)(old, new, comparison);
+                fact("length of the type in bits", Judgment::WIRE)(old, new, comparison);
             }
         },
         documentation, stated_by,
@@ -155,15 +155,15 @@ fn shapes(old: &Shape, new: &Shape, comparison: &mut Comparison<'_>) {
             Shape::Enumeration { values: new, base: new_base, closed },
         ) => {
             base(old_base, new_base, comparison);
-            fact("only listed values", Judgement::API)(was_closed, closed, comparison);
+            fact("only listed values", Judgment::API)(was_closed, closed, comparison);
             values(old, new, comparison);
         }
         (Shape::Scaled { scale: old, base: old_base }, Shape::Scaled { scale: new, base: new_base }) => {
             base(old_base, new_base, comparison);
-            fact_as("scale", Judgement::API_AND_BEHAVIOR, |scale| PLAIN.scale(scale, ""))(old, new, comparison);
+            fact_as("scale", Judgment::API_AND_BEHAVIOR, |scale| PLAIN.scale(scale, ""))(old, new, comparison);
         }
         // The text of the type shows the difference unless both definitions are names of a basic type.
-        _ => comparison.push("kind of the type", kind(old).to_owned(), kind(new).to_owned(), Judgement::API),
+        _ => comparison.push("kind of the type", kind(old).to_owned(), kind(new).to_owned(), Judgment::API),
     }
 }
 
@@ -191,16 +191,16 @@ fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
         title: |field| format!("field {}", field.name),
         name: |field| field.name.to_string(),
         position: |field| field.bit_offset.to_string(),
-        added: |_| Judgement::API_AND_WIRE,
-        removed: |_| Judgement::API_AND_WIRE,
+        added: |_| Judgment::API_AND_WIRE,
+        removed: |_| Judgment::API_AND_WIRE,
     };
     let compare_field = |old: &Field, new: &Field, comparison: &mut Comparison<'_>| {
         compare_fields!(Field, old, new, comparison, {
             name,
-            sub_index: fact("sub-index", Judgement::WIRE),
+            sub_index: fact("sub-index", Judgment::WIRE),
             ty: compare,
-            bits: fact("length in bits", Judgement::WIRE),
-            bit_offset: fact("first bit", Judgement::WIRE),
+            bits: fact("length in bits", Judgment::WIRE),
+            bit_offset: fact("first bit", Judgment::WIRE),
         });
     };
     slices(old, new, &elements, compare_field, comparison);
@@ -208,7 +208,7 @@ fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
 
 fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Comparison<'_>) {
     let is_reserved = |field: &BitFieldEntry| matches!(field.meaning, BitMeaning::Reserved { .. });
-    let judge = move |field: &BitFieldEntry, judgement| if is_reserved(field) { Judgement::NONE } else { judgement };
+    let judge = move |field: &BitFieldEntry, judgment| if is_reserved(field) { Judgment::NONE } else { judgment };
     let name = |field: &BitFieldEntry| match field.when.is_some() {
         true => format!("{} {}", field.name, bits(field)),
         false => field.name.to_string(),
@@ -218,24 +218,24 @@ fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Com
         comparison.within(&bits(field), |comparison| match (old, new) {
             (Some(old), Some(new)) => bit_field(old, new, comparison),
             (Some(old), None) => {
-                comparison.push("removed", old.name.to_string(), String::new(), judge(old, Judgement::API));
+                comparison.push("removed", old.name.to_string(), String::new(), judge(old, Judgment::API));
             }
             _ => {
-                let judgement = judge(field, Judgement::API_COMPATIBLE);
-                comparison.push("added", String::new(), field.name.to_string(), judgement);
+                let judgment = judge(field, Judgment::API_COMPATIBLE);
+                comparison.push("added", String::new(), field.name.to_string(), judgment);
             }
         });
     }
 }
 
 fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparison<'_>) {
-    comparison.texts("position", position(old), position(new), Judgement::WIRE);
+    comparison.texts("position", position(old), position(new), Judgment::WIRE);
     compare_fields!(BitFieldEntry, old, new, comparison, {
         name, names,
         meaning: meanings,
-        when: fact("applies while", Judgement::API_AND_BEHAVIOR),
-        trigger: fact("acts on", Judgement::BEHAVIOR),
-        access: fact("access", Judgement::API),
+        when: fact("applies while", Judgment::API_AND_BEHAVIOR),
+        trigger: fact("acts on", Judgment::BEHAVIOR),
+        access: fact("access", Judgment::API),
         availability: super::conditions::availability,
         documentation,
     }, COMPARED => [offset, bits], POSITION => [at]);
@@ -259,14 +259,14 @@ fn bits(field: &BitFieldEntry) -> String {
 
 /// Compares the meanings of bits. The meaning determines what the getter returns.
 fn meanings(old: &BitMeaning, new: &BitMeaning, comparison: &mut Comparison<'_>) {
-    let judgement = match (old, new) {
-        (BitMeaning::Reserved { .. }, BitMeaning::Reserved { .. }) => Judgement::BEHAVIOR,
+    let judgment = match (old, new) {
+        (BitMeaning::Reserved { .. }, BitMeaning::Reserved { .. }) => Judgment::BEHAVIOR,
         // The methods stay the same, but the meaning of the bit is inverted.
-        (BitMeaning::Flag { .. }, BitMeaning::Flag { .. }) => Judgement::WIRE,
-        (BitMeaning::Reserved { .. }, _) => Judgement::API_COMPATIBLE,
-        _ => Judgement::API,
+        (BitMeaning::Flag { .. }, BitMeaning::Flag { .. }) => Judgment::WIRE,
+        (BitMeaning::Reserved { .. }, _) => Judgment::API_COMPATIBLE,
+        _ => Judgment::API,
     };
-    comparison.texts("meaning", meaning(old).to_owned(), meaning(new).to_owned(), judgement);
+    comparison.texts("meaning", meaning(old).to_owned(), meaning(new).to_owned(), judgment);
     if let (BitMeaning::Enumeration(old), BitMeaning::Enumeration(new)) = (old, new) {
         compare(&Type::Named(*old), &Type::Named(*new), comparison);
     }
@@ -287,7 +287,7 @@ fn meaning(bit_meaning: &BitMeaning) -> &'static str {
 fn values(old: &[EnumValue], new: &[EnumValue], comparison: &mut Comparison<'_>) {
     // A generated enumeration has a variant for each value, and Rust code may match all variants.
     let is_variant = |value: &EnumValue| value.last.is_none();
-    let judge = move |value: &EnumValue| if is_variant(value) { Judgement::API } else { Judgement::NONE };
+    let judge = move |value: &EnumValue| if is_variant(value) { Judgment::API } else { Judgment::NONE };
     let key = |value: &EnumValue| match value.when.as_ref() {
         Some(condition) => format!("{} while {}", value.name, condition.show()),
         None => value.name.to_string(),
@@ -307,13 +307,13 @@ fn number(value: &EnumValue) -> String {
 }
 
 fn value(old: &EnumValue, new: &EnumValue, comparison: &mut Comparison<'_>) {
-    let judgement = if old.value == new.value { Judgement::API } else { Judgement::WIRE };
-    comparison.texts("number", number(old), number(new), judgement);
+    let judgment = if old.value == new.value { Judgment::API } else { Judgment::WIRE };
+    comparison.texts("number", number(old), number(new), judgment);
     compare_fields!(EnumValue, old, new, comparison, {
         name,
-        zone: fact("zone", Judgement::BEHAVIOR),
+        zone: fact("zone", Judgment::BEHAVIOR),
         names,
-        when: fact("applies while", Judgement::BEHAVIOR),
+        when: fact("applies while", Judgment::BEHAVIOR),
         availability: super::conditions::availability,
         documentation,
     }, COMPARED => [value, last], POSITION => [at]);

@@ -56,7 +56,7 @@ function stateFinder(section) {
   });
   const title = element("p", { textContent: "Commands to each other state. The values have 0 in all bits that do not belong to the command:", hidden: true });
   const label = element("label", {}, "Status value ", input);
-  section.querySelector(".behaviour").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
+  section.querySelector(".behavior").before(element("div", { className: "tools" }, element("p", {}, label, shown), title, list));
 }
 
 for (const section of document.querySelectorAll("section.machine")) stateFinder(section);

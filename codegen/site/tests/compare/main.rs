@@ -278,7 +278,7 @@ fn layouts_of_pdos() {
         ("0: UNSIGNED16 Controlword", "0: INTEGER32 Target position")
     );
     assert_eq!(
-        (layout.element.as_str(), layout.judgement.api, layout.judgement.wire),
+        (layout.element.as_str(), layout.judgment.api, layout.judgment.wire),
         ("RPDO 1 Mapping", Effect::Breaking, Effect::Breaking)
     );
 }

@@ -122,9 +122,9 @@ fn is_read_along(item: &Item) -> bool {
         && item.flags & REFUSES_SCAN == 0
         && item.availability.as_deref().is_none_or(is_everywhere)
         && item
-            .behaviour
+            .behavior
             .as_deref()
-            .is_none_or(|behaviour| behaviour.side_effects.is_empty() && behaviour.read_states.is_empty())
+            .is_none_or(|behavior| behavior.side_effects.is_empty() && behavior.read_states.is_empty())
 }
 
 fn items(device: &Device) -> impl Iterator<Item = &Item> {

@@ -55,8 +55,8 @@ pub(super) fn item(
         paragraphs.extend(WORDS.notes(quantity));
     }
     paragraphs.extend(WORDS.origins(item));
-    if let Some(behaviour) = &item.behaviour {
-        paragraphs.push(words.behaviour(behaviour).join(" "));
+    if let Some(behavior) = &item.behavior {
+        paragraphs.push(words.behavior(behavior).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
     paragraphs.extend(words.variants(item, &context.manual));
@@ -105,7 +105,7 @@ pub(super) fn method(
         }
         lines.push(titled(name, &facts));
     }
-    let storage = item.behaviour.as_ref().and_then(|behaviour| words.storage(&behaviour.storage));
+    let storage = item.behavior.as_ref().and_then(|behavior| words.storage(&behavior.storage));
     lines.extend(storage.map(|storage| sentence(&capital(&storage))));
     lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
     for doubt in doubts(item.doubts.iter(), &context.manual) {

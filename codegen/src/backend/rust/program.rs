@@ -246,6 +246,6 @@ impl Parts<'_, '_> {
 
 /// Returns whether a device accepts a raw value, if it accepts only some of the values of the item.
 fn is_writable(item: &Item, number: i128) -> bool {
-    let values = item.behaviour.as_deref().map(|behaviour| behaviour.writable_values.as_slice()).unwrap_or_default();
+    let values = item.behavior.as_deref().map(|behavior| behavior.writable_values.as_slice()).unwrap_or_default();
     values.is_empty() || values.contains(&Value::Int(number))
 }

@@ -39,7 +39,7 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
 /// Returns the limits for writing: the widest range of all models and buses.
 pub(super) fn widest(item: &Item) -> Limits {
     let mut limits = Limits::clone(&item.limits);
-    let writable = item.behaviour.iter().flat_map(|behaviour| &behaviour.writable_values);
+    let writable = item.behavior.iter().flat_map(|behavior| &behavior.writable_values);
     limits.allowed.extend(writable.map(|value| (value.clone(), value.clone())));
     let is_beyond = |one: &Value, other: &Value, sign: f64| match (one.as_real(), other.as_real()) {
         (Some(one), Some(other)) => one * sign > other * sign,

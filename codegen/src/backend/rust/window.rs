@@ -98,7 +98,7 @@ fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u
     let bits = |ty: crate::ir::Type| ty.bits().filter(|bits| (1..=64).contains(bits));
     let procedure = side.procedure.as_ref().and_then(|reference| device.procedure(reference));
     let implied = procedure.map(|procedure| ImpliedHandshake::of(procedure, side)).unwrap_or_default();
-    let is_cleared = number.behaviour.as_ref().is_some_and(|behaviour| behaviour.self_clearing);
+    let is_cleared = number.behavior.as_ref().is_some_and(|behavior| behavior.self_clearing);
     let clears = side.clears.unwrap_or(implied.clears || is_cleared);
     let limited = |given: Option<u32>| given.map(|milliseconds| milliseconds.min(u16::MAX.into()));
     let timeout = limited(side.timeout.or(implied.timeout)).unwrap_or(POLLS);

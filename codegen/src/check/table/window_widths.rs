@@ -63,7 +63,7 @@ fn order(
 ) {
     let number = context.device.referred(&side.number);
     let is_cyclic = |item: &Item| item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
-    let by_row = number.and_then(stated::behaviour).is_some_and(|behaviour| behaviour.self_clearing);
+    let by_row = number.and_then(stated::behavior).is_some_and(|behavior| behavior.self_clearing);
     if context.device.referred(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;
     }

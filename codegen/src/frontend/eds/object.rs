@@ -10,8 +10,8 @@ use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
-    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Group, Item,
-    Limits, Mappable, ObjectCode, OtherSpans, Rule, Srdo, Type, Value,
+    Access, Behavior, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Group, Item, Limits,
+    Mappable, ObjectCode, OtherSpans, Rule, Srdo, Type, Value,
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
@@ -239,7 +239,7 @@ impl<'a> Reader<'a, '_> {
         }
         .into();
         item.flags = self.flags(raw);
-        item.behaviour = self.srdo(raw).map(|srdo| Box::new(Behaviour { srdo: Some(srdo), ..Behaviour::default() }));
+        item.behavior = self.srdo(raw).map(|srdo| Box::new(Behavior { srdo: Some(srdo), ..Behavior::default() }));
         self.configured(raw, &mut item);
         self.take_comments(&mut item.extensions);
         item.extensions.shrink_to_fit();

@@ -113,7 +113,7 @@ fn printed(text: &str, code: i128) -> CompactString {
 }
 
 /// Maximum number of preceding elements that are compared to find translations of the same text.
-const NEIGHBOURS: usize = 16;
+const NEIGHBORS: usize = 16;
 
 /// Title of a paragraph, and its text in each language.
 type Paragraph<'a> = (&'a str, Names<'a>);
@@ -141,7 +141,7 @@ fn paragraph<'a>(
     reader.name(tag, &mut names)?;
     // Elements with the same name are translations of one text if their languages differ.
     let is_other = |(title, texts): &&mut Paragraph<'_>| *title == tag.name && !texts.shares_language(&names);
-    let first = first.max(paragraphs.len().saturating_sub(NEIGHBOURS));
+    let first = first.max(paragraphs.len().saturating_sub(NEIGHBORS));
     match paragraphs.iter_mut().skip(first).find(is_other) {
         Some((_, texts)) => texts.append(names),
         None => paragraphs.push((tag.name, names)),

@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Access, Behaviour, Category, CompactString, Mappable};
+use crate::ir::{Access, Behavior, Category, CompactString, Mappable};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
@@ -164,7 +164,7 @@ impl Flags {
     /// Returns the storage, the safety mapping, and the states with read or write access of a sub-item. A sub-item
     /// without flags has the storage of its object. A sub-item without a safety mapping, or without access states, has
     /// those of its object.
-    pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
+    pub fn behavior_or(&self, object: &Flags) -> Option<Box<Behavior>> {
         let stored = if self.given { self } else { object };
         let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));
         let [item, object] = [self, object].map(|flags| flags.more.as_deref());
@@ -173,13 +173,13 @@ impl Flags {
         }
         let [item, object] = [item, object].map(|more| more.cloned().unwrap_or_default());
         let or = |states: Vec<_>, default| if states.is_empty() { default } else { states };
-        Some(Box::new(Behaviour {
+        Some(Box::new(Behavior {
             backup,
             setting,
             safety: item.safety.or(object.safety),
             read_states: or(item.read_states, object.read_states),
             write_states: or(item.write_states, object.write_states),
-            ..Behaviour::default()
+            ..Behavior::default()
         }))
     }
 }

@@ -319,7 +319,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             Some(sub_index) => flags.mappable_or(object, sub_index),
             None => (flags.mappable.unwrap_or_default(), flags.mappable_at),
         };
-        item.behaviour = flags.behaviour_or(object);
+        item.behavior = flags.behavior_or(object);
     }
 
     /// Sets the default value, limits, unit and display name of an item. Values of the object take precedence over

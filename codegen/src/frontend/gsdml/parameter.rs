@@ -4,7 +4,7 @@ use super::data_type::DataType;
 use super::location::Location;
 use super::reader::Reader;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Access, Behaviour, Binding, Item, OtherSpans};
+use crate::ir::{Access, Behavior, Binding, Item, OtherSpans};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
@@ -48,7 +48,7 @@ impl<'a> Reader<'a, '_> {
         item.at.access = changeable.span;
         item.access = if self.flag_or(&changeable, true) { Access::ReadWrite } else { Access::Constant };
         if !self.flag_or(&visible, true) {
-            item.behaviour = Some(Box::new(Behaviour { hidden: true, ..Behaviour::default() }));
+            item.behavior = Some(Box::new(Behavior { hidden: true, ..Behavior::default() }));
         }
         self.no_children(tag)?;
         item.extensions = self.extensions_since(start);

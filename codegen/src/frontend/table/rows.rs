@@ -15,7 +15,7 @@ use super::words::{ACCESSES, DIRECTIONS};
 use super::{conditions, given, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Bus, Buses, Conversion, Documentation, Fact, FactOrigin, Item, ItemRef,
+    Access, Availability, Behavior, Binding, Bus, Buses, Conversion, Documentation, Fact, FactOrigin, Item, ItemRef,
     ModbusTable, Quantity, RegisterSpace, RelatedItems, Rule, Shape, Storage, Type, TypeDef, TypeId,
 };
 use crate::source::Span;
@@ -210,7 +210,7 @@ impl Rows {
         self.length(reader, item, named, row);
         self.quantity(reader, item, row);
         self.variants(reader, item, row);
-        self.behaviour(reader, item, row);
+        self.behavior(reader, item, row);
         self.availability(reader, item, row);
         self.words(reader, item, row);
         if let Some(summary) = &row.summary {
@@ -333,45 +333,45 @@ impl Rows {
         }
     }
 
-    fn behaviour(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
+    fn behavior(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
         let base = self.definitions.underlying(item.ty);
-        let mut behaviour = item.behaviour.take().map_or_else(Behaviour::default, |behaviour| *behaviour);
+        let mut behavior = item.behavior.take().map_or_else(Behavior::default, |behavior| *behavior);
         match &row.save {
-            Some(FlagOrText::Flag(true)) => behaviour.storage = Storage::Immediate,
-            Some(FlagOrText::Flag(false)) => behaviour.storage = Storage::Volatile,
+            Some(FlagOrText::Flag(true)) => behavior.storage = Storage::Immediate,
+            Some(FlagOrText::Flag(false)) => behavior.storage = Storage::Volatile,
             Some(FlagOrText::Text(word)) if ["yes", "no", "true", "false"].contains(&word.as_str()) => {
                 let flag = matches!(word.as_str(), "yes" | "true");
                 let message = format!("`{word}` is not a command");
                 let help = format!("write `save = {flag}` without quotes, or the name of a command");
                 reader.report_with_help(&codes::TABLE_VALUE, item.at.name, message, help);
             }
-            Some(FlagOrText::Text(command)) => behaviour.storage = Storage::OnCommand(command.as_str().into()),
+            Some(FlagOrText::Text(command)) => behavior.storage = Storage::OnCommand(command.as_str().into()),
             None => {}
         }
         if let Some(effective) = &row.effective {
-            behaviour.effective = Some(effective.as_str().into());
+            behavior.effective = Some(effective.as_str().into());
         }
         if let Some(when) = &row.when {
-            behaviour.write_when = conditions::conditions(reader, &mut self.definitions.mentioned, when);
+            behavior.write_when = conditions::conditions(reader, &mut self.definitions.mentioned, when);
         }
         if let Some(values) = &row.writable {
-            behaviour.writable_values = value::listed(reader, &values.value, (values.start, values.end), base);
+            behavior.writable_values = value::listed(reader, &values.value, (values.start, values.end), base);
         }
-        behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
-        behaviour.write_once = row.once.unwrap_or(behaviour.write_once);
+        behavior.self_clearing = row.clears.unwrap_or(behavior.self_clearing);
+        behavior.write_once = row.once.unwrap_or(behavior.write_once);
         if let Some(pdi) = &row.pdi {
-            behaviour.pdi_access = reader.word(pdi, "access right", &ACCESSES);
+            behavior.pdi_access = reader.word(pdi, "access right", &ACCESSES);
             if !item.bindings.iter().any(|binding| matches!(binding, crate::ir::Binding::EscMemory { .. })) {
                 let message =
                     "`pdi` needs an address in the memory of an EtherCAT slave controller, but the row has none";
                 reader.report(&codes::TABLE_VALUE, reader.span(pdi), message);
             }
         }
-        behaviour.hidden = row.hidden.unwrap_or(behaviour.hidden);
+        behavior.hidden = row.hidden.unwrap_or(behavior.hidden);
         if let Some(OneOrMany(effects)) = &row.effects {
-            behaviour.side_effects = effects.iter().map(|effect| effect.as_str().into()).collect();
+            behavior.side_effects = effects.iter().map(|effect| effect.as_str().into()).collect();
         }
-        item.behaviour = (behaviour != Behaviour::default()).then(|| Box::new(behaviour));
+        item.behavior = (behavior != Behavior::default()).then(|| Box::new(behavior));
         if let Some(per_axis) = row.per_axis {
             item.shared_by_axes = !per_axis;
         }

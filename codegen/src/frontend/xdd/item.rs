@@ -11,7 +11,7 @@ use crate::frontend::canopen::object;
 use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
 use crate::ir::{
-    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Item, Limits,
+    Access, Behavior, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Item, Limits,
     Mappable, ObjectCode, OtherSpans, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
 use crate::source::Span;
@@ -52,7 +52,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         item.flags = self.flags(raw);
         self.configured(raw, view, base, &mut item);
         self.quantity(view, allowed, base, &mut item);
-        self.behaviour(view, &mut item);
+        self.behavior(view, &mut item);
         item
     }
 
@@ -303,10 +303,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    fn behaviour(&mut self, view: &View<'p, 'a>, item: &mut Item) {
+    fn behavior(&mut self, view: &View<'p, 'a>, item: &mut Item) {
         let Some(given) = view.find(|parameter| parameter.persistent.non_empty()) else { return };
         let storage = if self.reader.flag(given) { Storage::Immediate } else { Storage::Volatile };
-        item.behaviour = Some(Box::new(Behaviour { storage, ..Behaviour::default() }));
+        item.behavior = Some(Box::new(Behavior { storage, ..Behavior::default() }));
     }
 }
 

@@ -149,14 +149,14 @@ impl<'p> Completion<'p> {
             item.ty = Type::Named(id);
             item.origins.set(Fact::Meaning, Some(standard.clone()));
         }
-        let facts = [(Fact::Unit, described.quantity.is_some()), (Fact::Behaviour, described.behaviour.is_some())];
+        let facts = [(Fact::Unit, described.quantity.is_some()), (Fact::Behavior, described.behavior.is_some())];
         for (fact, _) in facts.into_iter().filter(|(_, is_described)| *is_described) {
             if !item.origins.admits(fact, fact.is_stated(item), &standard) {
                 continue;
             }
             match fact {
                 Fact::Unit => item.quantity.clone_from(&described.quantity),
-                _ => item.behaviour.clone_from(&described.behaviour),
+                _ => item.behavior.clone_from(&described.behavior),
             }
             item.origins.set(fact, Some(standard.clone()));
         }

@@ -2,7 +2,7 @@
 
 use crate::ir::owner::object;
 use crate::ir::{
-    Behaviour, CodeTable, CompactString, Condition, Direction, Documentation, Doubts, Group, ObjectBuses, ObjectCode,
+    Behavior, CodeTable, CompactString, Condition, Direction, Documentation, Doubts, Group, ObjectBuses, ObjectCode,
     Quantity, Shape, StateMachine, Type, TypeDef, TypeId, Value,
 };
 
@@ -51,7 +51,7 @@ pub(crate) struct Described {
     /// Standard and clause that state the facts.
     pub standard: CompactString,
     pub quantity: Option<Box<Quantity>>,
-    pub behaviour: Option<Box<Behaviour>>,
+    pub behavior: Option<Box<Behavior>>,
     pub documentation: Option<Box<Documentation>>,
 }
 

@@ -5,7 +5,7 @@
 
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
-    Access, Behaviour, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CompactString, Condition, Direction,
+    Access, Behavior, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CompactString, Condition, Direction,
     Documentation, Doubt, Doubts, ElementRef, EnumValue, FactOrigin, ItemRef, MessageRef, ObjectBuses, Pattern,
     Quantity, Scale, Severity, Shape, SharedList, StateMachine, Storage, Subject, SubjectKind, Transition, Trigger,
     Type, TypeDef, TypeId, TypeRef, Value, Zone,
@@ -102,13 +102,13 @@ macro_rules! structures {
 
 structures! {
     Profile { name, number, when, api, on_canopen, on_ethercat, axis_index, objects, signals, telegrams, types, codes, machines }
-    Described { indices, subs, ty, buses, meaning, standard, quantity, behaviour, documentation }
+    Described { indices, subs, ty, buses, meaning, standard, quantity, behavior, documentation }
     Signal { name, ty, meaning }
     Telegram { name, direction, signals }
     ObjectBuses { canopen, coe }
     Documentation { text, cite, text_from | translations }
     Quantity { unit, scale, sentinels, step | units, machine, conversions }
-    Behaviour {
+    Behavior {
         storage, effective, write_when, writable_values, side_effects, self_clearing, write_once, hidden
         | backup, setting, safety, srdo, pdi_access, read_states, write_states
     }

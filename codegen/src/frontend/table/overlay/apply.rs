@@ -55,7 +55,7 @@ impl<'o> Applied<'o> {
         let applies = self.patcher.overlay.head.value.applies.as_ref().unwrap_or(&everything);
         let count = match &applies.module {
             Some(pattern) => {
-                self.behaviour_of_module(reader);
+                self.behavior_of_module(reader);
                 self.modules(reader, catalog, applies, &pattern.to_lowercase())
             }
             None => self.devices(reader, catalog, applies),
@@ -208,7 +208,7 @@ impl<'o> Applied<'o> {
     }
 
     /// Reports axes, codes, machines and procedures in an overlay for modules. Only an overlay for devices can have these keys.
-    fn behaviour_of_module(&self, reader: &mut Reader<'_, '_>) {
+    fn behavior_of_module(&self, reader: &mut Reader<'_, '_>) {
         let patch = &self.patcher.overlay.patch;
         let axes = patch.axes.iter().map(|axes| ("axes", reader.span(axes)));
         let codes = patch.codes.iter().map(|(name, _)| ("codes", reader.span(name)));

@@ -110,7 +110,7 @@ fn described(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: O
         buses,
         standard: standard_and_clause(&reader.standard, &clause).into(),
         quantity: item.quantity,
-        behaviour: item.behaviour,
+        behavior: item.behavior,
         documentation: item.documentation,
         ..Described::default()
     }

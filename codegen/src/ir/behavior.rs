@@ -388,7 +388,7 @@ pub struct GivenNumber {
 /// Storage of a value, side effects of writing the value, and conditions for writing it.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Behaviour {
+pub struct Behavior {
     /// Storage of the value: volatile or non-volatile.
     pub storage: Storage,
     /// Text that states when a written value takes effect, if it does not take effect immediately.
