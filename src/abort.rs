@@ -3,8 +3,8 @@
 use core::error;
 use core::fmt;
 
-/// Abort code of an SDO transfer: the reason why client or server aborted it (CiA 301 7.2.4.3.17). Any code is allowed; [`text`](Self::text)
-/// describes the codes of the standard.
+/// Abort code of an SDO transfer: the reason why the client or the server aborted the transfer (CiA 301 7.2.4.3.17).
+/// Any code is allowed; [`text`](Self::text) describes the codes of the standard.
 ///
 /// ```
 /// use lexibus::AbortCode;

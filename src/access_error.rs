@@ -1,4 +1,4 @@
-//! Errors of accesses to items.
+//! Errors of reads and writes of items.
 
 use core::error;
 use core::fmt;
@@ -11,7 +11,7 @@ use crate::value_error::OutOfRange;
 /// Error of a read or a write of an item. It contains the reason, the name of the item, its address on the bus, and the
 /// value of a write. `E` is the error type of the client.
 ///
-/// The operator `?` converts it to [`Error`], which contains only the reason.
+/// The `?` operator converts an access error to [`Error`], which contains only the reason.
 ///
 /// ```
 /// use lexibus::{Flags, Initial, Item, Object, OnCanOpen, Range, RawValue, Rw};
@@ -47,7 +47,8 @@ pub struct AccessError<E> {
     address: Option<BusAddress>,
     access: Access,
     form: Form,
-    /// Value, minimum and maximum, as far as the access has them. For floating-point numbers, the bits of an `f64`.
+    /// Value, minimum and maximum; 0 if the access has no such number. Floating-point numbers are stored as the bits of
+    /// an `f64`.
     numbers: [u64; 3],
 }
 
@@ -58,13 +59,13 @@ enum Access {
     /// A write of a value that isn't a number.
     Write,
     WriteNumber,
-    /// A number outside the range of the item.
+    /// A write of a number outside the range of the item.
     OutOfRange,
-    /// A physical value without a raw value in the range of the item.
+    /// A write of a physical value that has no raw value in the range of the item.
     Unscalable,
 }
 
-/// Variant of [`RawValue`] to which the numbers of an error belong.
+/// [`RawValue`] variant of the numbers in an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Form {
     Signed,
@@ -133,8 +134,8 @@ impl<E> AccessError<E> {
         self.name
     }
 
-    /// Returns the address of the item on the client's bus, or `None` if its route has no address. Through an
-    /// [`Axis`](crate::Axis), this is the address on the first axis.
+    /// Returns the address of the item on the client's bus, or `None` if the route of the item has no address. For an
+    /// access through an [`Axis`](crate::Axis), returns the address on the first axis.
     #[must_use]
     pub const fn address(&self) -> Option<BusAddress> {
         self.address
@@ -166,8 +167,8 @@ impl<E> AccessError<E> {
         }
     }
 
-    /// Returns the minimum and the maximum of the item as raw values, if the value of a write wasn't in the range of the
-    /// item. If the range has gaps, the value can be in a gap.
+    /// Returns the minimum and the maximum of the item as raw values, if the written value is outside the range of the
+    /// item. If the range has gaps, the value can also be in a gap between the minimum and the maximum.
     #[must_use]
     pub fn range(&self) -> Option<(RawValue, RawValue)> {
         match self.access {

@@ -27,9 +27,9 @@ use crate::value_error::LengthError;
 ///
 /// # Errors
 ///
-/// Every read and write returns the errors of the client (see [`Client::read`]) and the errors that its own
-/// documentation lists, in an [`AccessError`] that names the item. If a reply has the wrong length, the method returns
-/// [`Error::Length`] and doesn't panic.
+/// A failed read or write returns an [`AccessError`], which names the item. The reason is an error of the client (see
+/// [`Client::read`]) or one of the errors that the method documents. If a reply has the wrong length, the method
+/// returns [`Error::Length`] and doesn't panic.
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
     item: Item<V, A, L>,
@@ -59,8 +59,8 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
 }
 
 impl<C, V: Value, A, L> Accessor<'_, C, V, A, L> {
-    /// Returns the name and the address of the item for errors. The function is inlined, so that the item itself doesn't
-    /// have to be in memory.
+    /// Returns the name and the address of the item for an error. The function is always inlined, so that the compiler
+    /// doesn't have to store the whole item.
     #[inline(always)]
     fn place(&self, address: Option<BusAddress>) -> Place {
         (self.item.name(), address)

@@ -1,4 +1,4 @@
-//! Further axes of a device: the objects of the first axis at other addresses.
+//! Devices with several axes: addresses of the objects of each axis.
 
 use core::time::Duration;
 
@@ -46,20 +46,20 @@ pub struct AxisRange {
 /// Rule that converts the address of an object on one axis to its address on the next axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisStep {
-    /// The next axis adds this number to the index (CiA 402-2: 0x800).
+    /// On the next axis, the index is higher by this number (CiA 402-2: 0x800).
     Index(u16),
     /// The sub-index is the axis number.
     SubIndex,
-    /// The next axis adds this number to the sub-index, except to sub-index 0.
+    /// On the next axis, the sub-index is higher by this number, except for sub-index 0.
     SubIndexStride(u8),
 }
 
 impl Axes {
-    /// Returns the address that `object`, an object of the first axis, has on axis `axis`. Axis numbers start at 1.
+    /// Returns the address on axis `axis` of `object`, which is an object of the first axis. Axis numbers start at 1.
     /// Shared objects and objects outside all ranges have the same address on every axis.
     ///
     /// Returns `None` if the axis doesn't exist or doesn't have the object. With [`AxisStep::SubIndex`], further axes
-    /// have only the objects at sub-index 1.
+    /// have only those objects that the first axis has at sub-index 1.
     #[must_use]
     pub fn object(&self, axis: u8, object: Object) -> Option<Object> {
         if axis == 0 || axis > self.count {
@@ -91,7 +91,8 @@ impl Axes {
 /// Client for one axis of a device. The client replaces the address of each object of the first axis by the object's
 /// address on this axis. The method `axis` of generated devices creates this client.
 ///
-/// Only CANopen and EtherCAT have further axes, because address rules exist only for object dictionaries.
+/// This client supports only CANopen and CANopen over EtherCAT, because address rules exist only for object
+/// dictionaries.
 #[derive(Debug)]
 pub struct Axis<C> {
     client: C,
@@ -100,13 +101,13 @@ pub struct Axis<C> {
 }
 
 impl<C> Axis<C> {
-    /// Creates the client for axis `number`, from 1. If the device doesn't have this axis, every access returns
-    /// [`Error::NoSuchAxis`].
+    /// Creates the client for axis `number`; the first axis is 1. If the device doesn't have this axis, every access
+    /// returns [`Error::NoSuchAxis`].
     pub const fn new(client: C, axes: &'static Axes, number: u8) -> Self {
         Self { client, axes, number }
     }
 
-    /// Returns the axis number, from 1.
+    /// Returns the axis number; the first axis is 1.
     #[must_use]
     pub const fn number(&self) -> u8 {
         self.number

@@ -5,16 +5,16 @@ use core::fmt;
 use crate::enumeration::Enumeration;
 use crate::value::Value;
 
-/// A bit field whose bits have names. Generated bit fields implement this trait.
+/// An integer whose bits have names. Generated bit fields implement this trait.
 pub trait BitField: Enumeration
 where
     <Self::Base as Value>::Native: Into<u64>,
 {
-    /// Names and masks of the fields, as [`debug_bits`] describes them.
+    /// Names and masks of the fields, in the format of the argument `layout` of [`debug_bits`].
     const LAYOUT: &'static str;
 
-    /// Returns the names of the flags that are set, in the order of the description. A flag that is active low is set if
-    /// its bit is 0. Fields of several bits are left out.
+    /// Returns the names of the flags that are set, in the order of the device description. An active-low flag is set
+    /// if its bit is 0. The iterator skips fields of several bits and fields with an enumeration type.
     fn set_flags(self) -> SetFlags {
         SetFlags { raw: self.as_is().into(), fields: fields(Self::LAYOUT).1.split_terminator(' ') }
     }
@@ -45,7 +45,7 @@ struct Field<'l> {
     mask: u64,
     /// True if the flag is set while its bit is 0.
     is_inverted: bool,
-    /// True if the field has a type with names.
+    /// True if the field has an enumeration type.
     is_value: bool,
 }
 
@@ -72,8 +72,9 @@ fn fields(layout: &str) -> (&str, &str) {
 /// bits that belong to no field follow in hexadecimal. Generated code calls this function.
 ///
 /// `layout` is the name of the type, followed by `name:mask` for every field, separated by spaces. Masks are
-/// hexadecimal. A mask of one bit stands for a flag, and a mask of several bits for a number. `!name:mask` is a flag
-/// that is set if its bit is 0. `?name:mask` formats the next element of `values` instead of the bits.
+/// hexadecimal. A field with a mask of one bit is a flag, and a field with a mask of several bits is a number.
+/// `!name:mask` is a flag that is set if its bit is 0. `?name:mask` formats the next element of `values` instead of the
+/// bits.
 ///
 /// # Errors
 ///

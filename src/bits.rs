@@ -173,8 +173,8 @@ pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
     out
 }
 
-/// Returns the first `width` bits of the `N` bytes at bit offset `bit`. All other bits, and bits beyond the end of
-/// `data`, are 0.
+/// Returns the first `width` bits of the `N` bytes at bit offset `bit`. The other bits of the result are 0, and so are
+/// bits beyond the end of `data`.
 #[must_use]
 #[inline]
 #[expect(clippy::indexing_slicing, reason = "`at` is below `N`")]
@@ -291,7 +291,7 @@ mod tests {
         buffer
     }
 
-    /// Returns a pseudorandom word, always the same for one seed.
+    /// Returns a pseudorandom word, which depends only on `seed`.
     fn noise(seed: u64) -> u64 {
         let mixed = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         (mixed ^ mixed >> 31).wrapping_mul(0x94D0_49BB_1331_11EB)

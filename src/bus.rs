@@ -94,13 +94,13 @@ impl Record {
         Self { api: 0, slot, subslot, index, offset, is_bytes: false }
     }
 
-    /// Returns the same address with another application process identifier (API).
+    /// Returns the address with this application process identifier (API).
     #[must_use]
     pub const fn of_api(self, api: u32) -> Self {
         Self { api, ..self }
     }
 
-    /// Returns the same address for a text or a byte string.
+    /// Returns the address, marked as that of a text or a byte string.
     #[must_use]
     pub const fn bytes(self) -> Self {
         Self { is_bytes: true, ..self }

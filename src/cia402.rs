@@ -1,21 +1,21 @@
-//! Operations of drives with the profile CiA 402 (CiA 402-2 and -3, IEC 61800-7-201). The operations are a change of
-//! the mode with confirmation, homing, moves with handshake, velocities, quick stop, halt, and a watch over cyclic
-//! set-points.
+//! Operations of drives with the CiA 402 profile (CiA 402-2 and -3, IEC 61800-7-201): confirmed mode changes, homing,
+//! positioning with handshake, velocity, quick stop, halt, and monitoring of cyclic set-points.
 //!
-//! The method `cia402` of a generated device returns a [`Drive`]. The compiler generates the method for each device that
-//! has the controlword, the statusword, and the requested and active mode of operation. The further methods of the drive
-//! exist if the device has their objects, see [`Positioning`], [`Velocity`] and [`Homing`]. The method `axis` of a device
-//! with several axes comes first: `device.axis(2).cia402()`.
+//! The method `cia402` of a generated device returns a [`Drive`]. The compiler generates the method for each device
+//! that has the controlword, the statusword, and the requested and active mode of operation. Some methods of the drive
+//! exist only if the device has the objects that they need: see [`Positioning`], [`Velocity`] and [`Homing`]. For a
+//! device with several axes, call `axis` first: `device.axis(2).cia402()`.
 //!
-//! - No operation enables a drive. Before an operation other than `quick_stop` and `set_mode`, lead the drive to
-//!   "Operation enabled" with the generated method `walk`. Another operation than `quick_stop` and `set_mode` returns
-//!   [`MotionError::NotEnabled`] or [`MotionError::Fault`] in another state, and writes nothing. If the drive leaves the
-//!   state during the operation, the operation returns the same errors, and doesn't write the controlword any more.
+//! - No operation enables a drive. Before an operation other than `quick_stop` and `set_mode`, bring the drive to
+//!   "Operation enabled" with the generated method `walk`. In any other state, these operations return
+//!   [`MotionError::NotEnabled`] or [`MotionError::Fault`], and write nothing. If the drive leaves "Operation enabled"
+//!   during an operation, the operation returns the same errors. The operation then clears at most bit 4 of the
+//!   controlword, and only if the write cannot change the state.
 //! - Operations change only those bits of the controlword that their documentation names.
-//! - The drive must not receive the controlword in process data, because process data would overwrite it. In this case,
-//!   use a [`Cyclic`] and a [`Walker`](crate::Walker).
-//! - Positions and velocities are raw values, in the units of the drive. The generated items convert them:
-//!   `objects::TARGET_VELOCITY.raw(2.5)`.
+//! - If the drive receives the controlword in process data, use a [`Cyclic`] and a [`Walker`](crate::Walker) instead,
+//!   because process data would overwrite the controlword.
+//! - Positions and velocities are raw values, in the units of the drive. The generated items convert physical values to
+//!   raw values: `objects::TARGET_VELOCITY.raw(2.5)`.
 //!
 //! ```
 //! # #[cfg(feature = "std")] {

@@ -8,8 +8,8 @@ use crate::error::Error;
 
 /// Reads and writes the items of one device. Each call blocks until the device replies.
 ///
-/// Values have their least significant byte first, as in CANopen, on every bus. A client converts values if the bus
-/// uses another byte order.
+/// The bytes of a value are in little-endian order, as in CANopen. If the bus uses a different byte order, the client
+/// converts the value.
 ///
 /// # Example
 ///

@@ -1,4 +1,4 @@
-//! Clocks and timers, which bound the time of an exchange.
+//! Clocks and timers, which limit the duration of an exchange.
 
 use core::future::{poll_fn, Future};
 use core::pin::pin;
@@ -22,8 +22,8 @@ pub(crate) fn elapsed(start: Option<Duration>, now: Option<Duration>) -> Option<
     start.zip(now).map(|(start, now)| now.saturating_sub(start))
 }
 
-/// Timer of an async client. A function that returns a future is a timer if the future ends after the given time, such
-/// as `tokio::time::sleep` or `embassy_time::Timer::after`.
+/// Timer of an async client. A function is a timer if it returns a future that completes after the given time, such as
+/// `tokio::time::sleep` or `embassy_time::Timer::after`.
 #[allow(async_fn_in_trait)]
 pub trait Timer {
     /// True if the timer can expire.
@@ -44,7 +44,7 @@ impl<D: FnMut(Duration) -> S, S: Future> Timer for D {
     }
 }
 
-/// The clock of the standard library with the feature `std`; without this feature, no clock. As a [`Timer`], this type
+/// The clock of the standard library if the feature `std` is enabled; otherwise, no clock. As a [`Timer`], this type
 /// never expires, because a timer depends on the executor.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DefaultClock;

@@ -36,7 +36,8 @@ pub enum Cell {
     Text(&'static str),
 }
 
-/// A code of a table as a Rust type. Generated code contains one enumeration per table, which implements this trait.
+/// A code of a table, represented by an enumeration. The compiler generates one enumeration per table, which implements
+/// this trait.
 ///
 /// ```
 /// use lexibus::codes::{Code, CodeTable};

@@ -43,7 +43,7 @@ use crate::pdo::SdoWrite;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Configuration {
-    /// COB-IDs with bit 31 set, of the PDOs that the configuration changes.
+    /// COB-IDs of the PDOs that the configuration changes, with bit 31 set (PDO disabled).
     pub disable_pdos: &'static [Setting],
     /// Objects 0x1000 to 0x1FFF, without PDOs.
     pub communication: &'static [Setting],
@@ -53,9 +53,9 @@ pub struct Configuration {
     pub mapping: &'static [Setting],
     /// Transmission types, inhibit times, event timers and SYNC start values of PDOs.
     pub pdo_parameters: &'static [Setting],
-    /// COB-IDs of the PDOs that are enabled at the end.
+    /// COB-IDs of the PDOs that the configuration enables at the end.
     pub enable_pdos: &'static [Setting],
-    /// True if values that are equal to the default value of the description are left out. See
+    /// True if the configuration leaves out values that are equal to the default value in the description. See
     /// [`without_defaults`](Self::without_defaults).
     pub skip_defaults: bool,
 }
@@ -100,8 +100,8 @@ impl Setting {
         Self { is_write_only: true, ..self }
     }
 
-    /// Returns the write for the device with this node-ID. The sum of value and node-ID wraps around at the length of the
-    /// value.
+    /// Returns the write for the device with this node-ID. If the setting adds the node-ID, the sum wraps around at the
+    /// length of the value.
     #[must_use]
     pub const fn resolve(&self, node_id: NodeId) -> SdoWrite {
         if self.add_node_id {
@@ -120,7 +120,7 @@ impl Setting {
     }
 }
 
-/// A phase of the configuration. The phases follow each other in this order.
+/// A phase of a configuration: a group of writes of the same kind. The phases are in the order of their execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Phase {
     /// Disables PDOs.
@@ -162,11 +162,11 @@ impl Configuration {
         skip_defaults: false,
     };
 
-    /// Returns the configuration without the values that are equal to the default value of the description. PDOs whose
-    /// configuration equals the default are not disabled.
+    /// Returns the configuration without the values that are equal to the default value of the description. The
+    /// configuration doesn't disable PDOs whose values are all equal to the default.
     ///
-    /// Use it for a device that has its default values, for example after a restore command (0x1011). Otherwise, the
-    /// device keeps values that it stored earlier.
+    /// Use this configuration only for a device that has its default values, for example after a restore command
+    /// (0x1011). A device with other stored values keeps the values that this configuration doesn't write.
     #[must_use]
     pub const fn without_defaults(self) -> Self {
         Self { skip_defaults: true, ..self }

@@ -1,6 +1,6 @@
-//! CRC of 16 bits whose most significant bit comes first.
+//! 16-bit CRC that processes the most significant bit first.
 
-/// Updates a CRC with `data`. The polynomial has no bit 16, and the result is not inverted.
+/// Updates a CRC with `data`. `polynomial` omits the term x^16, and the result is not inverted.
 #[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
 pub(crate) const fn crc16(polynomial: u16, crc: u16, data: &[u8]) -> u16 {
     let (mut crc, mut at) = (crc, 0);

@@ -9,7 +9,7 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DataType {
-    /// A truth value (CiA 301 7.1.4.3).
+    /// A Boolean value (CiA 301 7.1.4.3).
     Boolean,
     /// A signed integer of 8 bits (CiA 301 7.1.4.6).
     Integer8,

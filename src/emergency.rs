@@ -41,7 +41,8 @@ impl Emergency {
         [low, high, self.register, a, b, c, d, e]
     }
 
-    /// Returns whether one error or all errors have been cleared (codes 0x0000 to 0x00FF, CiA 301 7.2.7.1).
+    /// Returns whether the device reports that an error or all errors have been cleared (codes 0x0000 to 0x00FF, CiA
+    /// 301 7.2.7.1).
     #[must_use]
     pub const fn is_reset(&self) -> bool {
         self.code <= 0xFF

@@ -54,7 +54,7 @@ pub trait Enumeration: Copy + 'static {
     /// Returns the integer to write to an item. Reserved bits of a bit field have the values that the device requires.
     fn native(self) -> <Self::Base as Value>::Native;
 
-    /// Returns the integer for a PDO. All bits are unchanged, including reserved bits.
+    /// Returns the integer to write to a PDO. Keeps all bits, including reserved bits.
     fn as_is(self) -> <Self::Base as Value>::Native {
         self.native()
     }
@@ -78,7 +78,7 @@ impl<E: Enumeration> Fixed for E {
         <E::Base as Fixed>::decode(bytes).map(E::from_native)
     }
 
-    /// Compares the integers of the value and of the limits.
+    /// Returns whether the integer of the value is within the limits.
     #[inline]
     fn in_range(value: E, range: &Range<E>) -> bool {
         // The comparison is not a recursive call, because the compiler could neither inline it nor evaluate a constant

@@ -33,17 +33,18 @@ pub enum Error<E> {
     /// The device needs time before it has the value, and the client cannot wait
     /// ([`Client::wait`](crate::Client::wait)). Use [`Timed`](crate::Timed) to add a clock to the client.
     NoClock,
-    /// The device marks its cyclic data as invalid (provider status of PROFINET).
+    /// The device marks its cyclic data as invalid (PROFINET provider status "bad").
     InvalidData,
     /// The device doesn't have the axis, or the axis doesn't have the object. Nothing was sent.
     NoSuchAxis {
         /// Axis number, from 1.
         axis: u8,
-        /// Object of the first axis.
+        /// Object, with the index that it has on the first axis.
         object: Object,
     },
-    /// In a write, the value is outside the item's declared range or doesn't fit the item's type on this bus. Nothing
-    /// was sent. In a read, the value has more bits on the bus than in the item, and doesn't fit the item's type.
+    /// In a write, the value is outside the item's declared range, or doesn't fit the item's type or its length on this
+    /// bus. Nothing was sent. In a read, the bus transfers more bits than the item's type has, and the value doesn't
+    /// fit the type.
     OutOfRange(OutOfRange),
     /// The device sent, or the caller passed, the wrong number of bytes.
     Length(LengthError),

@@ -48,7 +48,7 @@ pub struct Device {
 }
 
 impl Device {
-    /// Returns the initialization commands of the device for a state transition, without those of its modules.
+    /// Returns the initialization commands of the device for a state transition, without the commands of its modules.
     pub fn init_commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> {
         let commands = self.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
         let due = commands.iter().filter(move |command| command.transitions.contains(transition));
@@ -67,9 +67,9 @@ impl Device {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// Returns the number of the sync manager for a PDO. The result is the default sync manager of the PDO. If the PDO
-    /// has no default, the result is the first sync manager for the PDO's direction that the PDO doesn't exclude. If
-    /// the description lists no sync managers, the default sync manager of another PDO with the same direction is used.
+    /// Returns the number of the sync manager for a PDO. This is the default sync manager of the PDO, if it has one.
+    /// Otherwise, this is the first sync manager for the PDO's direction that the PDO doesn't exclude. If the
+    /// description lists no sync managers, this is the default sync manager of another PDO with the same direction.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {

@@ -1,4 +1,4 @@
-//! Request and reply protocols, which exchange messages or access numbered parameters.
+//! Request-reply protocols that exchange messages or access numbered parameters.
 
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
@@ -8,11 +8,10 @@ use crate::message::{
 };
 use crate::value_error::LengthError;
 
-/// Sends a request to one device and blocks until the reply arrives. Clients of request and reply protocols use this
-/// trait.
+/// Sends a request to one device and blocks until the reply arrives. Clients of request-reply protocols use this trait.
 ///
-/// Requests and replies contain the data of a message, without the framing on the line. The feature `serial` provides
-/// an implementation for any byte stream. This example implements the trait for a test:
+/// Requests and replies contain the data of a message, without framing. The feature `serial` provides an implementation
+/// for any byte stream. This example implements the trait for a test:
 ///
 /// ```
 /// use lexibus::{Error, Exchange, LengthError};
@@ -39,19 +38,19 @@ use crate::value_error::LengthError;
 /// # Ok::<(), Error<core::convert::Infallible>>(())
 /// ```
 pub trait Exchange {
-    /// Error type of the line.
+    /// Error type of the transport.
     type Error;
 
-    /// Sends `request`, writes the reply to the start of `reply` and returns its length.
+    /// Sends `request`, writes the reply to the start of `reply` and returns the length of the reply.
     ///
     /// # Errors
     ///
-    /// Returns [`Error::Client`] if the line fails or no reply arrives. Returns [`Error::Length`] if `request` is too
-    /// long for the protocol or the reply is longer than `reply`.
+    /// Returns [`Error::Client`] if the transport fails or no reply arrives. Returns [`Error::Length`] if `request` is
+    /// too long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notifies the line that the last reply doesn't belong to its request. The reply to the last request may still
-    /// arrive, and the next exchange should discard it. The default implementation does nothing.
+    /// Notifies the transport that the last reply doesn't belong to its request. The correct reply may still arrive,
+    /// and the next exchange should discard it. The default implementation does nothing.
     fn unsettle(&mut self) {}
 }
 
@@ -73,7 +72,7 @@ pub trait Exchange {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncExchange {
-    /// Error type of the line.
+    /// Error type of the transport.
     type Error;
 
     /// Sends `request` and receives the reply, as [`Exchange::exchange`] does.
@@ -83,11 +82,11 @@ pub trait AsyncExchange {
     /// Returns the errors of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notifies the line that the last reply doesn't belong to its request, as [`Exchange::unsettle`] does.
+    /// Notifies the transport that the last reply doesn't belong to its request, as [`Exchange::unsettle`] does.
     fn unsettle(&mut self) {}
 }
 
-/// Messages of a protocol that reads and writes numbered parameters.
+/// Encodes and decodes the messages of a protocol that reads and writes numbered parameters.
 ///
 /// The least significant byte of a value comes first, as in a [`Client`]. If the protocol uses another byte order, the
 /// implementation converts the values.
@@ -128,21 +127,22 @@ pub trait AsyncExchange {
 /// assert_eq!(request[..3], [7, 1, 2]);
 /// ```
 pub trait ParameterMessages {
-    /// Writes the request that reads a parameter of `length` bytes to the start of `request` and returns the length of
-    /// the request.
+    /// Encodes the read request for a parameter of `length` bytes at the start of `request`. Returns the length of the
+    /// request.
     ///
     /// # Errors
     ///
-    /// Returns an error if the request doesn't fit into `request`, or if no message reads the parameter.
+    /// Returns an error if the request doesn't fit into `request`, or if the protocol has no message that reads the
+    /// parameter.
     fn read_request(&self, parameter: Parameter, length: usize, request: &mut [u8]) -> Result<usize, WriteError>;
 
-    /// Writes the value in the reply to the start of `value` and returns its length.
+    /// Copies the value from the reply to the start of `value` and returns the length of the value.
     ///
     /// # Errors
     ///
     /// - [`Error::UnexpectedReply`] if the reply belongs to another request.
     /// - [`Error::Refused`] or [`Error::Abort`] if the device refuses the request.
-    /// - [`Error::Length`] if the received value has another length than `value`.
+    /// - [`Error::Length`] if the length of the received value differs from the length of `value`.
     fn read_reply<E>(
         &self,
         parameter: Parameter,
@@ -151,11 +151,12 @@ pub trait ParameterMessages {
         value: &mut [u8],
     ) -> Result<usize, Error<E>>;
 
-    /// Writes the request that writes a parameter to the start of `request` and returns the length of the request.
+    /// Encodes the write request for a parameter at the start of `request`. Returns the length of the request.
     ///
     /// # Errors
     ///
-    /// Returns an error if the request doesn't fit into `request`, or if no message writes the parameter.
+    /// Returns an error if the request doesn't fit into `request`, or if the protocol has no message that writes the
+    /// parameter.
     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError>;
 
     /// Checks that the reply confirms the write request.
@@ -166,8 +167,8 @@ pub trait ParameterMessages {
     fn write_reply<E>(&self, parameter: Parameter, request: &[u8], reply: &[u8]) -> Result<(), Error<E>>;
 }
 
-/// Client for a device with a request and reply protocol. Messages are sent through the exchange `X`. `N` is the length
-/// of the longest message in bytes.
+/// Client for a device with a request-reply protocol. The client sends messages through the exchange `X`. `N` is the
+/// maximum length of a message in bytes.
 ///
 /// The client implements [`Client`] or [`AsyncClient`] for the bus [`Serial`] if `M` implements [`ParameterMessages`].
 /// The client implements [`MessageClient`] if `M` is a [`Station`].
@@ -196,8 +197,7 @@ impl<X, M, const N: usize> Parameters<X, M, N> {
     }
 }
 
-/// Returns the first `length` bytes of `buffer`, or an error if an implementation reports more bytes than the buffer
-/// has.
+/// Returns the first `length` bytes of `buffer`, or an error if `length` exceeds the length of the buffer.
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
 }

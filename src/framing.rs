@@ -1,9 +1,9 @@
 //! Framing of messages in a byte stream.
 //!
 //! [`Framing`] is a trait for framing protocols. [`Delimited`] implements the trait for protocols with start and end
-//! bytes. A [`Delimited`] contains delimiters, escape bytes and the type of the checksum, and can be a constant. The
-//! types of this module neither allocate nor perform I/O. The feature `serial` applies framing to a byte stream of
-//! `embedded-io`.
+//! bytes. A [`Delimited`] contains the delimiters, the escape bytes and the type of the checksum, and can be a
+//! constant. The types of this module neither allocate nor perform I/O. The feature `serial` applies framing to a byte
+//! stream of `embedded-io`.
 //!
 //! ```
 //! use lexibus::framing::{Check, Delimited, Framing};
@@ -38,7 +38,8 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 
 /// Framing of messages in a byte stream.
 ///
-/// Implement this trait for a custom protocol. Here, a frame is a length byte and the data, without a checksum:
+/// Implement this trait for a custom protocol. In this example, a frame consists of a length byte and the data, without
+/// a checksum:
 ///
 /// ```
 /// use lexibus::framing::{FrameError, Framing};
@@ -85,10 +86,10 @@ pub use delimited::{Delimited, DelimitedDecoder, Escape};
 /// assert_eq!(data[..2], [7, 8]);
 /// ```
 pub trait Framing {
-    /// State of the decoder after a part of a frame.
+    /// State of the decoder between two bytes.
     type Decoder;
 
-    /// Writes the frame for `data` to the start of `frame` and returns its length.
+    /// Writes the frame for `data` to the start of `frame` and returns the length of the frame.
     ///
     /// # Errors
     ///
@@ -103,8 +104,8 @@ pub trait Framing {
     ///
     /// # Errors
     ///
-    /// Returns an error if the frame is invalid. The decoder then waits for the next frame. `byte` can be the first
-    /// byte of the next frame.
+    /// Returns an error if the frame is invalid. The decoder then waits for the next frame. `byte` may already be the
+    /// first byte of that frame.
     fn decode(&self, decoder: &mut Self::Decoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError>;
 }
 

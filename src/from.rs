@@ -1,6 +1,6 @@
 //! Error conversions.
 
-/// Implements `From` for each error type that a variant of another error type holds.
+/// Implements `From` for the variants of an error type that wrap another error type.
 macro_rules! from {
     ($($error:ident => $target:ident::$variant:ident $(<$parameter:ident>)?;)*) => {$(
         impl $(<$parameter>)? From<$error> for $target $(<$parameter>)? {

@@ -1,6 +1,6 @@
 //! Identity of a device: vendor, product and revision.
 
-/// Identity of a device in its device description. On the device, object 0x1018 contains the IDs.
+/// Identity of a device, as its device description declares it. On the device, object 0x1018 contains the IDs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
     /// Vendor-ID (0x1018:01).

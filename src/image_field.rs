@@ -9,7 +9,7 @@ use crate::value_error::LengthError;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImageOrder {
     /// A number with its most significant byte first, as in PROFINET. A field that doesn't fill whole bytes is a bit
-    /// field in such a number.
+    /// field of a big-endian number.
     #[default]
     BigEndian,
     /// A number with its least significant byte first, as in EtherCAT.
@@ -20,8 +20,8 @@ pub enum ImageOrder {
 
 /// A field in a fixed process image: a number, a text or a byte string.
 ///
-/// Values in a [`Client`](crate::Client) have their least significant byte first. In an image, each field has its own
-/// byte order:
+/// A [`Client`](crate::Client) transfers values with the least significant byte first. In an image, each field has its
+/// own byte order:
 ///
 /// ```
 /// use lexibus::ImageField;
@@ -42,9 +42,9 @@ pub struct ImageField {
     /// True if the field is an output of the controller, which the device receives; false if the field is an input,
     /// which the device sends.
     pub is_output: bool,
-    /// Bit offset: eight times the offset of the first byte, plus the number of unused bits below the field. In a
-    /// big-endian field, the unused bits are in the last byte. In a little-endian field, the unused bits are in the
-    /// first byte.
+    /// Bit offset: eight times the offset of the first byte, plus the position of the field's least significant bit in
+    /// its byte (0 to 7). The least significant bit is in the last byte of a big-endian field, and in the first byte of
+    /// a little-endian field.
     pub bit: u32,
     /// Length in bits, at most 64 for a number.
     pub bits: u16,
@@ -71,7 +71,7 @@ impl ImageField {
         Self { order, ..self }
     }
 
-    /// Returns the length in bytes that the value has outside the image.
+    /// Returns the length of the value in bytes, as [`get`](Self::get) and [`put`](Self::put) use it.
     #[must_use]
     pub const fn byte_len(&self) -> usize {
         match self.order {

@@ -25,8 +25,8 @@ impl Initial<&'static [u8]> {
 }
 
 impl<T: AddNodeId> Initial<T> {
-    /// Returns the initial value on the device with this node-ID. Returns `None` if the value is unknown or doesn't fit
-    /// its type.
+    /// Returns the initial value on the device with this node-ID. Returns `None` if the value is unknown, or if the sum
+    /// with the node-ID doesn't fit the type.
     #[must_use]
     pub fn resolve(&self, node: NodeId) -> Option<T> {
         match *self {

@@ -3,7 +3,8 @@
 /// Version of the interface that this crate provides to generated code.
 pub const VERSION: u32 = 1;
 
-/// Checks that generated code matches the version of this crate. Generated code calls this function in a constant.
+/// Checks that generated code matches the interface version of this crate. Generated code calls this function in a
+/// constant.
 ///
 /// ```
 /// const _: () = lexibus::interface::assert_version(lexibus::interface::VERSION);

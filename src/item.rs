@@ -82,7 +82,7 @@ impl<V: Value, A, L> Item<V, A, L> {
         self.flags
     }
 
-    /// Returns the item with the range and the initial value that apply to one model of the device.
+    /// Returns the item with another range and initial value, for a model of the device whose values differ.
     #[must_use]
     pub const fn of_model(self, range: Range<V::Native>, initial: Initial<V::Native>) -> Self
     where
@@ -144,9 +144,9 @@ where
     Exponential<B, BASE, BITS>: Quantity<Native = B::Native, Other = f64>,
     B: Value,
 {
-    /// Converts a physical value to a mantissa and an exponent. Tries `exponents` in order and returns the first one
-    /// with a mantissa in the item's range. The lowest exponent gives the highest resolution. Write the exponent to the
-    /// item that contains the exponent.
+    /// Converts a physical value to a mantissa and an exponent. Tries `exponents` in order and returns the first
+    /// exponent whose mantissa is in the item's range. The lowest exponent gives the highest resolution. Write the
+    /// mantissa to this item, and the exponent to the item that contains the exponent.
     ///
     /// ```
     /// use lexibus::{Exponential, Flags, Initial, Item, OnSerial, OutOfRange, Range, Rw};

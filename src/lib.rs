@@ -68,7 +68,7 @@
 //! |---|---|
 //! | `macros` | macro `dictionary!`, which compiles a device description during the build; needs Rust 1.88 |
 //! | `std` | `sim`: simulated devices; [`Client::wait`] with a default implementation that sleeps |
-//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies, LSS and PDOs over any CAN interface; [`sdo`] and [`lss`]: SDO transfers and LSS without input and output |
+//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies, LSS and PDOs over any CAN interface; [`sdo`] and [`lss`]: SDO transfers and LSS as state machines that perform no I/O |
 //! | `socketcan`, `socketcan-tokio` | `clients::canopen` over SocketCAN on Linux, blocking and async |
 //! | `ethercat` | `clients::ethercat`: objects of EtherCAT SubDevices through `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus`; needs Rust 1.85 |

@@ -32,7 +32,7 @@ pub trait On<B: Bus> {
 }
 
 /// Declares a location type: a struct with one field for each bus on which its items exist. Each field declares the bus
-/// and the type of the route. The route is usually an address of the bus.
+/// and the type of the route. The route is usually an address on the bus.
 ///
 /// ```
 /// use lexibus::{CanOpen, Modbus, Object, On, Register, Resized};

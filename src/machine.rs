@@ -1,4 +1,4 @@
-//! State machines, the shortest path from one state to another, and the way of a device along this path.
+//! State machines: the shortest path from one state to another, and the commands that move a device along this path.
 
 mod walk;
 mod walker;
@@ -42,9 +42,11 @@ pub enum Step<C> {
 const MAX_TRANSITIONS: usize = 128;
 
 impl<C: Copy> Step<C> {
-    /// Returns the first step of the shortest path from `state` to `target` that neither passes through an energized state nor enters
-    /// a fault state from a state without a fault. The target is excepted. If several paths have the same length, a path that starts
-    /// with a command is preferred.
+    /// Returns the first step of the shortest path from `state` to `target`.
+    ///
+    /// The path passes through no energized state, and enters no fault state from a state without a fault. Only
+    /// `target` itself may be such a state. If several paths have the same length, a path that starts with a command is
+    /// preferred.
     #[must_use]
     pub fn toward<S: MachineState<Command = C>>(state: S, target: S) -> Self
     where

@@ -101,7 +101,7 @@ pub trait Message {
 
 /// The reply to a [`Message`]. A program decodes replies; a simulated device encodes them.
 pub trait Reply<'r>: Sized {
-    /// True if this reply accepts any data. If true, the data are checked for a refusal first.
+    /// True if this reply accepts any data. In this case, received data are checked for a refusal first.
     const IS_ANYTHING: bool = false;
 
     /// Decodes the reply to a request. Returns `None` unless all data match the reply. Parts of the reply that repeat
@@ -112,8 +112,8 @@ pub trait Reply<'r>: Sized {
     ///
     /// # Errors
     ///
-    /// Returns an error if a field is outside its limits, or if the data don't fit into the buffer. Also returns an
-    /// error if the reply repeats a part of the request, and the request is shorter than this part.
+    /// Returns an error if a field is outside its limits, if the data don't fit into the buffer, or if the request is
+    /// too short for a reply that repeats a part of it.
     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
@@ -141,7 +141,7 @@ impl<'r> Reply<'r> for &'r [u8] {
     }
 }
 
-/// Decodes a [`Message`] on the device's side. Simulators and tests use this trait.
+/// Decodes a [`Message`] in a simulated device or a test.
 pub trait Request<'r>: Message + Sized {
     /// Decodes the station address and the request. Returns `None` if the data contain another request. The station
     /// address is 0 if the protocol has no station addresses.
@@ -175,18 +175,18 @@ pub enum Completion {
     Delayed(u32),
 }
 
-/// A request that determines the meaning of later requests. Generated devices offer these later requests only after the
-/// selector was sent.
+/// A request that determines the meaning of later requests. A generated device has the methods for these requests only
+/// after the selector has been sent.
 ///
-/// [`Call::select`] sends the selector and returns the device that offers these requests.
+/// [`Call::select`] sends the selector and returns a device with these methods.
 pub trait Selector: Message {
-    /// Type of the device that offers the requests, with a client `C`.
+    /// Type of the device with the methods for these requests. `C` is the client.
     type Device<C>;
 
-    /// Creates the device over `client`. The device must have received this request.
+    /// Creates the device with the client `client`. The hardware must already have received the selector.
     fn device<C>(client: C) -> Self::Device<C>;
 }
 
-/// Type state of a device whose last [`Selector`] is unknown, or to which no selector has been sent.
+/// Typestate of a device to which no [`Selector`] has been sent, or whose last selector is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unselected;

@@ -42,7 +42,8 @@ pub trait Named: Enumeration {
     const NAMES: &'static [(Self, &'static str)];
 }
 
-/// The text is neither the name of a value nor an integer that the type can represent. States and commands have names only.
+/// The text is neither the name of a value nor an integer that the type can represent. For states and commands, only
+/// names are valid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct UnknownName;
 
@@ -70,8 +71,8 @@ where
     }
 }
 
-/// Returns the value with this name. The function ignores case, and takes underscores for blanks. Generated states and commands call this function. If several values have the
-/// name, the function returns the first.
+/// Returns the value with this name, or the first of several values. The comparison ignores case and treats underscores
+/// as spaces. Generated states and commands call this function.
 ///
 /// # Errors
 ///
@@ -84,12 +85,12 @@ pub fn find_name<T: Copy>(names: &[(T, &str)], text: &str) -> Result<T, UnknownN
     found.map(|(value, _)| *value).ok_or(UnknownName)
 }
 
-/// Returns the value with this name, as [`find_name`] does, or the value for an integer in decimal. Generated code calls this
-/// function. If several values have the name, the function returns the first.
+/// Parses the name of a value, as [`find_name`] does, or a decimal integer. Generated code calls this function. If
+/// several values have the name, the function returns the first.
 ///
 /// # Errors
 ///
-/// Returns [`UnknownName`] if no value has the name, and the type does not represent the integer.
+/// Returns [`UnknownName`] if `text` is neither the name of a value nor an integer that the type can represent.
 pub fn parse_name<E: Named>(text: &str) -> Result<E, UnknownName>
 where
     <E::Base as Value>::Native: PartialEq + FromStr,

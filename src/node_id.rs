@@ -7,7 +7,7 @@ use core::fmt;
 pub struct NodeId(u8);
 
 impl NodeId {
-    /// Creates a node-ID. Returns `None` if `id` isn't 1 to 127.
+    /// Creates a node-ID. Returns `None` if `id` is outside the range 1 to 127.
     #[must_use]
     pub const fn new(id: u8) -> Option<Self> {
         match id {

@@ -90,7 +90,7 @@ macro_rules! reals {
 
 reals! { f32 f64 }
 
-/// Type of a number that has a physical value. [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
+/// Type of a raw value that represents a physical value. [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
 /// [`Item::physical`](crate::Item::physical) use this trait.
 ///
 /// The methods [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) use the raw value.

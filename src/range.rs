@@ -1,6 +1,6 @@
 //! Ranges of values that an item accepts.
 
-/// Range of values. The range includes its first and its last value.
+/// Range of values, including its limits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Range<T: 'static> {
     /// All values of the integer or floating-point type.
@@ -10,7 +10,7 @@ pub enum Range<T: 'static> {
     From(T),
     /// This value and all lower values.
     To(T),
-    /// All values from the first to the second value.
+    /// All values from the first limit to the second limit.
     Between(T, T),
     /// The union of several ranges, each with its first and last value.
     OneOf(&'static [(T, T)]),

@@ -6,7 +6,8 @@ use crate::pdo::mask;
 use crate::range::Range;
 use crate::value::{byte_len, Fixed};
 
-/// Raw value of an item as a number. Enumerations and bit fields are the numbers that are sent, and a BOOLEAN is 0 or 1.
+/// Raw value of an item as a number. For an enumeration or a bit field, the raw value is the number that is sent. For a
+/// BOOLEAN, the raw value is 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub enum RawValue {
     /// A signed integer.
@@ -65,8 +66,8 @@ fn type_limits<V: Fixed>() -> Option<[RawValue; 2]> {
     })
 }
 
-/// Returns the minimum and the maximum of a range, or `None` if the values aren't numbers. Missing limits are those of
-/// the type.
+/// Returns the minimum and the maximum of a range, or `None` if the values aren't numbers. If the range has no minimum
+/// or maximum, the limit of the type is returned.
 #[inline]
 pub(crate) fn limits<V: Fixed>(range: &Range<V::Native>) -> Option<[RawValue; 2]> {
     let [lowest, highest] = type_limits::<V>()?;

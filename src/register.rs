@@ -19,7 +19,7 @@ pub enum RegisterTable {
 }
 
 impl RegisterTable {
-    /// Returns the name of an entry of the table.
+    /// Returns the term for one entry of the table, for example "holding register".
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Holding => "holding register",
@@ -81,8 +81,8 @@ pub struct Register {
     pub order: WordOrder,
     /// True if the two bytes of each register are swapped.
     pub bytes_swapped: bool,
-    /// Bit field of the number that forms the value, or `None` if the value is the whole number. To write a bit field,
-    /// a client first reads the registers, unless it uses function 22.
+    /// Bit field of the number that contains the value, or `None` if the value is the whole number. To write a bit
+    /// field, a client first reads the registers, unless it uses function 22.
     pub part: Option<RegisterPart>,
     /// Number of 16-bit registers per address: 1 on most devices, 2 on devices with one address per 32-bit register.
     /// With 2 registers per address, a 32-bit value at `address` is followed by the next value at `address + 1`.
@@ -186,8 +186,8 @@ impl Register {
         }
     }
 
-    /// Returns how many words of the first address precede the value. For example, the lower half of a 32-bit register
-    /// is the second word if the most significant word comes first.
+    /// Returns the number of words at the first address that precede the value. For example, the lower half of a 32-bit
+    /// register is the second word if the most significant word comes first.
     pub(crate) const fn skipped(&self) -> usize {
         match self.order {
             WordOrder::HighFirst => (self.addresses() as usize * self.step() as usize) - self.count as usize,
@@ -198,17 +198,17 @@ impl Register {
     /// Decodes the value in `words`, writes it to the start of `buffer` and returns its length in bytes. A number
     /// starts with its least significant byte, a text with its first byte.
     ///
-    /// If a number is longer than `buffer`, its upper bytes are discarded, for example those of a one-byte value in a
-    /// register. A text isn't truncated. For a text, the returned length is the length of the whole text, as
-    /// [`Client::read`](crate::Client::read) requires.
+    /// If a number is longer than `buffer`, its upper bytes are discarded, for example the upper byte of a register
+    /// with a one-byte value. A text isn't truncated. For a text, the returned length is the length of the whole text,
+    /// as [`Client::read`](crate::Client::read) requires.
     ///
-    /// Coils and discrete inputs don't need this method. In Modbus messages and in `buffer`, the first bit is the
-    /// lowest bit of the first byte.
+    /// Coils and discrete inputs don't need this method. Modbus messages and `buffer` have the same bit order: the
+    /// first bit is the lowest bit of the first byte.
     ///
     /// # Errors
     ///
-    /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count). [`LengthError`]
-    /// also occurs if the value is a bit field in a number of more than four words.
+    /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count). Also returns
+    /// [`LengthError`] if the value is a bit field in a number of more than four words.
     pub fn decode(&self, words: &[u16], buffer: &mut [u8]) -> Result<usize, LengthError> {
         self.check(words)?;
         let length = 2 * words.len();
@@ -233,7 +233,7 @@ impl Register {
     /// # Errors
     ///
     /// Returns [`LengthError`], in bytes, if the number of `words` isn't [`count`](Register::count), or if `data` is
-    /// longer than `words`. [`LengthError`] also occurs if the value is a bit field in a number of more than four
+    /// longer than `words`. Also returns [`LengthError`] if the value is a bit field in a number of more than four
     /// words.
     pub fn encode(&self, data: &[u8], words: &mut [u16]) -> Result<(), LengthError> {
         self.check(words)?;
@@ -273,8 +273,8 @@ impl Register {
         }
     }
 
-    /// Returns the position of a word among the `count` words of a value. For a number, `at` is the significance of the
-    /// word. For a text, `at` is the position of the word in the text.
+    /// Returns the position of a word among the `count` words of a value. For a number, the least significant word has
+    /// `at` 0. For a text, the first word has `at` 0.
     const fn position(&self, at: usize, count: usize) -> usize {
         match self.order {
             WordOrder::HighFirst => count - 1 - at,

@@ -1,4 +1,4 @@
-//! Time that is left until a deadline.
+//! Remaining time until a deadline.
 
 use core::time::Duration;
 
@@ -7,7 +7,7 @@ use crate::clock::{elapsed, Clock, DefaultClock};
 /// Maximum pause between two polls of a device.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The time until a deadline. Without a clock, only the pauses count.
+/// The remaining time until a deadline. Without a clock, the elapsed time is the sum of the pauses.
 pub(crate) struct Remaining {
     start: Option<Duration>,
     waited: Duration,
@@ -15,7 +15,7 @@ pub(crate) struct Remaining {
 }
 
 impl Remaining {
-    /// Starts to measure the time. The deadline is `deadline` from now.
+    /// Starts a time measurement that ends after `deadline`.
     pub(crate) fn new(deadline: Duration) -> Self {
         Self { start: DefaultClock.now(), waited: Duration::ZERO, deadline }
     }

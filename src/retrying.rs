@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 use crate::register::Register;
 
-/// Client that repeats an access after an error of the bus: [`Error::Timeout`], [`Error::UnexpectedReply`], or an
+/// Client that repeats an access after a bus error: [`Error::Timeout`], [`Error::UnexpectedReply`], or an
 /// [`Error::Client`] that is [transient](Client::is_transient). The access isn't repeated after any other error, for
 /// example a refusal by the device. On Modbus, a refused access is repeated only after the exceptions 6 (server device
 /// busy) and 11 (gateway target device failed to respond).
@@ -50,7 +50,7 @@ impl<C> Retrying<C> {
         Self { client, reads: count, writes: 0 }
     }
 
-    /// Returns the client with the option to repeat a failed write up to `count` times.
+    /// Returns the client, which now also repeats a failed write up to `count` times.
     #[must_use]
     pub fn and_writes(self, count: u8) -> Self {
         Self { writes: count, ..self }
@@ -157,8 +157,8 @@ retrying! { AsyncClient AsyncRegisterClient async await }
 /// time of an access with several transfers. `T` is a [`Timer`], for example `tokio::time::sleep` or
 /// `embassy_time::Timer::after`.
 ///
-/// When the timeout expires, the transfer is dropped. After a dropped transfer, the next transfer of any client of this
-/// crate is correct. The exceptions are contexts of `tokio-modbus` without a `Link`, and serial lines without a timer.
+/// When the timeout expires, the transfer is dropped. The clients of this crate remain usable after a dropped transfer,
+/// except contexts of `tokio-modbus` without a `Link`, and serial lines without a timer.
 ///
 /// ```
 /// # use core::time::Duration;
@@ -189,7 +189,7 @@ pub struct Deadline<C, T> {
 }
 
 impl<C, T> Deadline<C, T> {
-    /// Creates a client whose accesses end after `timeout`, with [`Error::Timeout`].
+    /// Creates a client whose accesses fail with [`Error::Timeout`] if they take longer than `timeout`.
     pub const fn new(client: C, timer: T, timeout: Duration) -> Self {
         Self { client, timer, timeout }
     }

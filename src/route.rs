@@ -11,7 +11,8 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// Methods with which tools find the address of a route. A route through a window has no address.
+/// Methods that return the address of a route, for tools such as the simulator. A route through a window has no
+/// address.
 pub trait Route {
     /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT.
     fn object(&self) -> Option<Object> {
@@ -23,7 +24,7 @@ pub trait Route {
         None
     }
 
-    /// Returns whether the value on this bus has another width than the item.
+    /// Returns whether the value has a different width on this bus than in the item.
     fn is_resized(&self) -> bool {
         false
     }
@@ -200,8 +201,8 @@ mod window;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Closed;
 
-/// Route with different routes for reading and for writing. An access in a [`Closed`] direction causes a compile-time
-/// error.
+/// Route that combines a route for reading with a different route for writing. An access in a [`Closed`] direction
+/// causes a compile-time error.
 ///
 /// ```
 /// use lexibus::{CanOpen, Closed, Object, ReadRoute, Split, WriteRoute};

@@ -23,7 +23,8 @@ pub struct Entry {
     pub flags: Flags,
     /// Initial value after power-on.
     pub initial: RawInitial,
-    /// Value that the configuration file (DCF or XDC) sets. `None` if it sets none, or if the device is not described by such a file.
+    /// Value that the configuration file (DCF or XDC) sets. `None` if the file sets no value, or if the description is
+    /// another kind of file.
     pub configured: Option<RawInitial>,
     /// Minimum of the values that can be written.
     pub low: Bound,
@@ -49,7 +50,7 @@ pub enum AccessRights {
 /// Initial value after power-on, or configured value, encoded as on the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RawInitial {
-    /// The description has no value of the data type.
+    /// The description declares no valid value for the data type.
     Unknown,
     /// Bytes of a fixed value.
     Bytes(&'static [u8]),

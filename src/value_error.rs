@@ -6,7 +6,7 @@ use core::fmt;
 /// The number of bytes differs from the expected number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LengthError {
-    /// Length of the value, or maximum length of the buffer, in bytes.
+    /// Expected length in bytes: the length of the value, or the maximum length of the buffer.
     pub expected: usize,
     /// Actual length in bytes.
     pub actual: usize,

@@ -149,8 +149,8 @@ fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
     ))
 }
 
-/// Returns whether cargo accepts a feature with this name. Names in cargo also may have letters other than ASCII, but crates.io
-/// rejects these.
+/// Returns whether cargo and crates.io accept a feature with this name. Cargo also accepts letters other than ASCII,
+/// but crates.io rejects such names.
 fn is_feature_name(name: &str) -> bool {
     let is_first = |c: char| c.is_ascii_alphanumeric() || c == '_';
     name.starts_with(is_first) && name.chars().all(|c| is_first(c) || matches!(c, '-' | '+' | '.'))

@@ -129,8 +129,8 @@ fn absolute(path: &str) -> PathBuf {
 /// Maximum number of diagnostics that are shown individually.
 const MAX_SHOWN: usize = 16;
 
-/// Returns code that uses a deprecated constant for each of the first [`MAX_SHOWN`] warnings, and one for the number of
-/// the others. Macros on stable Rust cannot report warnings.
+/// Returns code that uses one deprecated constant for each of the first [`MAX_SHOWN`] warnings, and one for the number
+/// of further warnings. Macros on stable Rust cannot report warnings.
 fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
     let list = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Warning);
     let mut notes: Vec<String> = list.clone().take(MAX_SHOWN).map(|warning| compilation.one_line(warning)).collect();

@@ -101,8 +101,8 @@ impl<C, V: Fixed, A: Writable, L> Accessor<'_, C, V, A, L> {
 
 /// Methods for items that can be read and written.
 impl<C, V: Fixed, A: Readable + Writable, L> Accessor<'_, C, V, A, L> {
-    /// Reads the value, changes it with `change`, and writes the result: one read and one write. Bits that `change` doesn't
-    /// change keep the values that the device has.
+    /// Reads the value, changes it with `change`, and writes the result: one read and one write. Bits that `change`
+    /// doesn't modify are written back with the values that were read.
     ///
     /// The access isn't atomic: the device or another client can change the value between the read and the write.
     ///
@@ -120,7 +120,7 @@ impl<C, V: Fixed, A: Readable + Writable, L> Accessor<'_, C, V, A, L> {
     /// ```
     ///
     /// An item can have different addresses for reading and writing (see [`Split`](crate::Split)). For such an item,
-    /// `change` receives the value that the device shows, and not the last written value.
+    /// `change` receives the value at the read address, not the last written value.
     ///
     /// # Errors
     ///
@@ -172,7 +172,7 @@ fn room<V: Fixed>(buffer: &mut [u8; 8]) -> &mut [u8] {
     buffer.get_mut(..byte_len(V::BITS)).unwrap_or_default()
 }
 
-/// Decodes the value in `room`. `length` is the length that the client reported in bytes.
+/// Decodes the value in `room`. `length` is the length in bytes that the client reported.
 #[inline]
 fn decode<V: Fixed, E>(room: &[u8], length: usize) -> Result<V::Native, Error<E>> {
     if length != room.len() {

@@ -34,8 +34,8 @@ macro_rules! scaled {
         $write_scaled_by:ident $($async:ident $await:ident)?
     ) => {
         impl<C, V: Quantity<Other = ()>, A: Readable, L> Accessor<'_, C, V, A, L> {
-            /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if some raw value has a
-            /// special meaning. `None` means that the device sent a raw value with a special meaning.
+            /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if the item has raw
+            /// values with a special meaning. `None` means that the device sent a raw value with a special meaning.
             ///
             /// # Errors
             ///
@@ -66,8 +66,8 @@ macro_rules! scaled {
             }
         }
 
-        /// Methods for values whose scale depends on another value. The caller passes the other value, which the item's
-        /// documentation names.
+        /// Methods for values whose scale depends on another value. The item's documentation names the other value, and
+        /// the caller passes it.
         impl<C, V: Quantity<Other = f64>, A: Readable, L> Accessor<'_, C, V, A, L> {
             /// Reads the physical value in the item's unit. `other` is the value that determines the scale.
             ///

@@ -1,16 +1,16 @@
 //! Bits of the controlword and of the statusword (CiA 402-2 10.3.1 and 10.3.2).
 
-/// Controlword: "new set-point" in the mode "profile position", "homing operation start" in the mode "homing".
+/// Controlword: "new set-point" in profile position mode, "homing operation start" in homing mode.
 pub(super) const START: u16 = 1 << 4;
 /// Controlword: "change set immediately".
 pub(super) const IMMEDIATELY: u16 = 1 << 5;
 /// Controlword: "relative".
 pub(super) const RELATIVE: u16 = 1 << 6;
-/// Controlword: the bits 0 to 3 and 7, which command the state machine.
+/// Controlword: bits 0 to 3 and 7, which command the state machine.
 pub(super) const OF_STATE: u16 = 0x8F;
-/// Controlword: the bits 0 to 3 and 7 of the command "enable operation".
+/// Controlword: bits 0 to 3 and 7 of the command "enable operation".
 pub(super) const ENABLE_OPERATION: u16 = 0x0F;
-/// Controlword: the bits 0 to 3 and 7 of the command "quick stop".
+/// Controlword: bits 0 to 3 and 7 of the command "quick stop".
 pub(super) const QUICK_STOP: u16 = 0x02;
 /// Controlword: "halt".
 pub(super) const HALT: u16 = 1 << 8;

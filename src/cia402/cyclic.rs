@@ -7,21 +7,21 @@ use super::state::{Mode, State};
 use crate::enumeration::Enumeration;
 use crate::machine::StateWord;
 
-/// Watches over a drive in a cyclic synchronous mode (CSP, CSV or CST), and decides in each cycle which set-point the
-/// drive receives. A `Cyclic` needs no client: the program copies its inputs from the process data, and its outputs to
-/// the process data. It therefore works with every bus library.
+/// Monitors a drive in a cyclic synchronous mode (CSP, CSV or CST), and selects the set-point that the drive receives
+/// in each cycle. A `Cyclic` needs no client and works with every bus library: the program copies the inputs from the
+/// process data, and the outputs to the process data.
 ///
-/// - Until the drive follows the command values (bit 12 of the statusword in "Operation enabled" and in this mode), the
-///   set-point is the actual position, or 0 for a velocity and a torque. This also applies to the first cycle in which
-///   the drive follows, so that the axis doesn't jump: the program starts its trajectory there.
-/// - Once the drive has followed, the cycle in which the drive leaves "Operation enabled" or the mode is an error.
-/// - A following error is an error: bit 13 of the statusword in CSP, or an actual following error (0x60F4) above the
-///   limit of the program.
-/// - The bits 4, 5, 6 and 9 of the controlword become 0, as these modes require. Other bits stay as they are: a
+/// - The drive follows the command values if bit 12 of the statusword is 1 in "Operation enabled" and in this mode.
+///   Otherwise, the set-point is the actual position, or 0 for a velocity and a torque. The set-point is the same in
+///   the first cycle in which the drive follows, so that the axis doesn't jump: start the trajectory at this set-point.
+/// - If the drive has followed and then leaves "Operation enabled" or the mode, the cycle returns an error.
+/// - A following error also returns an error: bit 13 of the statusword in CSP, or an actual following error (0x60F4)
+///   above the limit of the program.
+/// - Bits 4, 5, 6 and 9 of the controlword become 0, as these modes require. The other bits don't change: a
 ///   [`Walker`](crate::Walker) enables the drive.
 ///
-/// After an error, the program decides how the axis stops, for example with a walker to "Switched on". [`Self::hold`]
-/// returns a set-point without motion.
+/// After an error, the program decides how the axis stops: for example, a walker can bring the drive to "Switched on".
+/// [`Self::hold`] returns a set-point without motion.
 ///
 /// ```
 /// use lexibus::cia402::{Cyclic, CycleError, Inputs};
@@ -57,8 +57,8 @@ pub struct Cyclic {
 pub struct Inputs<S> {
     /// Statusword (0x6041).
     pub status: S,
-    /// Active mode (0x6061) if it is part of the process data. Without it, the program must have activated the mode, for
-    /// example with [`Drive::set_mode`](super::Drive::set_mode).
+    /// Active mode (0x6061), or `None` if the mode isn't part of the process data. In this case, activate the mode
+    /// before the first cycle, for example with [`Drive::set_mode`](super::Drive::set_mode).
     pub mode: Option<i8>,
     /// Actual position (0x6064) as raw value. CSV and CST ignore this value.
     pub actual: i32,
@@ -77,18 +77,18 @@ pub struct Cycle<W> {
     pub is_following: bool,
 }
 
-/// Reason why a [`Cyclic`] stops.
+/// Reason why a cycle of a [`Cyclic`] failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CycleError {
-    /// A fault has occurred. The drive is in this state.
+    /// A fault has occurred; the value is the state of the drive.
     Fault(State),
     /// The drive has left "Operation enabled".
     NotEnabled {
         /// State of the drive, or `None` if the statusword encodes no state.
         state: Option<State>,
     },
-    /// The drive has left the mode. This mode is active.
+    /// The drive has left the mode; the value is the active mode.
     WrongMode(Mode),
     /// The drive reports a following error: bit 13 of the statusword in CSP.
     FollowingError {
@@ -109,27 +109,27 @@ impl Cyclic {
         Self { mode, limit: None, has_followed: false, is_following: false }
     }
 
-    /// Creates a watch over the mode 8, cyclic synchronous position (CSP).
+    /// Creates a monitor for mode 8, cyclic synchronous position (CSP).
     #[must_use]
     pub const fn position() -> Self {
         Self::new(Mode::CyclicSynchronousPosition)
     }
 
-    /// Creates a watch over the mode 9, cyclic synchronous velocity (CSV).
+    /// Creates a monitor for mode 9, cyclic synchronous velocity (CSV).
     #[must_use]
     pub const fn velocity() -> Self {
         Self::new(Mode::CyclicSynchronousVelocity)
     }
 
-    /// Creates a watch over the mode 10, cyclic synchronous torque (CST).
+    /// Creates a monitor for mode 10, cyclic synchronous torque (CST).
     #[must_use]
     pub const fn torque() -> Self {
         Self::new(Mode::CyclicSynchronousTorque)
     }
 
-    /// Returns the watch with a limit for the absolute value of the actual following error (0x60F4, raw value). The limit
-    /// applies while the operation is enabled, and only in cycles whose inputs contain the following error. It applies in
-    /// addition to the window of the drive (0x6065).
+    /// Returns the monitor with a limit for the absolute value of the actual following error (0x60F4, raw value). The
+    /// limit applies while the operation is enabled, and only in cycles whose inputs contain the following error. The
+    /// limit applies in addition to the following error window of the drive (0x6065).
     #[must_use]
     pub const fn with_limit(self, limit: u32) -> Self {
         Self { limit: Some(limit), ..self }
@@ -152,12 +152,12 @@ impl Cyclic {
 
     /// Returns the outputs of a cycle. `control` is the controlword that the program would send, for example from a
     /// [`Walker`](crate::Walker), and `target` is the set-point of the program. In the first cycle in which the drive
-    /// follows again, the set-point is still the one that doesn't move the axis: start the trajectory there.
+    /// follows again, the set-point is still that of [`hold`](Self::hold): start the trajectory at this set-point.
     ///
     /// # Errors
     ///
-    /// Returns an error once if the drive has followed the command values and leaves "Operation enabled" or the mode.
-    /// Returns an error in each cycle in which the operation is enabled and the following error is too large.
+    /// Returns an error once if the drive has followed the command values and then leaves "Operation enabled" or the
+    /// mode. Returns an error in each cycle in which the operation is enabled and the following error is too large.
     pub fn cycle<S: StateWord, W: StateWord>(
         &mut self,
         inputs: Inputs<S>,

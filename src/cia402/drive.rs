@@ -17,15 +17,15 @@ use crate::enumeration::Enumeration;
 use crate::machine::StateWord;
 use crate::remaining::Remaining;
 
-/// Operations of one axis. The method `cia402` of a generated device creates this type. `C` is the client, and `O`
+/// Operations of one axis. The method `cia402` of a generated device returns a `Drive`. `C` is the client, and `O`
 /// determines the [`Objects`] of the device.
 ///
-/// Methods without a suffix need a [`Client`]. Methods with the suffix `_async` need an [`AsyncClient`] and don't block.
-/// Each method that waits has a deadline, and polls the statusword every 5 ms through
-/// [`Client::wait`](crate::Client::wait). If a future is dropped before its end, the bit 4 of the controlword can remain
-/// set.
+/// Methods without a suffix need a [`Client`]. Methods with the suffix `_async` need an [`AsyncClient`] and don't
+/// block. Each method that waits has a deadline, and polls the statusword every 5 ms through
+/// [`Client::wait`](crate::Client::wait). If a future is dropped before it completes, bit 4 of the controlword can
+/// remain set.
 ///
-/// The [module](super) describes the conditions of all operations.
+/// The [module](super) describes the conditions that apply to all operations.
 pub struct Drive<'c, C, O> {
     client: &'c mut C,
     objects: PhantomData<fn() -> O>,
@@ -67,12 +67,11 @@ macro_rules! operations {
 
             /// Changes the mode of operation: writes the mode (0x6060) and waits until the drive confirms it (0x6061).
             ///
-            /// If the mode changes, the method first clears the bits 4, 5, 6 and 9 of the controlword. The meaning of
-            /// these bits depends on the mode. The controlword isn't written if the write could enable the drive or end
-            /// a quick stop. This method works in all states. Stop the axis before you change the mode, unless the
-            /// drive supports the change in motion. If the operation is enabled, write the target of the new mode
-            /// before you activate a velocity, torque or cyclic mode. In these modes, the axis follows an old target at
-            /// once.
+            /// If the mode changes, the method first clears bits 4, 5, 6 and 9 of the controlword, whose meaning
+            /// depends on the mode. The controlword isn't written if the write could enable the drive or end a quick
+            /// stop. This method works in all states. Stop the axis before you change the mode, unless the drive
+            /// supports the change in motion. If the operation is enabled, write the target of the new mode before you
+            /// activate a velocity, torque or cyclic mode. In these modes, the axis would follow an old target at once.
             ///
             /// `mode` is a [`Mode`], a value of the device's generated enumeration, or an `i8`.
             ///
@@ -89,16 +88,20 @@ macro_rules! operations {
                 self.$change(mode, &mut Remaining::new(deadline))$(.$await)?
             }
 
-            /// Waits until the axis has reached its target: bit 10 of the statusword. The method is for the modes 1
-            /// (profile position), 3 (profile velocity) and 4 (profile torque). If bit 10 is 1 at the first poll, it must
-            /// stay 1 for 100 ms, because it can still show the previous target.
+            /// Waits until the axis has reached its target, which bit 10 of the statusword reports. Use this method in
+            /// modes 1 (profile position), 3 (profile velocity) and 4 (profile torque). If bit 10 is already 1 at the
+            /// first poll, the method waits until it has been 1 for 100 ms, because the bit can still refer to the
+            /// previous target.
             ///
             /// # Errors
             ///
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or
             ///   leaves this state.
-            /// - [`MotionError::FollowingError`] or [`MotionError::Slippage`] if the drive reports it (bit 13).
-            /// - [`MotionError::WrongMode`], [`MotionError::Halted`], [`MotionError::OtherSource`], [`MotionError::Access`].
+            /// - [`MotionError::FollowingError`] or [`MotionError::Slippage`] if the drive reports a following error or
+            ///   too much slippage (bit 13).
+            /// - [`MotionError::WrongMode`] if another mode is active, [`MotionError::Halted`] if the "halt" bit is 1,
+            ///   [`MotionError::OtherSource`] if another source controls the drive, or [`MotionError::Access`] if an
+            ///   access fails.
             /// - [`MotionError::Deadline`] if the axis hasn't reached the target. The axis continues to move.
             pub $($async)? fn $wait_reached(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(deadline);
@@ -133,7 +136,8 @@ macro_rules! operations {
                 }
             }
 
-            /// Reads the statusword. Also returns an error if the drive reports a following error or slippage.
+            /// Reads the statusword. Returns an error if the operation isn't enabled, or if the drive reports a
+            /// following error or too much slippage.
             $($async)? fn $watched(&mut self, mode: Mode) -> Result<u16, MotionError<C::Error>> {
                 let status = self.$enabled()$(.$await)??;
                 match mode {
@@ -150,13 +154,13 @@ macro_rules! operations {
                 Ok(O::controlword().$read(self.client)$(.$await)?? as u16)
             }
 
-            /// Returns the controlword. Returns an error if its bit "halt" is 1, or if it doesn't enable the operation.
+            /// Returns the controlword, or an error if the "halt" bit is 1 or the command isn't "enable operation".
             $($async)? fn $unhalted(&mut self) -> Result<u16, MotionError<C::Error>> {
                 let control = enables(self.$control()$(.$await)??)?;
                 if control & HALT == 0 { Ok(control) } else { Err(MotionError::Halted) }
             }
 
-            /// Clears bit 4 of the controlword that the drive has now, unless the write could change the state.
+            /// Reads the controlword from the drive and clears bit 4, unless the write could change the state.
             $($async)? fn $clear(&mut self) -> Result<(), MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
                 let control = self.$control()$(.$await)??;
@@ -170,7 +174,7 @@ macro_rules! operations {
                 Ok(O::controlword().$write(self.client, control.into())$(.$await)??)
             }
 
-            /// Waits until the next poll. Returns true after the deadline.
+            /// Waits until the next poll and returns false, or returns true if the deadline has passed.
             pub(super) $($async)? fn $is_late(&mut self, remaining: &mut Remaining) -> Result<bool, MotionError<C::Error>> {
                 let Some(pause) = remaining.pause() else { return Ok(true) };
                 self.client.wait(pause)$(.$await)??;
@@ -207,14 +211,14 @@ macro_rules! operations {
         }
 
         impl<C: $Client, O: Homing<C::Bus>> Drive<'_, C, O> {
-            /// Executes homing with the homing method that the drive has (0x6098). After homing, the mode "homing" stays
+            /// Executes homing with the homing method that is set in the drive (0x6098). Afterwards, homing mode stays
             /// active.
             ///
-            /// The method activates the mode 6 and sets bit 4 of the controlword ("homing operation start"). Then it
-            /// waits for bit 12 ("homing attained") with bit 10 ("target reached") of the statusword, and clears bit 4
-            /// (CiA 402-2 13). It also tries to clear bit 4 after each error, so that the drive aborts homing and
-            /// doesn't start it again when it is enabled. A statusword that shows the result of an earlier homing
-            /// procedure is ignored for 100 ms.
+            /// The method activates mode 6 (homing) and sets bit 4 of the controlword ("homing operation start"). Then
+            /// the method waits until bits 12 ("homing attained") and 10 ("target reached") of the statusword are 1,
+            /// and clears bit 4 (CiA 402-2 13). After each error, the method also tries to clear bit 4. The drive then
+            /// aborts homing, and doesn't restart homing when it is enabled again. For 100 ms, the method ignores a
+            /// statusword that may show the result of an earlier homing procedure.
             ///
             /// # Errors
             ///
@@ -223,7 +227,8 @@ macro_rules! operations {
             /// - [`MotionError::ModeNotConfirmed`] if the drive doesn't activate the mode.
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or
             ///   leaves this state.
-            /// - [`MotionError::Halted`], [`MotionError::OtherSource`], [`MotionError::Access`].
+            /// - [`MotionError::Halted`] if the "halt" bit is 1, [`MotionError::OtherSource`] if another source
+            ///   controls the drive, or [`MotionError::Access`] if an access fails.
             pub $($async)? fn $home(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(deadline);
                 self.$enabled()$(.$await)??;
@@ -231,8 +236,8 @@ macro_rules! operations {
                 self.$run_homing(&mut remaining)$(.$await)?
             }
 
-            /// Executes homing with a homing method. `method` is the raw value of 0x6098 (CiA 402-2 13.3.2), which the
-            /// drive keeps.
+            /// Sets the homing method and executes homing. `method` is the raw value of object 0x6098 (CiA 402-2
+            /// 13.3.2), which the drive keeps after homing.
             ///
             /// # Errors
             ///
@@ -291,23 +296,24 @@ macro_rules! operations {
         }
 
         impl<C: $Client, O: Positioning<C::Bus>> Drive<'_, C, O> {
-            /// Sends a set-point in the mode "profile position", with the handshake of CiA 402-2 12.2. The method returns
-            /// as soon as the drive has accepted the set-point; `wait_reached` waits for the end of the move.
+            /// Sends a set-point in profile position mode, with the handshake of CiA 402-2 12.2. The method returns as
+            /// soon as the drive has accepted the set-point; `wait_reached` waits for the end of the move.
             ///
             /// The method waits until the drive can accept a set-point, and writes the target position (0x607A). Then
-            /// it sets bit 4 of the controlword ("new set-point") together with the bits 5 and 6. It waits for bit 12
-            /// of the statusword ("set-point acknowledge"), and clears bit 4. It also tries to clear bit 4 after each
-            /// error. Write the profile velocity and the ramps before.
+            /// the method sets bit 4 of the controlword ("new set-point") and writes bits 5 and 6. The method waits
+            /// until bit 12 of the statusword ("set-point acknowledge") is 1, and clears bit 4. After each error, the
+            /// method also tries to clear bit 4. Write the profile velocity and the ramps before you call this method.
             ///
             /// # Errors
             ///
-            /// - [`MotionError::WrongMode`] if the mode 1 isn't active: use `set_mode`.
-            /// - [`MotionError::Deadline`] if the drive hasn't acknowledged the set-point before the deadline. The drive
-            ///   can still have accepted it.
+            /// - [`MotionError::WrongMode`] if mode 1 (profile position) isn't active: use `set_mode`.
+            /// - [`MotionError::Deadline`] if the drive hasn't acknowledged the set-point before the deadline. The
+            ///   drive may nevertheless have accepted the set-point.
             /// - [`MotionError::FollowingError`] if the drive reports a following error (bit 13).
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or
             ///   leaves this state.
-            /// - [`MotionError::Halted`], [`MotionError::OtherSource`].
+            /// - [`MotionError::Halted`] if the "halt" bit is 1, or [`MotionError::OtherSource`] if another source
+            ///   controls the drive.
             /// - [`MotionError::Access`] if an access fails, or if the position is outside the range that the device
             ///   description declares.
             pub $($async)? fn $move_to(
@@ -342,8 +348,8 @@ macro_rules! operations {
                 acknowledged.and(cleared)
             }
 
-            /// Waits until the drive can accept a set-point. A set-point that replaces the active one can be accepted
-            /// even if another one waits, and bit 12 then stays 1. Returns whether bit 12 is 1.
+            /// Waits until the drive can accept a set-point. The drive can accept a set-point that replaces the active
+            /// one even if another set-point is waiting. In this case, bit 12 stays 1. Returns whether bit 12 is 1.
             $($async)? fn $ready(
                 &mut self,
                 target: Target,
@@ -362,8 +368,8 @@ macro_rules! operations {
                 }
             }
 
-            /// Waits until the drive acknowledges a set-point. If bit 12 was 1 before the start, the method waits until the
-            /// drive must have seen the edge of bit 4.
+            /// Waits until the drive acknowledges a set-point. If bit 12 was already 1 before the start, the method
+            /// waits for 100 ms, within which the drive must have detected the rising edge of bit 4.
             $($async)? fn $acknowledged(
                 &mut self,
                 is_confirmed: bool,
@@ -383,16 +389,17 @@ macro_rules! operations {
         }
 
         impl<C: $Client, O: Velocity<C::Bus>> Drive<'_, C, O> {
-            /// Writes the target velocity (0x60FF) in the modes 3 (profile velocity) and 9 (cyclic synchronous velocity).
-            /// `velocity` is the raw value. In the mode 3, `wait_reached` waits until the axis has this velocity. The
-            /// axis keeps the velocity until another one is written: after an error of a later operation, the program
-            /// must stop the axis.
+            /// Writes the target velocity (0x60FF) in modes 3 (profile velocity) and 9 (cyclic synchronous velocity).
+            /// `velocity` is the raw value. In mode 3, `wait_reached` waits until the axis has this velocity. The axis
+            /// keeps the velocity until another velocity is written. If a later operation fails, the program must
+            /// therefore stop the axis.
             ///
             /// # Errors
             ///
             /// - [`MotionError::WrongMode`] if another mode is active: use `set_mode`.
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled".
-            /// - [`MotionError::Halted`], [`MotionError::OtherSource`].
+            /// - [`MotionError::Halted`] if the "halt" bit is 1, or [`MotionError::OtherSource`] if another source
+            ///   controls the drive.
             /// - [`MotionError::Access`] if an access fails, or if the velocity is outside the range that the device
             ///   description declares.
             pub $($async)? fn $set_velocity(&mut self, velocity: i32) -> Result<(), MotionError<C::Error>> {
@@ -408,8 +415,8 @@ macro_rules! operations {
     };
 }
 
-/// Returns whether a write of the same command cannot change the state. A drive that has left "Operation enabled" by
-/// itself would execute "enable operation" again.
+/// Returns whether the same command can be written again without a change of the state. A drive that has left
+/// "Operation enabled" by itself would execute "enable operation" again.
 fn keeps_state(state: Option<State>, control: u16) -> bool {
     match state {
         Some(State::OperationEnabled | State::FaultReactionActive | State::Fault) => true,
@@ -418,7 +425,7 @@ fn keeps_state(state: Option<State>, control: u16) -> bool {
     }
 }
 
-/// Returns the controlword if it enables the operation.
+/// Returns the controlword if its command is "enable operation", and an error otherwise.
 pub(super) fn enables<E>(control: u16) -> Result<u16, MotionError<E>> {
     match control & OF_STATE {
         ENABLE_OPERATION => Ok(control),

@@ -9,7 +9,7 @@ use crate::error::Error;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MotionError<E> {
-    /// An access to an object failed. The drive may still execute what it has received.
+    /// An access to an object failed. The drive may still execute a command that it has received.
     Access(Error<E>),
     /// The drive has a fault.
     Fault {
@@ -18,15 +18,15 @@ pub enum MotionError<E> {
         /// Error code of the drive (0x603F, or 0x1003:01 without the additional information), if it can be read.
         code: Option<u16>,
     },
-    /// The drive isn't in the state [`State::OperationEnabled`], or has left this state. A drive never enters this state
-    /// because of an operation: use the generated method `walk`.
+    /// The drive isn't in the state [`State::OperationEnabled`], or has left this state. No operation enables a drive:
+    /// use the generated method `walk`.
     NotEnabled {
         /// State of the drive, or `None` if the statusword encodes no state.
         state: Option<State>,
         /// Statusword of the drive.
         status: u16,
     },
-    /// The bit "halt" of the controlword is 1, so the axis wouldn't move.
+    /// The "halt" bit of the controlword is 1, so the axis wouldn't move.
     Halted,
     /// The operation is enabled, but the controlword isn't "enable operation": the drive takes its commands from another
     /// source, such as terminals or process data. A write of the controlword would disable the drive.
@@ -47,15 +47,14 @@ pub enum MotionError<E> {
         /// Active mode (0x6061).
         active: Mode,
     },
-    /// The drive reports a homing error: bit 13 of the statusword in the mode "homing".
+    /// The drive reports a homing error: bit 13 of the statusword in homing mode.
     Homing,
-    /// The drive reports a following error: bit 13 of the statusword in the mode "profile position".
+    /// The drive reports a following error: bit 13 of the statusword in profile position mode.
     FollowingError {
         /// Raw value of the actual following error (0x60F4), if it can be read.
         error: Option<i64>,
     },
-    /// The drive reports that the maximum slippage is exceeded: bit 13 of the statusword in the mode "profile
-    /// velocity".
+    /// The drive reports that the maximum slippage is exceeded: bit 13 of the statusword in profile velocity mode.
     Slippage,
     /// The operation hasn't ended before the deadline.
     Deadline {

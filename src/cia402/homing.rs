@@ -9,7 +9,7 @@ use super::settling::Settling;
 pub(super) struct Outcome(Settling);
 
 impl Outcome {
-    /// `status` is the statusword before the start.
+    /// `status` is the statusword before the start of homing.
     pub(super) fn new(status: u16) -> Self {
         Self(Settling::new(status & (CONFIRMED | FAILED) != 0))
     }

@@ -1,4 +1,4 @@
-//! Items as integers, whatever their value types.
+//! Access to items as integers, independent of their value types.
 
 use crate::abort::AbortCode;
 use crate::access::{Readable, Writable};
@@ -13,8 +13,8 @@ use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Fixed;
 use crate::value_error::OutOfRange;
 
-/// An item that a client of bus `B` can read as an integer. All readable [`Item`]s with an integer, an enumeration, a
-/// bit field or a scaled integer of up to 32 bits implement this trait. The integer is the raw value.
+/// An item that a client of bus `B` can read as an integer. [`Item`]s with read access implement this trait if their
+/// value is an integer, an enumeration, a bit field or a scaled integer of up to 32 bits. The integer is the raw value.
 pub trait ReadInteger<B: Bus>: Copy {
     /// Reads the raw value.
     ///
@@ -38,8 +38,8 @@ pub trait WriteInteger<B: Bus>: Copy {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::OutOfRange`] if the value doesn't fit the type or is outside the item's range. Nothing is sent
-    /// in this case. Also returns the errors of the client.
+    /// Returns [`Error::OutOfRange`], and sends nothing, if the value doesn't fit the type or is outside the item's
+    /// range. Otherwise, returns the errors of the client.
     fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), Error<C::Error>>;
 
     /// Writes the raw value without blocking.
@@ -51,7 +51,7 @@ pub trait WriteInteger<B: Bus>: Copy {
     async fn write_async<C: AsyncClient<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), Error<C::Error>>;
 }
 
-/// An object that the device doesn't have. Reading returns [`AbortCode::NO_OBJECT`] without an access.
+/// An object that the device doesn't have. A read returns [`AbortCode::NO_OBJECT`] without a bus access.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Absent;
 
@@ -95,7 +95,7 @@ where
     }
 }
 
-/// Returns the integer of a value. The sign depends on the data type.
+/// Converts a value to an integer, which is sign-extended if the data type is signed.
 fn integer<V: Fixed<Native: StateWord>>(native: V::Native) -> i64 {
     let bits = native.bits();
     if V::DATA_TYPE.is_signed() {
@@ -105,7 +105,7 @@ fn integer<V: Fixed<Native: StateWord>>(native: V::Native) -> i64 {
     }
 }
 
-/// Returns the value with this integer, if the integer fits the type.
+/// Converts an integer to a value, or returns an error if the integer doesn't fit the type.
 fn native<V: Fixed<Native: StateWord>>(value: i32) -> Result<V::Native, OutOfRange> {
     let native = V::Native::from_bits(value as u32);
     (integer::<V>(native) == i64::from(value)).then_some(native).ok_or(OutOfRange)

@@ -4,8 +4,8 @@ use super::integer::{Absent, ReadInteger, WriteInteger};
 use crate::bus::Bus;
 
 /// The objects that every operation of a [`Drive`](super::Drive) needs, on bus `B`. The compiler implements this trait
-/// for the type of each device that has these objects, as `Eco<()>`. Implement it by hand for items without generated
-/// code:
+/// for each generated device type that has these objects, for example `Eco<()>`. Implement the trait by hand for items
+/// without generated code:
 ///
 /// ```
 /// use lexibus::cia402::{Objects, ReadInteger, WriteInteger};

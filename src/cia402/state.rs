@@ -42,7 +42,7 @@ impl State {
         })
     }
 
-    /// Returns whether the drive is in the state because of a fault.
+    /// Returns true for [`FaultReactionActive`](Self::FaultReactionActive) and [`Fault`](Self::Fault).
     #[must_use]
     pub const fn is_fault(self) -> bool {
         matches!(self, Self::FaultReactionActive | Self::Fault)
@@ -95,7 +95,7 @@ pub enum Mode {
     CyclicSynchronousTorque,
     /// 11: cyclic synchronous torque with commutation angle (CSTCA).
     CyclicSynchronousTorqueWithAngle,
-    /// A mode of the manufacturer (negative), or a reserved mode.
+    /// A manufacturer-specific mode (negative), or a reserved mode.
     Other(i8),
 }
 

@@ -19,22 +19,23 @@ macro_rules! stops {
         $($async:ident $await:ident)?
     ) => {
         impl<C: $Client, O: Objects<C::Bus>> Drive<'_, C, O> {
-            /// Stops the axis with the command "quick stop" (transition 11), and waits until it has stopped. The quick stop
-            /// option code (0x605A) selects the ramp, and whether the drive then enters [`State::SwitchOnDisabled`] (1 to
-            /// 4) or stays in [`State::QuickStopActive`] (5 to 8). Returns this state. To continue, use the generated
-            /// method `walk`.
+            /// Stops the axis with the "quick stop" command (transition 11), and waits until the axis has stopped. The
+            /// quick stop option code (0x605A) selects the ramp and the final state, which the method returns:
+            /// [`State::SwitchOnDisabled`] (1 to 4) or [`State::QuickStopActive`] (5 to 8). To continue, use the
+            /// generated method `walk`.
             ///
-            /// The command is written at once and in every state, because the drive can change its state at any time. All
-            /// other bits of the controlword are written as 0: "halt", the bits of the mode, and the bits of the
-            /// manufacturer. In the states "ready to switch on" and "switched on", the command leads to "switch on
-            /// disabled".
+            /// The method writes the command at once and in every state, because the drive can change its state at any
+            /// time. All other bits of the controlword are written as 0: "halt", the mode-specific bits, and the
+            /// manufacturer-specific bits. If the drive is in "ready to switch on" or "switched on", it enters "switch
+            /// on disabled".
             ///
-            /// In "switch on disabled", the power stage is off. The axis can still coast if the option code is 0, or if the
-            /// drive has entered this state from another state than "operation enabled".
+            /// In "switch on disabled", the power stage is off. The axis can still coast if the option code is 0, or if
+            /// the drive wasn't in "operation enabled" when it received the command.
             ///
-            /// In "quick stop active", the axis has stopped when bit 10 of the statusword is 1 (CiA 402-2 10.3.2). If bit 10
-            /// is 1 at the first poll in this state, it must stay 1 for 100 ms, because it can still show the previous
-            /// target. A deadline of less than 100 ms can therefore pass even if the axis stands still.
+            /// In "quick stop active", the axis has stopped when bit 10 of the statusword is 1 (CiA 402-2 10.3.2). If
+            /// bit 10 is 1 at the first poll in this state, the method waits until it has been 1 for 100 ms, because
+            /// the bit can still refer to the previous target. A deadline of less than 100 ms can therefore pass even
+            /// if the axis is at a standstill.
             ///
             /// # Errors
             ///
@@ -68,25 +69,27 @@ macro_rules! stops {
                 }
             }
 
-            /// Stops the axis with the bit 8 of the controlword ("halt"), and waits until it has stopped: bit 10 of the
-            /// statusword. The operation stays enabled. The halt option code (0x605D) selects the ramp. The method `resume`
-            /// clears the bit.
+            /// Stops the axis with bit 8 of the controlword ("halt"), and waits until the axis has stopped, which bit
+            /// 10 of the statusword reports. The operation stays enabled. The halt option code (0x605D) selects the
+            /// ramp. The method `resume` clears bit 8.
             ///
-            /// The bit 10 has this meaning in the modes 1 (profile position), 3 (profile velocity), 4 (profile torque), 6
-            /// (homing, which the drive aborts) and 7 (interpolated position). If bit 10 is 1 at the first poll, it must
-            /// stay 1 for 100 ms, because it can still show the previous target. A deadline of less than 100 ms can
-            /// therefore pass even if the axis stands still. In other modes, the bit 8 also stops most drives, but the
-            /// method can return [`MotionError::Deadline`].
+            /// In modes 1 (profile position), 3 (profile velocity), 4 (profile torque), 6 (homing, which the drive
+            /// aborts) and 7 (interpolated position), bit 10 reports that the axis has stopped. If bit 10 is 1 at the
+            /// first poll, the method waits until it has been 1 for 100 ms, because the bit can still refer to the
+            /// previous target. A deadline of less than 100 ms can therefore pass even if the axis is at a standstill.
+            /// In other modes, bit 8 also stops most drives, but the method can return [`MotionError::Deadline`].
             ///
-            /// The bit 8 stays set after each error that occurs after its write. After a fault and `walk`, `move_to` and the
-            /// other operations therefore return [`MotionError::Halted`] until `resume` clears the bit.
+            /// If an error occurs after the write of bit 8, the bit stays set. `move_to`, `home`, `set_velocity` and
+            /// `wait_reached` then return [`MotionError::Halted`] until `resume` clears the bit, even if a fault was
+            /// reset and `walk` has enabled the drive again.
             ///
             /// # Errors
             ///
             /// - [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled" or leaves
             ///   this state.
             /// - [`MotionError::Deadline`] if the axis hasn't stopped before the deadline.
-            /// - [`MotionError::OtherSource`], [`MotionError::Access`].
+            /// - [`MotionError::OtherSource`] if another source controls the drive, or [`MotionError::Access`] if an
+            ///   access fails.
             pub $($async)? fn $halt(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(deadline);
                 self.$enabled()$(.$await)??;
@@ -104,17 +107,18 @@ macro_rules! stops {
                 }
             }
 
-            /// Clears the bit 8 of the controlword ("halt"). The axis continues its motion: to the set-point in the mode
-            /// "profile position", or with the target velocity or torque.
+            /// Clears bit 8 of the controlword ("halt"). The axis continues its motion: to the set-point in profile
+            /// position mode, or with the target velocity or torque in velocity and torque modes.
             ///
-            /// In the mode 6 (homing), the procedure doesn't continue: call `home` again. In the cyclic modes and in the
-            /// mode 7 (interpolated position), the axis follows the present target at once. Set the target to the actual
+            /// In mode 6 (homing), the procedure doesn't continue: call `home` again. In the cyclic modes and in mode 7
+            /// (interpolated position), the axis follows the present target at once. Set the target to the actual
             /// position, or the target velocity or torque to 0, before you call this method.
             ///
             /// # Errors
             ///
-            /// [`MotionError::Fault`], [`MotionError::NotEnabled`], [`MotionError::OtherSource`] or
-            /// [`MotionError::Access`].
+            /// Returns [`MotionError::Fault`] or [`MotionError::NotEnabled`] if the drive isn't in "Operation enabled".
+            /// Returns [`MotionError::OtherSource`] if another source controls the drive, or [`MotionError::Access`] if
+            /// an access fails.
             pub $($async)? fn $resume(&mut self) -> Result<(), MotionError<C::Error>> {
                 self.$enabled()$(.$await)??;
                 let control = enables(self.$control()$(.$await)??)?;

@@ -1,9 +1,9 @@
-//! Set-points of the mode "profile position".
+//! Set-points of profile position mode.
 
 use super::bits::{IMMEDIATELY, RELATIVE};
 
-/// A set-point of the mode "profile position" (CiA 402-2 12.2). Positions are raw values of the target position
-/// (0x607A), in the position unit of the drive.
+/// A set-point of profile position mode (CiA 402-2 12.2). Positions are raw values of the target position (0x607A), in
+/// the position unit of the drive.
 ///
 /// ```
 /// use lexibus::cia402::Target;
@@ -36,8 +36,8 @@ impl Target {
         Self { position: distance, bits: RELATIVE }
     }
 
-    /// Returns the set-point with the bit "change set immediately": it replaces the active set-point. Without this bit,
-    /// the axis first completes the active move.
+    /// Returns the set-point with the "change set immediately" bit: the drive replaces the active set-point with this
+    /// one. Without this bit, the axis first completes the active move.
     #[must_use]
     pub const fn immediately(self) -> Self {
         Self { bits: self.bits | IMMEDIATELY, ..self }

@@ -51,7 +51,7 @@
 //! slices. If the default PDOs are assigned, generated `image` types convert the byte slices: use `Inputs::unpack`,
 //! `Outputs::pack`, or views that access single fields. For another assignment,
 //! [`Assignment::find`](crate::ethercat::Assignment::find) returns the bit offset of a PDO. Pass the bit offset to
-//! `view::…::at` of the PDO. If a device has several sync managers of one direction, the slice contains their data one
+//! `view::…::at` of the PDO. If a device has several sync managers for one direction, the slice contains their data one
 //! after the other. The data of each sync manager start at a byte boundary.
 //!
 //! # Why not `sdo_read` and `sdo_write` of `ethercrab`
@@ -106,9 +106,9 @@ pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
 ///
 /// # Late replies
 ///
-/// A reply doesn't identify its request, except by the object. After a timeout, an unexpected reply or a dropped
-/// transfer, the next transfer first waits for the missing reply and discards it. It waits for at most one timeout. If
-/// a datagram with a reply is lost, the client requests the reply again.
+/// A reply identifies its request only by the object. After a timeout, an unexpected reply or a dropped transfer, the
+/// next transfer first waits for the missing reply and discards it. This wait takes at most one timeout. If a datagram
+/// with a reply is lost, the client requests the reply again.
 ///
 /// # Pauses between polls
 ///
@@ -142,8 +142,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
         Sdo { mailbox: self.mailbox.with_timer(timer) }
     }
 
-    /// Returns the client with another timeout for each mailbox exchange: a request and its reply. The default is
-    /// [`TIMEOUT`].
+    /// Sets the timeout for each mailbox exchange, which is a request and its reply. The default is [`TIMEOUT`].
     #[must_use]
     pub fn with_timeout(mut self, timeout: Duration) -> Self {
         self.mailbox.timeout = timeout;
@@ -151,9 +150,9 @@ impl<'m, T: Timer> Sdo<'m, T> {
     }
 
     /// Returns the client with a clock: a function that returns the time since any fixed moment. Without the feature
-    /// `std` and without a clock, an exchange ends when its pauses amount to the timeout. Without a clock and without a
-    /// [timer](Self::with_timer), an exchange ends after 20,000 polls of the mailbox. Each poll takes one frame round
-    /// trip, typically 50 to 200 µs.
+    /// `std` and without a clock, an exchange ends when the sum of its pauses reaches the timeout. Without a clock and
+    /// without a [timer](Self::with_timer), an exchange ends after 20,000 polls of the mailbox. Each poll takes one
+    /// frame round trip, typically 50 to 200 µs.
     #[must_use]
     pub fn with_clock(mut self, clock: fn() -> Duration) -> Self {
         self.mailbox.clock = Some(clock);
@@ -167,9 +166,9 @@ impl<'m, T: Timer> Sdo<'m, T> {
     }
 
     /// Sends a start-up list, for example [`Assignment::startup`](crate::ethercat::Assignment::startup) or the constant
-    /// `STARTUP` of a generated device, with complete
-    /// access for the commands that request it. Call this method in state `PreOp`, before the group changes to
-    /// `PreOpPdi` or `SafeOp`. `ethercrab` reads the PDO assignment during the transitions to these two states.
+    /// `STARTUP` of a generated device, with complete access for the commands that request it. Call this method in
+    /// state `PreOp`, before the group changes to `PreOpPdi` or `SafeOp`. `ethercrab` reads the PDO assignment during
+    /// the transitions to these two states.
     ///
     /// # Errors
     ///
@@ -185,8 +184,8 @@ impl<'m, T: Timer> Sdo<'m, T> {
         Ok(())
     }
 
-    /// Reads all entries of an object at once, from entry `from` on (complete access, ETG.1000.6 5.6.2.1). Returns the
-    /// length in bytes. With complete access, sub-index 0 has two bytes.
+    /// Reads all entries of an object at once, starting at entry `from` (complete access, ETG.1000.6 5.6.2.1). Returns
+    /// the length in bytes. With complete access, sub-index 0 takes two bytes.
     ///
     /// # Errors
     ///
@@ -195,7 +194,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
         self.upload(from, true, buffer).await
     }
 
-    /// Writes all entries of an object at once, from entry `from` on.
+    /// Writes all entries of an object at once, starting at entry `from`.
     ///
     /// # Errors
     ///
@@ -266,7 +265,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
     }
 }
 
-/// Copies `data` to `buffer` from `at` on, as far as it fits, and returns the length of `data`.
+/// Copies as much of `data` as fits to `buffer`, starting at index `at`, and returns the length of `data`.
 fn fill(buffer: &mut [u8], at: usize, data: &[u8]) -> usize {
     let room = buffer.get_mut(at..).unwrap_or_default();
     room.iter_mut().zip(data).for_each(|(to, from)| *to = *from);

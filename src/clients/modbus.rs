@@ -26,7 +26,7 @@
 //!
 //! A [`Link`] has a timeout and discards late replies. Contexts of `tokio-modbus` work too, but they don't discard late
 //! replies, and async contexts have no timeout. After a late reply, a context of [`rtu`] returns the value of the
-//! previous request for each request with the same length. After a late reply, a context of [`tcp`] rejects every
+//! previous request for each further request of the same length. After a late reply, a context of [`tcp`] rejects every
 //! reply. Create a new context if a reply was late.
 //!
 //! With a [`BlockingLink`] or a context of [`sync`], a [`ModbusClient`] is a [`Client`] and a [`RegisterClient`]. With a
@@ -50,15 +50,15 @@
 //! ```
 //!
 //! To write a value that is a part of a register, the client reads the register and then writes it. No other client
-//! should write the register between the read and the write. If the limits contain function 22, the device changes the bits in one
-//! step. If the limits contain function 23, [`RegisterClient::exchange`] writes and reads with one request.
+//! should write the register between the read and the write. If the limits contain function 22, the device changes the
+//! bits in one step. If the limits contain function 23, [`RegisterClient::exchange`] writes and reads with one request.
 //!
 //! # Broadcasts
 //!
-//! A [`Link`] with `Slave(0)` sends broadcasts on RTU: all devices execute the write, and no device replies (MODBUS over
-//! Serial Line V1.02, 2.1). A write returns after the request was sent and the [turnaround
-//! delay](Link::with_turnaround) has passed. `Ok` therefore doesn't mean that any device executed the write. A read, and
-//! a write of a part of a register without function 22, return [`ModbusError::Broadcast`].
+//! A [`Link`] with `Slave(0)` sends broadcasts on RTU: all devices execute the write, and no device replies (MODBUS
+//! over Serial Line V1.02, 2.1). A write returns after the request was sent and the [turnaround
+//! delay](Link::with_turnaround) has passed. `Ok` therefore doesn't mean that any device executed the write. A read
+//! returns [`ModbusError::Broadcast`], and so does a write of a part of a register without function 22.
 //!
 //! ```no_run
 //! # use std::time::Duration;
@@ -120,7 +120,7 @@ impl<T> ModbusClient<T> {
         Self { context, limits: Limits::STANDARD, single: true }
     }
 
-    /// Returns the client with the limits of the device: the supported requests.
+    /// Sets the limits of the device: the requests that it supports.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         Self { limits, ..self }
@@ -152,8 +152,8 @@ pub enum ModbusError {
     Exception(ExceptionCode),
     /// Input registers and discrete inputs are read-only. Nothing was sent.
     ReadOnly,
-    /// Devices don't reply to a broadcast, so a broadcast cannot read. The read was not sent. If the device has no
-    /// function 23, the write of [`RegisterClient::exchange`] was sent before.
+    /// Devices don't reply to a broadcast, so a broadcast cannot read. The read was not sent. If
+    /// [`RegisterClient::exchange`] doesn't use function 23, its write was sent before.
     Broadcast,
     /// The device doesn't support the function for this access. Nothing was sent.
     Function {
@@ -216,7 +216,7 @@ impl From<ModbusError> for Error<ModbusError> {
 }
 
 impl ModbusError {
-    /// Returns whether another attempt may succeed: after an error of the transport, and after the exceptions 6 (server
+    /// Returns whether another attempt may succeed: after an error of the transport, and after exceptions 6 (server
     /// device busy) and 11 (gateway target device failed to respond).
     #[must_use]
     pub const fn is_transient(&self) -> bool {

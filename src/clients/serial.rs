@@ -76,8 +76,8 @@ const MOST_NOISE: usize = 4096;
 ///
 /// Bytes before a reply are ignored. An invalid reply ends the exchange with an error, unless another frame starts
 /// within the invalid reply. If another frame starts, the client decodes this frame as the reply. Only the protocol can
-/// check whether a reply belongs to its request. After 4096 bytes without a reply, the exchange ends with
-/// [`Error::Timeout`].
+/// check whether a reply belongs to its request. The exchange ends with [`Error::Timeout`] if the reply isn't complete
+/// after 4096 bytes plus twice the length of the reply buffer.
 ///
 /// `T` is the [`Clock`] of a blocking line or the [`Timer`] of an async line.
 pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
@@ -94,7 +94,7 @@ pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
 struct Line<S, F: Framing, const N: usize> {
     stream: S,
     framing: F,
-    /// Function that returns whether a read returns at once.
+    /// Function that returns whether a read would return without blocking.
     ready: Option<fn(&mut S) -> bool>,
     /// Decoder state after an invalid reply whose end wasn't received.
     within: Option<F::Decoder>,
@@ -145,8 +145,8 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
 }
 
 impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
-    /// Returns the line with the option to discard all waiting bytes before each request. Waiting bytes are repeated
-    /// replies, and messages that the device sends without a request.
+    /// Returns the line with this option: each exchange discards all waiting bytes before its request. Waiting bytes
+    /// are repeated replies, and messages that the device sends without a request.
     #[must_use]
     pub fn draining(mut self) -> Self
     where
@@ -173,8 +173,8 @@ impl<S, F: Framing, const N: usize> Line<S, F, N> {
         self.within.take().unwrap_or_else(|| self.framing.decoder())
     }
 
-    /// Stores the decoder if the reply became invalid before its end, because its remaining bytes still arrive. Returns
-    /// `error`.
+    /// Stores the decoder if the reply became invalid before its end, because the remaining bytes of the reply still
+    /// arrive. Returns `error`.
     fn failed<E>(&mut self, decoder: F::Decoder, error: Error<SerialError<E>>) -> Error<SerialError<E>> {
         if matches!(error, Error::Client(SerialError::Frame(FrameError::TooLong | FrameError::Escape))) {
             self.within = Some(decoder);

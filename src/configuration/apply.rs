@@ -49,8 +49,8 @@ impl<E: error::Error + 'static> error::Error for ApplyError<E> {
 impl Configuration {
     /// Writes the configuration to the device with this node-ID, and calls `progress` after each write.
     ///
-    /// The device must be in the NMT state Pre-operational or Operational. In Pre-operational, no PDO is sent while the
-    /// mapping changes.
+    /// The device must be in the NMT state Pre-operational or Operational. A device in Pre-operational sends no PDOs
+    /// while the mapping changes.
     ///
     /// # Errors
     ///

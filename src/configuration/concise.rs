@@ -5,7 +5,7 @@ use crate::node_id::NodeId;
 use crate::pdo::SdoWrite;
 use crate::value_error::LengthError;
 
-/// Length in bytes of the number of entries at the start.
+/// Length in bytes of the entry count at the start of a concise DCF.
 const COUNT: usize = 4;
 
 /// Length in bytes of an entry without its value: index, sub-index and length of the value.
@@ -14,12 +14,12 @@ const HEADER: usize = 7;
 impl Configuration {
     /// Encodes the configuration as a concise DCF, and returns the part of `buffer` that contains it.
     ///
-    /// A CANopen manager stores the concise DCF of a node in the object 0x1F22 (CiA 302-3), at the sub-index that is the
-    /// node-ID. The manager writes the values to the node when the network starts.
+    /// A CANopen manager stores the concise DCF of a node in the object 0x1F22 (CiA 302-3), at the sub-index equal to
+    /// the node-ID. The manager writes the values to the node when the network starts.
     ///
     /// The concise DCF consists of the number of entries (UNSIGNED32), followed by the entries. An entry consists of
-    /// index (UNSIGNED16), sub-index (UNSIGNED8), length of the value in bytes (UNSIGNED32), and the value. Numbers
-    /// have their least significant byte first.
+    /// index (UNSIGNED16), sub-index (UNSIGNED8), length of the value in bytes (UNSIGNED32), and the value. All numbers
+    /// are little-endian.
     ///
     /// ```
     /// use lexibus::{Configuration, NodeId, SdoWrite, Setting};

@@ -35,7 +35,8 @@ pub(super) const CONFIGURATION: Configuration = Configuration {
     ..Configuration::EMPTY
 };
 
-/// A device that stores what is written. It refuses `refused`, and its bus fails at `failing`.
+/// A device that stores the written values. An access to `refused` is refused, and an access to `failing` causes a bus
+/// error.
 #[derive(Default)]
 pub(super) struct Store {
     pub values: Vec<(Object, Vec<u8>)>,
@@ -77,7 +78,7 @@ impl Client for Store {
     }
 }
 
-/// The same device, accessed without blocking.
+/// The same device with an asynchronous client.
 pub(super) struct AsyncStore(pub Store);
 
 impl AsyncClient for AsyncStore {

@@ -15,8 +15,8 @@ use crate::value_error::LengthError;
 pub struct Difference<'d, E> {
     /// The object and its configured value.
     pub expected: SdoWrite,
-    /// The value of the device, or the reason why the value could not be read. A value that is longer than the configured
-    /// value is [`Error::Length`].
+    /// The value of the device, or the reason why the value could not be read. [`Error::Length`] means that the value
+    /// is longer than the configured value, or that the buffer is too short.
     pub found: Result<&'d [u8], Error<E>>,
 }
 
@@ -34,8 +34,8 @@ impl Configuration {
     /// Reads the configured objects of the device with this node-ID, and calls `report` for each object whose value
     /// differs. Returns the number of differences. Write-only objects are skipped.
     ///
-    /// `buffer` must have at least the length of the [longest value](Self::longest_value). For objects with a longer
-    /// value, the difference contains [`Error::Length`].
+    /// `buffer` must have at least the length of the [longest value](Self::longest_value). If the value of the device
+    /// is longer than the configured value, the difference contains [`Error::Length`].
     ///
     /// # Errors
     ///
@@ -88,7 +88,7 @@ impl Configuration {
         Ok(differences)
     }
 
-    /// Returns the values of the device after the configuration: the last write to each object that can be read.
+    /// Returns the expected values: the last write to each object, except write-only objects.
     fn expected(self, node_id: NodeId) -> impl Iterator<Item = SdoWrite> {
         self.settings()
             .filter(move |(phase, setting)| !setting.is_write_only && self.is_last(*phase, setting))
@@ -107,14 +107,14 @@ impl Configuration {
     }
 }
 
-/// Returns the part of the buffer for the value of an object.
+/// Returns the first bytes of the buffer, as many as the expected value has.
 fn value_buffer(buffer: &mut [u8], expected: SdoWrite) -> Result<&mut [u8], LengthError> {
     let (length, available) = (expected.data().len(), buffer.len());
     buffer.get_mut(..length).ok_or(LengthError::new(length, available))
 }
 
-/// Compares the result of reading an object with its configured value. Reports a difference, and returns whether there
-/// is one.
+/// Compares the result of reading an object with its configured value. Calls `report` and returns true if the values
+/// differ or the object cannot be read.
 fn compare<E>(
     expected: SdoWrite,
     result: Result<usize, Error<E>>,
@@ -144,7 +144,7 @@ mod tests {
     use std::string::{String, ToString};
     use std::vec::Vec;
 
-    /// Returns a configured device.
+    /// Returns a device with the values of `CONFIGURATION`.
     fn configured() -> Store {
         let mut device = Store::default();
         CONFIGURATION.apply(&mut device, NODE, |_| ()).unwrap();

@@ -44,7 +44,7 @@ pub struct Assignment<const N: usize = 32> {
 pub enum AssignmentError {
     /// The device has no PDO with this index.
     Unknown(u16),
-    /// The PDO is assigned more than once.
+    /// The list of PDOs contains this PDO more than once.
     Twice(u16),
     /// One of the two PDOs excludes the other one.
     Conflict(u16, u16),
@@ -249,8 +249,8 @@ impl super::SyncManager {
     }
 }
 
-/// Returns the writes of a mapping in this order: clear the mapping, write the entries, write their number. `growth` is
-/// added to the indices of slot-dependent objects.
+/// Returns the writes of a mapping in this order: clear the mapping, write the entries, write the number of entries.
+/// `growth` is added to the indices of slot-dependent objects.
 pub(super) fn mapping_writes(
     index: u16,
     mapping: &'static [crate::MappedEntry],
@@ -264,8 +264,8 @@ pub(super) fn mapping_writes(
     core::iter::once(SdoWrite::new_u8(index, 0, 0)).chain(entries).chain(core::iter::once(count))
 }
 
-/// Returns the writes of an assignment object: first the entries, then their number. Returns no writes if no PDO is
-/// assigned.
+/// Returns the writes of an assignment object: first the entries, then the number of entries. Returns no writes if no
+/// PDO is assigned.
 pub(super) fn assignment_writes<I: Iterator<Item = u16>>(
     object: u16,
     indices: impl Fn() -> I,

@@ -15,7 +15,7 @@ pub enum DependsOn {
     Both,
 }
 
-/// Offsets that are added to the indices of a module in its slot.
+/// Offsets that a slot adds to the slot-dependent indices of its module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Growth {
     /// Offset of indices that depend on the slot number.
@@ -25,7 +25,7 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Returns the offset of an index with this dependency.
+    /// Returns the offset that the slot adds to an index with this dependency.
     pub const fn of(self, depends_on: DependsOn) -> u16 {
         match depends_on {
             DependsOn::Nothing => 0,

@@ -7,8 +7,8 @@ use super::pdo::PdoInfo;
 /// The slots of a modular device, and the modules that can be plugged into them (ETG.5001.1).
 #[derive(Clone, Copy, Debug)]
 pub struct Slots {
-    /// The slots in ascending order of their numbers, which start at 0. Each entry describes as many slots as its
-    /// maximum number of modules.
+    /// The slots in ascending order of their numbers, which start at 0. Each entry describes a series of [`Slot::max`]
+    /// slots.
     pub slots: &'static [Slot],
     /// The modules that can be plugged in.
     pub modules: &'static [&'static Module],
@@ -76,14 +76,14 @@ pub struct PdoGroup {
     pub tx_pdo: Option<u16>,
 }
 
-/// A module. Slot-dependent indices are given for slot 0 and slot group 0.
+/// A module. Its slot-dependent indices are the indices in slot 0 and slot group 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
     /// Module ident.
     pub ident: u32,
     /// Name of the module.
     pub name: &'static str,
-    /// Module class, which slots refer to; empty if the module has none.
+    /// Class of the module, which a slot can accept with [`Fit::Class`]; empty if the module has no class.
     pub class: &'static str,
     /// Index of the module's group in [`Slots::pdo_groups`].
     pub pdo_group: u16,
@@ -115,7 +115,7 @@ impl Increments {
 }
 
 impl SlotGroup {
-    /// Creates a slot group.
+    /// Creates a slot group with this number and these increments.
     #[must_use]
     pub const fn new(number: u16, increments: Increments) -> Self {
         Self { number, increments }
@@ -123,7 +123,7 @@ impl SlotGroup {
 }
 
 impl SlotObjects {
-    /// Creates a range from `first` to `last`. The range includes `first` and `last`.
+    /// Creates a range from `first` to `last`, both inclusive.
     #[must_use]
     pub const fn new(first: u16, last: u16, depends_on: DependsOn) -> Self {
         Self { first, last, depends_on }

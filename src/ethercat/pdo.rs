@@ -33,7 +33,7 @@ pub struct PdoInfo {
     pub depends_on: DependsOn,
     /// Indices of PDOs that must not be assigned together with this PDO.
     pub excludes: &'static [u16],
-    /// The mapped entries. Each mapped entry has its own slot dependency.
+    /// The mapped entries. The index of each entry has its own slot dependency.
     pub mapping: &'static [MappedEntry],
 }
 
@@ -44,7 +44,8 @@ impl PdoInfo {
         self.excludes.contains(&other.index) || other.excludes.contains(&self.index)
     }
 
-    /// Returns whether the mapping can be written: it isn't fixed and has at most 254 entries of at most 255 bits.
+    /// Returns whether the mapping can be written: the mapping isn't read-only, and has at most 254 entries of at most
+    /// 255 bits each.
     #[must_use]
     pub fn is_writable(&self) -> bool {
         self.holds(self.mapping)

@@ -14,7 +14,7 @@ use crate::pdo::{MappedEntry, SdoWrite};
 /// Index of the configured module ident list (ETG.5001.1).
 const MODULE_IDENTS: u16 = 0xF030;
 
-/// A plan of the modules in the slots of a modular device. The device has at most `N` slots.
+/// Assigns modules to the slots of a modular device. The device has at most `N` slots.
 ///
 /// ```ignore
 /// let mut plan = SlotPlan::<16>::new(&coupler::DEVICE)?;
@@ -46,11 +46,10 @@ pub enum PlanError {
         /// Ident of the module.
         ident: u32,
     },
-    /// A series of slots has fewer modules than its minimum. The value of the variant is the number of the first free
-    /// slot.
+    /// A series of slots has fewer modules than its minimum. Contains the number of the first free slot of the series.
     Empty(u16),
-    /// A list object has too few sub-indices. List objects are assignments (0x1C10 and following), the module idents
-    /// (0xF030), and the mapping of a padding PDO.
+    /// A list object has too few sub-indices. List objects are the PDO assignments (0x1C10 and following) and the list
+    /// of module idents (0xF030).
     TooMany {
         /// Index of the list object.
         index: u16,
@@ -104,7 +103,7 @@ pub struct SlotPdo {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// A PDO, with the index offsets of the slot-dependent objects in its mapping.
+    /// A PDO, and the index offsets of the slot-dependent objects in its mapping.
     Pdo(&'static PdoInfo, Growth),
     /// Padding in front of the PDOs of a group of modules.
     Gap,
@@ -201,8 +200,8 @@ impl<const N: usize> SlotPlan<N> {
         room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
     }
 
-    /// Returns the offset of an object index of the module in a slot. `index` is the object's index in slot 0. Returns
-    /// `None` if the slot is empty.
+    /// Returns the offset that a slot adds to the object index `index` of its module. `index` is the object's index in
+    /// slot 0. Returns `None` if the slot is empty.
     #[must_use]
     pub fn index_offset(&self, slot: u16, index: u16) -> Option<u16> {
         let depends_on = self.module(slot)?.depends_on(index);
@@ -273,7 +272,7 @@ impl<const N: usize> SlotPlan<N> {
     ///
     /// # Errors
     ///
-    /// Returns the first error of `visit`, which ends the iteration.
+    /// Stops at the first error of `visit` and returns this error.
     pub fn try_for_each_command<E>(
         &self,
         transition: Transition,
@@ -308,13 +307,13 @@ impl<const N: usize> SlotPlan<N> {
         self.modules.iter().zip(0..).filter_map(|(module, slot)| Some(((*module)?, slot)))
     }
 
-    /// Returns the numbers of the groups of modules, or a single `None` if the device has no groups.
+    /// Returns the numbers of the module groups, or a single `None` if the device has no groups.
     fn groups(&self) -> impl Iterator<Item = Option<u16>> {
         let count = self.device.slots.map_or(0, |slots| slots.pdo_groups.len()) as u16;
         (count == 0).then_some(None).into_iter().chain((0..count).map(Some))
     }
 
-    /// Returns the PDOs of one group in a sync manager, with the padding in front of them.
+    /// Returns the PDOs of one module group in a sync manager, preceded by the padding of the group.
     fn group(
         &self,
         manager: &'static SyncManager,
@@ -351,13 +350,12 @@ impl<const N: usize> SlotPlan<N> {
         (Some(slot), pdo.index.wrapping_add(shift), Content::Pdo(pdo, self.objects(slot)), pdo.bits)
     }
 
-    /// Returns the offsets of object indices in a slot.
+    /// Returns the offsets that a slot adds to object indices.
     fn objects(&self, slot: u16) -> Growth {
         self.growth(slot, |increments| increments.index)
     }
 
-    /// Returns the offsets of indices in a slot: the slot number and the group number, each multiplied by its
-    /// increment.
+    /// Returns the index offsets of a slot: the slot number and the group number, each multiplied by its increment.
     fn growth(&self, slot: u16, increment: impl Fn(Increments) -> u16) -> Growth {
         let Some(place) = self.slot(slot) else { return Growth::default() };
         let group = place.group.map_or(0, |group| increment(group.increments).wrapping_mul(group.number));
@@ -390,8 +388,8 @@ impl<const N: usize> SlotPlan<N> {
 }
 
 impl SlotPdo {
-    /// Returns the writes of the PDO's mapping, or no writes if the mapping is read-only. The mapping of a gap follows
-    /// from the length of the gap.
+    /// Returns the writes of the PDO's mapping, or no writes if the mapping is read-only. The mapping of padding
+    /// depends only on the length of the padding.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
         let (index, bits) = (self.index, self.bits);
         let writes = match self.content {
@@ -405,7 +403,7 @@ impl SlotPdo {
     }
 }
 
-/// Returns the writes of the mapping of a gap. Each entry of the mapping has at most 255 bits.
+/// Returns the writes that map `bits` bits of padding. Each entry of the mapping has at most 255 bits.
 fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
     const MOST: u32 = u8::MAX as u32;
     let count = bits.div_ceil(MOST).min(MOST);

@@ -14,7 +14,7 @@ pub struct StartupCommand {
     pub transition: Transition,
     /// The object to write.
     pub object: Object,
-    /// True if complete access is used, which transfers all sub-indices from `object` on at once.
+    /// True if complete access is used, which transfers all sub-indices at once, starting at `object`.
     pub complete_access: bool,
     /// The value to write.
     pub data: StartupData,
@@ -25,7 +25,7 @@ pub struct StartupCommand {
 pub enum StartupData {
     /// An integer of at most 8 bytes.
     Number(SdoWrite),
-    /// Bytes of a value in the device description.
+    /// The bytes of a value, as the device description declares them.
     Bytes(&'static [u8]),
 }
 
@@ -59,8 +59,8 @@ impl StartupCommand {
 
     /// Writes the value through a CoE client.
     ///
-    /// [`Client`] doesn't support complete access. If the command uses complete access, this method writes the bytes
-    /// without complete access. For such commands, use the functions of the bus library instead.
+    /// [`Client`] doesn't support complete access. If the command uses complete access, this method writes the bytes to
+    /// a single sub-index. For such commands, use the functions of the bus library instead.
     ///
     /// # Errors
     ///
@@ -79,8 +79,8 @@ impl StartupCommand {
     }
 }
 
-/// The write is sent in Pre-Operational, before the transition to Safe-Operational. Generated constants `STARTUP` consist of such
-/// writes.
+/// Creates a command for the transition from Pre-Operational to Safe-Operational. The generated constant `STARTUP` is a
+/// list of such writes.
 impl From<SdoWrite> for StartupCommand {
     fn from(write: SdoWrite) -> Self {
         Self::of_write(Transition::PS, write)

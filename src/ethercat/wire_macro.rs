@@ -1,12 +1,13 @@
 //! The macro `ethercrab_wire!`.
 
 /// Implements the wire traits of the crate `ethercrab` for a PDO struct, if the feature `ethercat` of `lexibus` is
-/// enabled: `EtherCrabWireRead`, `EtherCrabWireWrite`, `EtherCrabWireSized` and `EtherCrabWireWriteSized`. The traits
-/// `EtherCrabWireReadWrite` and `EtherCrabWireReadSized` follow from them. Without the feature, the macro expands to
-/// nothing.
+/// enabled: `EtherCrabWireRead`, `EtherCrabWireWrite`, `EtherCrabWireSized` and `EtherCrabWireWriteSized`. `ethercrab`
+/// implements `EtherCrabWireReadWrite` and `EtherCrabWireReadSized` for every type with these traits. Without the
+/// feature, the macro expands to nothing.
 ///
-/// `ethercrab_wire!(Type, BYTES)` needs a type with the methods `pack(&self) -> [u8; BYTES]` and
-/// `unpack(&[u8]) -> Result<Self, LengthError>`, as each generated PDO struct and each struct of [`pdo!`](crate::pdo!) has.
+/// In `ethercrab_wire!(Type, BYTES)`, the type must have the methods `pack(&self) -> [u8; BYTES]` and
+/// `unpack(&[u8]) -> Result<Self, LengthError>`. All generated PDO structs and all structs of [`pdo!`](crate::pdo!)
+/// have these methods.
 ///
 /// ```
 /// # use lexibus_drives::demo_drive;
@@ -17,8 +18,8 @@
 /// lexibus::ethercrab_wire!(Fast, 6);
 /// ```
 ///
-/// If a buffer is too short, `unpack_from_slice` and `pack_to_slice` return an error of `ethercrab`. As `ethercrab`
-/// requires, `pack_to_slice_unchecked` panics.
+/// If a buffer is too short, `unpack_from_slice` and `pack_to_slice` return an error of `ethercrab`.
+/// `pack_to_slice_unchecked` panics in this case, as `ethercrab` requires.
 #[cfg(feature = "ethercat")]
 #[macro_export]
 macro_rules! ethercrab_wire {

@@ -11,11 +11,11 @@ pub enum Check {
     Xor(u8),
     /// One byte: the low eight bits of the sum of the data.
     Sum(u8),
-    /// One byte: the low eight bits of the negative sum. The low eight bits of the sum of data and code are 0 if the
-    /// initial value is 0.
+    /// One byte: the two's complement of the low eight bits of the sum of the data. With the initial value 0, the data
+    /// and the code add up to 0 (modulo 256).
     Lrc(u8),
-    /// Two bytes, the low byte first: a CRC with the polynomial 0x8005. Modbus RTU uses this CRC with the initial value
-    /// 0xFFFF.
+    /// Two bytes, the low byte first: a reflected CRC with the polynomial 0x8005. Modbus RTU uses this CRC with the
+    /// initial value 0xFFFF.
     Crc16(u16),
 }
 
@@ -30,7 +30,7 @@ impl Check {
         }
     }
 
-    /// Returns whether frames have no code.
+    /// Returns whether the frames have no error detection code.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.len() == 0
@@ -50,7 +50,7 @@ impl Check {
     }
 }
 
-/// Adds a byte to a CRC with the polynomial 0x8005, the lowest bit first.
+/// Adds one byte to a reflected CRC with the polynomial 0x8005.
 fn crc16(crc: u16, byte: u8) -> u16 {
     (0..8).fold(crc ^ u16::from(byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
 }

@@ -9,33 +9,33 @@ use crate::value_error::LengthError;
 /// one byte can be both the end of a frame and the start of the next frame. In this case, frames without data are
 /// ignored.
 ///
-/// A checksum without escapes can contain the end byte. The decoder ends a frame at the first end byte that follows a
-/// matching checksum. In rare cases, an end byte inside the frame follows a matching checksum, which the decoder cannot
-/// detect.
+/// An unescaped checksum can contain the end byte. Therefore, the decoder ends a frame at the first end byte that
+/// follows a matching checksum. In rare cases, the data contain a matching checksum, followed by an end byte. The
+/// decoder then ends the frame too early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Delimited {
-    /// Start byte; `None` if each frame starts after the end of the last one.
+    /// Start byte; `None` if each frame starts directly after the end byte of the previous frame.
     pub start: Option<u8>,
     /// End byte.
     pub end: u8,
-    /// Escape sequences for start and end bytes in the data; `None` if the data never contain them.
+    /// Escape sequences for start and end bytes in the data; `None` if the data never contain start or end bytes.
     pub escape: Option<Escape>,
     /// Checksum after the data.
     pub check: Check,
     /// Offset of the first data byte that the checksum covers.
     pub check_from: usize,
-    /// True if the checksum is escaped, as the data are.
+    /// True if the checksum is escaped in the same way as the data.
     pub is_check_escaped: bool,
     /// Maximum number of data bytes, without start, end, escapes and checksum.
     pub max_data: usize,
 }
 
-/// Escape sequence of two bytes: the escape byte, then the original byte combined with a number.
+/// Escape sequence of two bytes: the escape byte, then the original byte XOR `xor`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Escape {
     /// Escape byte.
     pub byte: u8,
-    /// Number that is combined with the original byte by XOR; 0 leaves it unchanged.
+    /// Mask that is combined with the original byte by XOR; 0 leaves the byte unchanged.
     pub xor: u8,
     /// Bytes that are escaped.
     pub escaped: &'static [u8],
@@ -63,8 +63,8 @@ impl Delimited {
         Self { escape: Some(Escape { byte, xor, escaped }), ..self }
     }
 
-    /// Returns the framing with a checksum. After [`new`](Self::new), the checksum covers all data and is escaped, as
-    /// the data are.
+    /// Returns the framing with a checksum. By default, the checksum covers all data and is escaped in the same way as
+    /// the data.
     #[must_use]
     pub const fn with_check(self, check: Check) -> Self {
         Self { check, ..self }
@@ -86,7 +86,7 @@ impl Delimited {
     }
 }
 
-/// Writer that stores the bytes that fit, and counts all bytes.
+/// Writer that stores the bytes that fit into the frame, and counts all bytes.
 struct Writer<'f> {
     frame: &'f mut [u8],
     length: usize,
@@ -115,10 +115,10 @@ impl Writer<'_> {
 #[derive(Clone, Debug)]
 pub struct DelimitedDecoder {
     state: State,
-    /// Number of data bytes so far.
+    /// Number of data bytes received so far.
     length: usize,
-    /// The last bytes, which may be the checksum. If the checksum is sent without escapes, the held bytes are not
-    /// unescaped.
+    /// The last bytes, which may be the checksum. If the checksum is sent without escapes, the bytes are stored as
+    /// received.
     held: [u8; 2],
     held_length: usize,
 }
@@ -205,7 +205,7 @@ impl Delimited {
         Ok(())
     }
 
-    /// Returns the original byte, or `None` if `byte` is the escape byte.
+    /// Returns the unescaped byte, or `None` if `byte` is the escape byte.
     fn unescape(&self, decoder: &mut DelimitedDecoder, byte: u8) -> Result<Option<u8>, FrameError> {
         let Some(escape) = self.escape else { return Ok(Some(byte)) };
         match decoder.state {
@@ -247,8 +247,8 @@ impl Delimited {
         Ok(None)
     }
 
-    /// Decodes a byte in a frame whose checksum isn't escaped. The meaning of a byte is known when it can no longer be
-    /// a part of the checksum.
+    /// Decodes a byte in a frame whose checksum isn't escaped. A byte is interpreted only when it can no longer be a
+    /// part of the checksum.
     fn inside_raw(
         &self,
         decoder: &mut DelimitedDecoder,

@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-/// Address of a device in LSS (CiA 305): the four numbers of the identity object 0x1018, which are unique worldwide.
+/// Address of a device in LSS (CiA 305): the four numbers of the identity object 0x1018. The combination of the numbers
+/// is unique worldwide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct LssAddress {
     /// Vendor-ID (0x1018:01).
@@ -29,7 +30,7 @@ impl LssAddress {
         [self.vendor_id, self.product_code, self.revision_number, self.serial_number]
     }
 
-    /// Returns the number at a position in object 0x1018, or `None` if the position exceeds 3.
+    /// Returns the number at a position of the address, or `None` if the position exceeds 3.
     pub(super) fn at(self, position: u8) -> Option<u32> {
         self.to_array().get(usize::from(position)).copied()
     }
@@ -67,10 +68,10 @@ pub enum IdentityPart {
 }
 
 impl IdentityPart {
-    /// All parts, in the order of object 0x1018.
+    /// All four numbers, in the order of object 0x1018.
     pub const ALL: [Self; 4] = [Self::VendorId, Self::ProductCode, Self::RevisionNumber, Self::SerialNumber];
 
-    /// Returns the position in the address, 0 to 3.
+    /// Returns the position of this number in the address, 0 to 3.
     pub(super) const fn position(self) -> u8 {
         self as u8
     }

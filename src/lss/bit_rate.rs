@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Bit rate in the table 0 of CiA 305.
+/// Bit rate in table 0 of CiA 305.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BitRate {
     /// 1 Mbit/s.
@@ -26,7 +26,7 @@ pub enum BitRate {
 }
 
 impl BitRate {
-    /// Bit rates with their index in table 0. Index 5 is reserved.
+    /// Bit rates, with their index in table 0 and their value in bit/s. Index 5 is reserved.
     const TABLE: [(Self, u8, u32); 9] = [
         (Self::Kbit1000, 0, 1_000_000),
         (Self::Kbit800, 1, 800_000),

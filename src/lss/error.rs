@@ -4,8 +4,8 @@ use core::convert::Infallible;
 use core::error;
 use core::fmt;
 
-/// Reason why an LSS service failed. `E` is the error type of the CAN interface. The state machines of this module don't
-/// use an interface; their `E` is [`Infallible`].
+/// Reason why an LSS service failed. `E` is the error type of the CAN interface. The state machines of this module
+/// don't access the CAN interface; their `E` is [`Infallible`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum LssError<E = Infallible> {
@@ -17,7 +17,7 @@ pub enum LssError<E = Infallible> {
     Timeout,
     /// The slave refused the service.
     Refused(Refusal),
-    /// More than one answer arrived: several slaves are in the state Configuration, or the answer arrived twice.
+    /// More than one answer arrived: several slaves are in the state Configuration, or one slave answered twice.
     SeveralAnswers,
     /// The answers to a fastscan contradict each other, because an answer was lost or late. Repeat the scan.
     Inconclusive,
@@ -31,7 +31,7 @@ pub struct Refusal {
     /// Error code. 1: the node-ID is out of range, the bit timing is not supported, or the slave cannot store. 2: the
     /// slave failed to access its storage. 0xFF: `specific` contains the error.
     pub code: u8,
-    /// Device-specific error, if `code` is 0xFF.
+    /// Device-specific error code; valid only if `code` is 0xFF.
     pub specific: u8,
 }
 
@@ -43,7 +43,7 @@ impl Refusal {
 }
 
 impl LssError {
-    /// Converts the error to the error of a client.
+    /// Converts the error to an error of a client with the error type `E`.
     #[cfg(feature = "canopen")]
     pub(crate) fn of_client<E>(self) -> LssError<E> {
         match self {

@@ -9,11 +9,11 @@ use super::service::Message;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Request {
     pub number: u32,
-    /// Bits of the number from this bit upwards are compared. [`START_SCAN`] starts a scan.
+    /// The slave compares the bits of the number from this bit upwards. [`START_SCAN`] starts a scan.
     pub bit: u8,
-    /// Part of the address that is compared.
+    /// Position (0 to 3) of the number that the slave compares.
     pub part: u8,
-    /// Part of the address that the next request compares.
+    /// Position (0 to 3) of the number that the next request compares.
     pub next: u8,
 }
 
@@ -34,26 +34,27 @@ pub(crate) const fn is_identified(message: &Message) -> bool {
     message[0] == IDENTIFIED
 }
 
-/// Step of the scan: the meaning of the next answer.
+/// Step of the scan: the question that the current request asks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
     /// Asks whether there is a slave without a node-ID.
     Start,
     /// Asks whether this bit is 0.
     Bit(u8),
-    /// Asks whether the whole number is right.
+    /// Asks whether all bits of the number are correct.
     Confirm,
     Ended,
 }
 
 /// Search for one slave in the state Waiting that has no node-ID, by binary search over its address (CiA 305).
 ///
-/// Send the message that [`next`](Self::next) returns, pass all answers within a fixed time to [`handle`](Self::handle),
-/// then call [`time_out`](Self::time_out). Several slaves may answer, and a missing answer is information. A scan
-/// therefore always takes 133 times the fixed time. If the scan finds a slave, the slave enters Configuration.
+/// Send the message that [`next`](Self::next) returns, pass all answers within a fixed time to
+/// [`handle`](Self::handle), then call [`time_out`](Self::time_out). Wait for the full time after each message, because
+/// several slaves may answer, and a missing answer is a valid result. A scan that finds a slave takes 133 times the
+/// fixed time, and switches this slave to Configuration.
 ///
-/// If an answer is lost or late, the result is [`LssError::Inconclusive`] or, rarely, a wrong address. Compare the
-/// address with the result of inquiries, as `clients::canopen::LssMaster` does.
+/// If an answer is lost or late, the result is [`LssError::Inconclusive`] or, rarely, a wrong address. To verify the
+/// address, read its numbers with [`Service::Inquire`](super::Service::Inquire), as `clients::canopen::LssMaster` does.
 #[derive(Clone, Debug)]
 pub struct FastScan {
     parts: [u32; 4],
@@ -77,8 +78,8 @@ impl FastScan {
         Self { parts: [0; 4], part: 0, step: Step::Start, is_sent: false, is_answered: false, result: Ok(None) }
     }
 
-    /// Returns the next message to send. Returns `None` if the scan has ended, or if the time of the previous message
-    /// has not passed.
+    /// Returns the next message to send. Returns `None` if the scan has ended, or if [`time_out`](Self::time_out) has
+    /// not been called for the previous message.
     #[allow(clippy::should_implement_trait)]
     pub fn next(&mut self) -> Option<Message> {
         let (bit, next) = match self.step {
@@ -96,8 +97,9 @@ impl FastScan {
         Some(Request { number, bit, part: self.part, next }.message())
     }
 
-    /// Returns whether the current step asks if there is any slave without a node-ID. A lost answer to this step ends the
-    /// scan without a result. The caller can therefore wait longer and repeat the message.
+    /// Returns whether the scan is in its first step, which asks whether there is a slave without a node-ID. A lost
+    /// answer to this step ends the scan without a result. In this step, the caller can wait longer or repeat the
+    /// message.
     #[must_use]
     pub fn is_start(&self) -> bool {
         self.step == Step::Start
@@ -135,8 +137,8 @@ impl FastScan {
         };
     }
 
-    /// Returns the address of the slave that was found. Returns `None` if no slave without a node-ID has answered, and
-    /// before the scan has ended.
+    /// Returns the address of the slave that was found. Returns `None` if no slave without a node-ID has answered, or
+    /// if the scan has not ended.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Layer setting services (LSS, CiA 305) as state machines, without input and output.
+//! Layer setting services (LSS, CiA 305) as state machines that perform no I/O.
 //!
 //! LSS assigns node-IDs and bit rates to devices that have none. Each device is identified by its [`LssAddress`], which
 //! consists of the four numbers of object 0x1018. [`Transaction`] is the master side of one service, [`FastScan`] finds

@@ -18,7 +18,7 @@ pub enum LssState {
 }
 
 impl LssState {
-    /// Returns the mode in the service switch state global.
+    /// Returns the mode byte of the service "switch state global".
     const fn mode(self) -> u8 {
         match self {
             Self::Waiting => 0,
@@ -38,23 +38,23 @@ pub enum Service {
     ConfigureNodeId(Option<NodeId>),
     /// Sets the bit timing of the slave in Configuration. Table 0 is the table of [`BitRate`](super::BitRate).
     ConfigureBitTiming {
-        /// Number of the table: 0 for that of CiA 305, 128 to 255 for tables of the vendor.
+        /// Number of the table: 0 for the table of CiA 305, 128 to 255 for vendor-specific tables.
         table: u8,
         /// Index in the table.
         index: u8,
     },
     /// Activates the bit timing of all slaves in Configuration. Slaves don't answer.
     ActivateBitTiming {
-        /// Time in milliseconds until the bit timing changes, and from then until nodes may send again.
+        /// Delay in milliseconds until the bit timing changes. After the change, nodes must not send for the same time.
         delay: u16,
     },
     /// Stores node-ID and bit timing in the non-volatile memory of the slave in Configuration.
     Store,
-    /// Inquires one number of the address of the slave in Configuration.
+    /// Reads one number of the address of the slave in Configuration.
     Inquire(IdentityPart),
-    /// Inquires the node-ID of the slave in Configuration.
+    /// Reads the node-ID of the slave in Configuration.
     InquireNodeId,
-    /// Asks for slaves in Waiting that have no node-ID. All of them answer.
+    /// Asks whether there are slaves in Waiting without a node-ID. All these slaves answer.
     IdentifyUnconfigured,
 }
 
@@ -69,7 +69,7 @@ const fn with_bytes(command: u8, first: u8, second: u8) -> Message {
     [command, first, second, 0, 0, 0, 0, 0]
 }
 
-/// Returns bytes 1 to 4 of a message as a number.
+/// Returns bytes 1 to 4 of a message as a little-endian number.
 pub(super) const fn number(message: &Message) -> u32 {
     let [_, a, b, c, d, ..] = *message;
     u32::from_le_bytes([a, b, c, d])
@@ -84,7 +84,7 @@ pub(super) const fn answer_result(command: u8, result: Result<(), Refusal>) -> M
 }
 
 impl Service {
-    /// Returns a message of the service, or `None` after the last one.
+    /// Returns message `step` of the service, or `None` after the last message.
     pub(super) fn message(self, step: u8) -> Option<Message> {
         let message = match self {
             Self::SwitchSelective(address) => {
@@ -104,7 +104,7 @@ impl Service {
         Some(message).filter(|_| step == 0)
     }
 
-    /// Returns the messages of the service in their order.
+    /// Returns the messages of the service, in the order in which they are sent.
     pub fn messages(self) -> impl Iterator<Item = Message> {
         (0..4).map_while(move |step| self.message(step))
     }
@@ -124,7 +124,7 @@ impl Service {
         })
     }
 
-    /// Returns whether any number of slaves may answer.
+    /// Returns whether several slaves may answer.
     pub(crate) const fn is_for_several(self) -> bool {
         matches!(self, Self::IdentifyUnconfigured)
     }

@@ -9,15 +9,16 @@ use crate::node_id::NodeId;
 
 /// The device of an LSS [`Slave`]: its bit timing and its non-volatile memory.
 pub trait Host {
-    /// Prepares a bit timing, which is used after [`activate_bit_timing`](Self::activate_bit_timing). Table 0 is the
-    /// table of [`BitRate`](super::BitRate).
+    /// Selects the bit timing that [`activate_bit_timing`](Self::activate_bit_timing) activates. Table 0 is the table
+    /// of [`BitRate`](super::BitRate).
     ///
     /// # Errors
     ///
     /// Returns the answer of the slave: [`Refusal::NOT_SUPPORTED`] if the device doesn't support the bit timing.
     fn configure_bit_timing(&mut self, table: u8, index: u8) -> Result<(), Refusal>;
 
-    /// Activates the bit timing after `delay` milliseconds. Then, the device must not send for the same time.
+    /// Activates the bit timing after `delay` milliseconds. After the change, the device must not send for the same
+    /// time.
     fn activate_bit_timing(&mut self, delay: u16);
 
     /// Stores the node-ID (`None` if there is none) and the bit timing in the non-volatile memory.
@@ -29,7 +30,7 @@ pub trait Host {
     fn store(&mut self, node: Option<NodeId>) -> Result<(), Refusal>;
 }
 
-/// A [`Host`] that refuses to change its bit timing and to store.
+/// A [`Host`] that supports neither changes of the bit timing nor storing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoHost;
 
@@ -45,16 +46,16 @@ impl Host for NoHost {
     }
 }
 
-/// LSS slave of a device (CiA 305), without input and output.
+/// LSS slave of a device (CiA 305), as a state machine that performs no I/O.
 #[derive(Clone, Debug)]
 pub struct Slave {
     address: LssAddress,
     state: LssState,
     active: Option<NodeId>,
     pending: Option<NodeId>,
-    /// Number of parts of the address that the current switch state selective has matched.
+    /// Number of address parts that have matched so far in the service "switch state selective".
     selected: u8,
-    /// Part of the address that the current fastscan compares; `None` before the scan starts.
+    /// Position (0 to 3) of the number that the current fastscan compares; `None` before the scan starts.
     scanned: Option<u8>,
 }
 
@@ -71,7 +72,7 @@ impl Slave {
         self.address = address;
     }
 
-    /// Returns the state.
+    /// Returns the LSS state of the slave.
     #[must_use]
     pub const fn state(&self) -> LssState {
         self.state
@@ -79,14 +80,15 @@ impl Slave {
 
     /// Returns the node-ID that the device uses. A device without a node-ID takes part only in LSS.
     ///
-    /// A new node-ID is used from the next [`restart`](Self::restart). A device without a node-ID uses it as soon as the
-    /// master switches the slave to Waiting. The device then sends its boot-up message.
+    /// A new node-ID takes effect at the next [`restart`](Self::restart). In a device without a node-ID, the new
+    /// node-ID takes effect as soon as the master switches the slave to Waiting. The device then sends its boot-up
+    /// message.
     #[must_use]
     pub const fn node_id(&self) -> Option<NodeId> {
         self.active
     }
 
-    /// Restarts the communication (NMT command reset communication): the device uses the configured node-ID.
+    /// Restarts the communication (NMT command "reset communication"). The device then uses the configured node-ID.
     pub fn restart(&mut self) {
         *self = Self::new(self.address, self.pending);
     }
@@ -132,7 +134,7 @@ impl Slave {
         }
     }
 
-    /// Compares a part of the address. All four parts must match in their order.
+    /// Compares one number of the address. The slave enters Configuration after all four numbers have matched in order.
     fn select(&mut self, part: u8, value: u32) -> Option<Message> {
         let expected = self.address.at(part);
         let is_next = part == 0 || part == self.selected;

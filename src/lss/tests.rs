@@ -1,11 +1,11 @@
-//! Tests of master and slaves against each other, and of the messages.
+//! Tests of the LSS messages, and of a master with simulated slaves.
 
 use std::vec::Vec;
 
 use super::*;
 use crate::node_id::NodeId;
 
-/// A device with a bit timing and a memory.
+/// A [`Host`] with a bit timing and a non-volatile memory.
 #[derive(Default)]
 struct Memory {
     timing: Option<(u8, u8)>,

@@ -3,7 +3,7 @@
 use super::error::LssError;
 use super::service::{Message, Service};
 
-/// Master side of one LSS service, without input and output.
+/// Master side of one LSS service, as a state machine that performs no I/O.
 ///
 /// Send all messages that [`next`](Self::next) returns. Then wait for an answer, and pass it to
 /// [`handle`](Self::handle). After the first answer, wait for a short time, because a second answer shows that
@@ -36,7 +36,7 @@ impl Transaction {
         message
     }
 
-    /// Returns whether a message is an answer to this service. Other messages must not restart the timeout.
+    /// Returns whether a message is an answer to this service. Don't restart the timeout for other messages.
     #[must_use]
     pub fn accepts(&self, message: &Message) -> bool {
         self.service.answer() == Some(message[0])
@@ -67,8 +67,8 @@ impl Transaction {
         }
     }
 
-    /// Returns the result, or `None` if the transaction has not ended. The value is a number of the address or a
-    /// node-ID (0xFF if the slave has none). For services without a value, the value is 0.
+    /// Returns the result, or `None` if the transaction has not ended. The value is the number or the node-ID that the
+    /// service reads. The node-ID is 0xFF if the slave has none. For services without a value, the value is 0.
     #[must_use]
     pub const fn result(&self) -> Option<Result<u32, LssError>> {
         self.result

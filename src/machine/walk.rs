@@ -1,4 +1,4 @@
-//! Leads a state machine to a state: reads its status item and writes its control item.
+//! Moves a state machine to a target state: reads its status item and writes its control item.
 
 use core::fmt;
 use core::time::Duration;
@@ -30,7 +30,7 @@ pub enum WalkError<S, E> {
     Access(AccessError<E>),
     /// The client failed to wait between two accesses.
     Wait(Error<E>),
-    /// A fault occurred on the way, or a fault that was active at the start could not be reset before the deadline.
+    /// A new fault occurred, or a fault that was active at the start could not be reset before the deadline.
     Fault {
         /// State of the device.
         state: S,
@@ -43,8 +43,8 @@ pub enum WalkError<S, E> {
         /// State of the device.
         state: S,
     },
-    /// The device was not in the target state at the deadline. Its control word still contains the last command, which the
-    /// device can execute later.
+    /// The device was not in the target state at the deadline. The control word still contains the last command, which
+    /// the device can execute later.
     Deadline {
         /// State of the device, or `None` if its status word matches no state.
         state: Option<S>,
@@ -59,7 +59,8 @@ impl<S, E> WalkError<S, E> {
         matches!(self, Self::Fault { .. })
     }
 
-    /// Adds the error code of the device to a fault, if the code could be read. Only the low 16 bits of `code` are the error code.
+    /// Adds the error code of the device to a [`Fault`](Self::Fault), if the code could be read. The error code
+    /// consists of the low 16 bits of `code`.
     #[must_use]
     pub fn with_code<W: StateWord>(self, code: Result<W, AccessError<E>>) -> Self {
         match self {
@@ -120,7 +121,7 @@ impl<V: Fixed, A, L, W: Fixed, B, M> fmt::Debug for Machine<V, A, L, W, B, M> {
     }
 }
 
-/// Defines the methods that lead a machine to a state, blocking and async.
+/// Defines the methods that move a machine to a target state, blocking and async.
 macro_rules! walks {
     ($Client:ident $walk:ident $read:ident $write:ident $(#[$doc:meta])* $($async:ident $await:ident)?) => {
         impl<V, A: Readable, L: Copy, W, B: Writable, M: Copy> Machine<V, A, L, W, B, M>
@@ -130,13 +131,13 @@ macro_rules! walks {
         {
             $(#[$doc])*
             ///
-            /// `control` is the control word that the device has now. The device must not receive the control word in
-            /// process data; otherwise, use a [`Walker`] in the cycle.
+            /// `control` is the current control word of the device. If the device receives the control word in process
+            /// data, use a [`Walker`] in the cycle instead.
             ///
             /// # Errors
             ///
-            /// Returns a [`WalkError`] if an access fails, a fault occurs, or no command leads to the state.
-            /// [`WalkError`] also occurs if the device is not in the state at the deadline.
+            /// Returns a [`WalkError`] if an access fails, a fault occurs, no command leads to the state, or the device
+            /// is not in the state at the deadline.
             pub $($async)? fn $walk<S: MachineState, C: $Client>(
                 self,
                 client: &mut C,
@@ -176,11 +177,11 @@ macro_rules! walks {
 }
 
 walks! { Client walk read write
-    /// Leads the machine to the state `target`: reads the status word, writes commands and waits, until the device is in this
-    /// state.
+    /// Moves the machine to the state `target`: reads the status word, writes commands and waits, until the device is
+    /// in this state.
 }
 walks! { AsyncClient walk_async read_async write_async
-    /// Leads the machine to the state `target`, as [`walk`](Self::walk) does, without blocking.
+    /// Moves the machine to the state `target`, as [`walk`](Self::walk) does, without blocking.
     async await
 }
 
@@ -229,7 +230,7 @@ mod tests {
         }
     }
 
-    /// A device whose control item can only be written. Bit 0 switches it on.
+    /// A device whose control item is write-only. Bit 0 switches it on.
     struct Device {
         status: u8,
         writes: Vec<u8>,

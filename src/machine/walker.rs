@@ -1,16 +1,16 @@
-//! Leads a state machine to a state in cyclic process data, one control word per cycle.
+//! Moves a state machine to a target state through cyclic process data, one control word per cycle.
 
 use core::fmt;
 
 use super::word::StateWord;
 use super::{Step, Transition};
 
-/// The states of a state machine that a status word encodes. Generated code implements this trait.
+/// A state of a device's state machine, which the status word encodes. Generated code implements this trait.
 pub trait MachineState: Copy + 'static {
-    /// Commands of the machine, which a control word encodes.
+    /// Type of the commands, which the control word encodes.
     type Command: Copy + 'static;
 
-    /// Transitions that a command causes or for which a program can wait.
+    /// Transitions that a command triggers, and automatic transitions for which a program can wait.
     const TRANSITIONS: &'static [Transition<Self::Command>];
 
     /// Numbers of the states that the device enters because of a fault.
@@ -23,7 +23,7 @@ pub trait MachineState: Copy + 'static {
     /// Returns the state that the bits of a status word encode, or `None` if they match no state.
     fn of_status(bits: u32) -> Option<Self>;
 
-    /// Returns the number of the state in [`TRANSITIONS`](Self::TRANSITIONS).
+    /// Returns the number that represents the state in [`TRANSITIONS`](Self::TRANSITIONS).
     fn number(self) -> u8;
 
     /// Returns the name of the state in the device description.
@@ -38,18 +38,18 @@ pub trait MachineState: Copy + 'static {
     }
 }
 
-/// Leads a state machine to a target state in cyclic process data. Each cycle turns the status word of the device into
-/// the next control word.
+/// Moves a state machine to a target state through cyclic process data. In each cycle, the walker computes the next
+/// control word from the status word of the device.
 ///
-/// - A command that reacts to an edge, such as a fault reset, works even if its bit is already set. The walker first
-///   clears the bit for one cycle.
+/// - A command that needs a rising edge, such as a fault reset, works even if its bit is already set. The walker then
+///   clears the bit for one cycle first.
 /// - The walker waits for automatic transitions of the device.
-/// - A fault that is active at the start is reset. A fault that occurs later stops the walker.
+/// - The walker resets a fault that is active at the start. A fault that occurs later stops the walker.
 /// - The walker chooses no transition from a state without a fault to a fault state, unless the state is its target.
 /// - The walker enters an energized state, such as "Operation enabled", only if the state is its target.
-/// - In the target state, the control word contains no command that leads away from it.
+/// - In the target state, the control word contains no command that leads to another state.
 /// - A device that leaves the target state without a command stops the walker. To continue, create a new walker.
-/// - Bits of the control word that no command uses stay as the program sets them.
+/// - The walker doesn't change bits of the control word that belong to no command.
 ///
 /// ```
 /// # use lexibus::{MachineState, Transition, Walker};
@@ -81,9 +81,9 @@ pub struct Walker<S> {
     target: S,
     /// State number of the device, and pattern of the command that the walker sends in this state.
     sent: Option<(u8, (u32, u32))>,
-    /// True if the device was in a state without a fault, other than the states in which the walker waits.
+    /// True if the device has been in a state that is neither a fault state nor a state in which the walker waits.
     was_healthy: bool,
-    /// True if the device was in the target state and its control word contained no command that leads away from this
+    /// True if the device has been in the target state, with a control word that contains no command to leave this
     /// state.
     was_reached: bool,
 }
@@ -93,20 +93,19 @@ pub struct Walker<S> {
 pub struct Walked<W> {
     /// Control word to send in this cycle.
     pub control: W,
-    /// True if the device is in the target state and its control word contains no command that leads away from this
-    /// state.
+    /// True if the device is in the target state, and the control word contains no command that leads to another state.
     pub is_reached: bool,
 }
 
-/// Reason why a [`Walker`] cannot continue. The control word that the device has can still contain a command, so the program
-/// must decide which command is safe.
+/// Reason why a [`Walker`] cannot continue. The current control word of the device can still contain a command, so the
+/// program must decide which control word is safe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stopped<S> {
-    /// A fault occurred on the way. The device is in this state.
+    /// A new fault occurred. Contains the state of the device.
     Fault(S),
     /// No sequence of commands leads from this state to the target state.
     Unreachable(S),
-    /// The device left the target state without a command, and is in this state.
+    /// The device left the target state without a command. Contains the state of the device.
     Left(S),
 }
 
@@ -127,7 +126,7 @@ impl<S: MachineState> fmt::Display for Stopped<S> {
 impl<S: MachineState + fmt::Debug> core::error::Error for Stopped<S> {}
 
 impl<S: MachineState> Walker<S> {
-    /// Creates a walker to the state `target`.
+    /// Creates a walker with the target state `target`.
     #[must_use]
     pub const fn new(target: S) -> Self {
         Self { target, sent: None, was_healthy: false, was_reached: false }
@@ -138,12 +137,12 @@ impl<S: MachineState> Walker<S> {
         self.sent.is_some()
     }
 
-    /// Returns the control word for the next cycle. `control` is the control word that the device has now.
+    /// Returns the control word for the next cycle. `control` is the current control word of the device.
     ///
     /// # Errors
     ///
-    /// Returns [`Stopped`] if a fault occurred on the way, if no command leads to the target state, or if the device left
-    /// the target state.
+    /// Returns [`Stopped`] if a new fault occurred, if no command leads to the target state, or if the device left the
+    /// target state.
     pub fn cycle<W: StateWord>(&mut self, status: impl StateWord, control: W) -> Result<Walked<W>, Stopped<S>> {
         let walked = self.bits(status.bits(), control.bits())?;
         Ok(Walked { control: W::from_bits(walked.control), is_reached: walked.is_reached })
@@ -174,8 +173,8 @@ impl<S: MachineState> Walker<S> {
         }
     }
 
-    /// Returns the control word that sends a command. If the control word already contains the command, returns a
-    /// control word without the bits that only this command sets. The next cycle then sends a rising edge.
+    /// Returns the control word that contains a command. If the current control word already contains the command,
+    /// clears the bits that only this command sets. The next cycle then sends a rising edge.
     fn send(&mut self, state: S, command: S::Command, control: u32) -> u32 {
         let (mask, value) = S::pattern(command);
         let sent = Some((state.number(), (mask, value)));
@@ -189,19 +188,19 @@ impl<S: MachineState> Walker<S> {
     }
 }
 
-/// Returns the patterns of the commands of those transitions that `is_it` accepts.
+/// Returns the command patterns of all transitions that `is_it` accepts.
 fn patterns<S: MachineState>(is_it: impl Fn(&Transition<S::Command>) -> bool) -> impl Iterator<Item = (u32, u32)> {
     let transitions = S::TRANSITIONS.iter().filter(move |transition| is_it(transition));
     transitions.filter_map(|transition| transition.command).map(S::pattern)
 }
 
-/// Returns the bits of the control word that belong to commands.
+/// Returns the mask of all bits of the control word that belong to commands.
 fn used<S: MachineState>() -> u32 {
     patterns::<S>(|_| true).fold(0, |bits, (mask, _)| bits | mask)
 }
 
-/// Returns the control word for a device that is in the target state. If a command in the control word leads away from the
-/// state, replaces it with a command that leads to the state.
+/// Returns the control word for a device that is in the target state. Replaces a command that leads to another state
+/// with a command that leads to the target state.
 fn hold<S: MachineState>(state: S, control: u32) -> u32 {
     let number = state.number();
     let leads_away = |control: u32| {
@@ -229,7 +228,7 @@ mod tests {
     use std::string::ToString;
     use std::vec::Vec;
 
-    /// The states of CiA 402 that this test needs, with their status words.
+    /// The states of CiA 402 that these tests need.
     #[derive(Clone, Copy, Debug, PartialEq)]
     enum State {
         Starting,
@@ -340,8 +339,8 @@ mod tests {
         assert_eq!(Step::on_path(&both, &[], &[1], 3, 0), Step::Unreachable);
     }
 
-    /// The command `t` tests the fault state 4, which the device also enters without a command. The commands `h`, `r` and `s` lead to the
-    /// state 3. The shortest path to the state 2 leads through the fault.
+    /// The command `t` leads to the fault state 4, which the device also enters without a command. The commands `h`,
+    /// `r` and `s` lead to the state 3. The shortest path to the state 2 leads through the fault.
     #[test]
     fn fault_states_are_no_path() {
         let all = [
@@ -364,7 +363,7 @@ mod tests {
         assert_eq!((toward(0, 4), toward(3, 4)), (Step::Command('t'), Step::Wait));
     }
 
-    /// A machine with a command that tests its fault.
+    /// A machine with a command that triggers a fault.
     #[derive(Clone, Copy, Debug, PartialEq)]
     enum Tested {
         Idle,

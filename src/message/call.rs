@@ -6,7 +6,7 @@ use core::fmt;
 use super::{Message, Reader, Reply, Selector};
 use crate::error::Error;
 
-/// A protocol with the station address of the device that receives the messages.
+/// The protocol of one device, with the device's station address.
 pub trait Station {
     /// Returns the station address; 0 for protocols without station addresses.
     fn station(&self) -> u32;
@@ -26,7 +26,7 @@ pub trait MessageClient {
     fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
-/// An asynchronous client that sends messages to one device, as [`MessageClient`] does.
+/// An asynchronous client that sends messages to one device. See [`MessageClient`].
 #[allow(async_fn_in_trait)]
 pub trait AsyncMessageClient {
     /// Communication error of the client.
@@ -138,9 +138,9 @@ macro_rules! calls {
                 self.client.call(&self.message)$(.$await)?
             }
 
-            /// Sends the message and returns the device with the messages whose meaning this message selects. The
-            /// returned device borrows the client. Therefore, the program cannot send another selector while it uses
-            /// this device.
+            /// Sends this selector and returns a device with the methods for the requests that depend on it. The
+            /// returned device borrows the client, so the program cannot send another selector while it uses this
+            /// device.
             ///
             /// # Errors
             ///

@@ -25,7 +25,7 @@ pub trait Group: Copy {
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 
-/// A list of [`Group`]s. A list for sending contains a slice, and a received list contains undecoded bytes.
+/// A list of [`Group`]s. A list to send contains a slice of groups; a received list contains undecoded bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct List<'a, G> {
     source: Source<'a, G>,
@@ -38,7 +38,7 @@ enum Source<'a, G> {
 }
 
 impl<G: Copy> Source<'_, G> {
-    /// Removes and returns the first group. If the list was received, `read` decodes the group.
+    /// Removes and returns the first group. In a received list, `read` decodes the group.
     fn take_next(&mut self, read: impl FnOnce(&mut Reader<'_>) -> Option<G>) -> Option<G> {
         match self {
             Source::Sent(groups) => {
@@ -57,7 +57,7 @@ impl<G: Copy> Source<'_, G> {
 }
 
 impl<'a, G: Group> List<'a, G> {
-    /// Creates a list from received bytes. Returns `None` unless the bytes are a whole number of valid groups.
+    /// Creates a list from received bytes. Returns `None` if the last group is incomplete or a group is invalid.
     #[must_use]
     pub fn received(bytes: &'a [u8]) -> Option<Self> {
         let mut whole = bytes.chunks(G::LENGTH.max(1));
@@ -140,8 +140,8 @@ impl<G: Group> Iterator for ListIter<'_, G> {
 
 impl<G: Group> FusedIterator for ListIter<'_, G> {}
 
-/// A list of parameters and their values. A list for sending contains a slice, and a received list contains undecoded
-/// bytes.
+/// A list of parameters and their values. A list to send contains a slice of [`Setting`]s; a received list contains
+/// undecoded bytes.
 ///
 /// The type of a parameter determines the length of its value.
 #[derive(Clone, Copy, Debug)]
@@ -224,14 +224,15 @@ impl SettingsRule {
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Reads a parameter number and a value. The value ends before the last `tail` bytes of the data.
+    /// Reads a parameter number and a value. The value extends to the last `tail` bytes of the data, which are not
+    /// read.
     pub fn read_to(&self, from: &mut Reader<'_>, tail: usize) -> Option<Setting> {
         let parameter = self.read_code(from)?;
         let length = from.left().checked_sub(tail)?;
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Writes a parameter number. Writes zeros instead of the parameter's value.
+    /// Writes a parameter number, and zeros instead of the parameter's value.
     ///
     /// # Errors
     ///
@@ -263,7 +264,7 @@ impl SettingsRule {
 }
 
 impl<'a> Settings<'a> {
-    /// Creates a list for sending.
+    /// Creates a list to send.
     #[must_use]
     pub const fn sent(settings: &'a [Setting], rule: SettingsRule) -> Self {
         Self { source: Source::Sent(settings), rule }

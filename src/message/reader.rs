@@ -11,12 +11,12 @@ pub struct Reader<'r> {
     bits: usize,
 }
 
-/// Returns the significance of the byte at position `at` in a value of `length` bytes. The least significant byte has
-/// the significance 0.
+/// Returns the little-endian position of the byte that is at position `at` on the wire, in a value of `length` bytes.
+/// The least significant byte has the position 0.
 ///
-/// `order` lists the byte numbers of the longest possible value in wire order, with 0 for the most significant byte. A
-/// shorter value consists of the low bytes of the longest value, in the same order. A value is big-endian if it is
-/// longer than `order` or if `order` is empty.
+/// `order` lists the bytes of the longest possible value in wire order; 0 is the most significant byte. A shorter value
+/// consists of the low bytes of the longest value, in the same order. A value is big-endian if it is longer than
+/// `order` or if `order` is empty.
 pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
     let big_endian = length.saturating_sub(1).saturating_sub(at);
     let Some(missing) = order.len().checked_sub(length) else { return big_endian };
@@ -32,7 +32,7 @@ impl<'r> Reader<'r> {
         Self { data, bits: 0 }
     }
 
-    /// Returns the number of unread bytes. A partly read byte doesn't count.
+    /// Returns the number of unread bytes. A byte whose bits have been read in part doesn't count.
     #[must_use]
     pub fn left(&self) -> usize {
         self.data.len().saturating_sub(self.bits.div_ceil(8))
@@ -56,13 +56,13 @@ impl<'r> Reader<'r> {
         (self.bytes(expected.len())? == expected).then_some(())
     }
 
-    /// Reads `count` bytes and checks that they equal the bytes of the request from offset `first` on.
+    /// Reads `count` bytes and checks that they equal the bytes of the request that start at offset `first`.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         self.constant(request.get(first..first.checked_add(count)?)?)
     }
 
-    /// Reads `count` bytes and compares them with the bytes of the request from offset `first` on. If the request is
-    /// shorter, the remaining bytes are not compared.
+    /// Reads `count` bytes and compares them with the bytes of the request that start at offset `first`. If the request
+    /// is shorter, the remaining bytes are not compared.
     pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
         let expected = request.get(first..).unwrap_or_default();
         self.bytes(count)?.iter().zip(expected).all(|(byte, expected)| byte == expected).then_some(())
@@ -99,7 +99,7 @@ impl<'r> Reader<'r> {
         Some(number)
     }
 
-    /// Reads a number in the byte order `order`. The most significant byte has the number 0 in `order`.
+    /// Reads a number in the byte order `order`. `order` lists the bytes in wire order; 0 is the most significant byte.
     pub fn ordered(&mut self, order: &[u8]) -> Option<u64> {
         let bytes = self.bytes(order.len())?;
         let last = order.len().saturating_sub(1);
@@ -112,9 +112,9 @@ impl<'r> Reader<'r> {
 
     /// Reads a value of `length` bytes and returns the value in little-endian byte order. `length` is at most 8.
     ///
-    /// `order` lists the byte numbers of the longest possible value in wire order, with 0 for the most significant
-    /// byte. A shorter value consists of the low bytes of the longest value, in the same order. A value is big-endian
-    /// if it is longer than `order` or if `order` is empty.
+    /// `order` lists the bytes of the longest possible value in wire order; 0 is the most significant byte. A shorter
+    /// value consists of the low bytes of the longest value, in the same order. A value is big-endian if it is longer
+    /// than `order` or if `order` is empty.
     pub fn value(&mut self, order: &[u8], length: usize) -> Option<[u8; 8]> {
         let mut value = [0; 8];
         let bytes = self.bytes(length)?;

@@ -6,10 +6,10 @@ use core::marker::PhantomData;
 use crate::quantity::Quantity;
 use crate::value_error::OutOfRange;
 
-/// The scale of a message field, which converts between raw and physical values. Generated messages provide the scale
-/// as a constant.
+/// The scale of a message field, which converts between raw and physical values. Generated messages have a constant of
+/// this type for each scaled field.
 ///
-/// The documentation of this constant names the unit.
+/// The documentation of the constant names the unit.
 ///
 /// ```
 /// use lexibus::message::Scale;

@@ -75,7 +75,7 @@ impl<V: Fixed, A: Writable, L: On<Serial, Route = Parameter>> Item<V, A, L> {
 }
 
 impl Setting {
-    /// Copies the value into `value` and returns the length in bytes.
+    /// Copies the setting's value into `value` and returns the length in bytes.
     ///
     /// # Errors
     ///
@@ -88,8 +88,8 @@ impl Setting {
         }
     }
 
-    /// Returns the value as the type of `item`. Returns `None` if the setting is for another parameter or the length
-    /// differs.
+    /// Decodes the value with the type of `item`. Returns `None` if the setting is for another parameter, or if the
+    /// lengths differ.
     #[must_use]
     pub fn value_of<V: Fixed, A, L: On<Serial, Route = Parameter>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
         (item.location().route() == self.parameter).then(|| V::decode(self.value()).ok())?

@@ -145,7 +145,8 @@ impl<'b> Writer<'b> {
         Ok(())
     }
 
-    /// Writes a number in the byte order `order`. The most significant byte has the number 0 in `order`.
+    /// Writes a number in the byte order `order`. `order` lists the bytes in wire order; 0 is the most significant
+    /// byte.
     ///
     /// # Errors
     ///
@@ -197,13 +198,13 @@ impl<'b> Writer<'b> {
         }
     }
 
-    /// Writes the number of bytes from offset `first` on into the length field at offset `at`, in the byte order
+    /// Sets the length field at offset `at` to the number of bytes written since offset `first`, in the byte order
     /// `order`.
     ///
     /// # Errors
     ///
     /// Returns [`WriteError::OutOfRange`] if the number doesn't fit into the field, or [`WriteError::Length`] if the
-    /// field ends after the end of the buffer.
+    /// field exceeds the buffer.
     pub fn length(&mut self, at: usize, order: &[u8], first: usize) -> Result<(), WriteError> {
         let (length, bits) = (self.len().saturating_sub(first) as u64, self.bits);
         let room = 8 * order.len() as u32;

@@ -63,8 +63,8 @@ impl<T: BlockItem> BlockItem for &T {
 
 /// `N` items that are read together: a tuple of up to 12 items, or an array of items.
 ///
-/// A tuple of items is read as a tuple of values; an array of items is read as an array of values. The values have the
-/// order of the items. The addresses of the items may be in any order. The values are raw, as from
+/// A tuple of items is read as a tuple of values; an array of items is read as an array of values. The values are in
+/// the order of the items. The items may have any order of addresses. The values are raw, as from
 /// [`Accessor::read`](crate::Accessor::read). Use [`Item::physical`] to convert the raw values to physical values.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Modbus block",
@@ -80,7 +80,7 @@ pub trait Block<const N: usize> {
     /// Returns the register of each item.
     fn registers(&self) -> [Register; N];
 
-    /// Decodes the values. Each value starts at the first of its 8 bytes and may need fewer bytes.
+    /// Decodes the values. Each value is at the start of its 8-byte array; the remaining bytes are ignored.
     ///
     /// # Errors
     ///
@@ -108,7 +108,7 @@ impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
     }
 }
 
-/// Decodes one value from the first bytes.
+/// Decodes one value from the start of `bytes`.
 fn value<T: BlockItem>(item: &T, bytes: &[u8; 8]) -> Result<T::Native, LengthError> {
     item.decode(bytes.get(..T::LENGTH).unwrap_or(bytes))
 }

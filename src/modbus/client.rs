@@ -24,7 +24,8 @@ macro_rules! read_all {
     };
 }
 
-/// Writes a block and reads another one, blocking or async. The last write and the first read are one request if possible.
+/// Writes a block and reads another block, blocking or async. If possible, one request combines the last write and the
+/// first read.
 macro_rules! exchange {
     ($client:ident, $write:ident, $values:ident, $read:ident $(, $await:ident)?) => {{
         let writing = Writing::new(&$write, $values, $client.limits())?;
@@ -49,8 +50,8 @@ macro_rules! exchange {
 
 /// A client that reads and writes several items with one call.
 ///
-/// The provided methods use [`Client::read`] and [`Client::write`]. Implement [`limits`](Self::limits) if you know the [`Limits`] of the
-/// device:
+/// The provided methods use [`Client::read`] and [`Client::write`]. Implement [`limits`](Self::limits) to set the
+/// [`Limits`] of the device:
 ///
 /// ```
 /// # use lexibus::{Client, Error, Modbus, Register};
@@ -79,8 +80,8 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     /// Changes some bits of a holding register: the new value is `held & and | or & !and` (function 22, MODBUS
     /// Application Protocol V1.1b3, 6.16). [`write_masked`](Self::write_masked) calculates the masks.
     ///
-    /// The default implementation reads the register and writes it; no other client should write the register between
-    /// the two requests.
+    /// The default implementation reads the register and then writes it. If another client writes the register between
+    /// the two requests, its change is lost.
     ///
     /// # Errors
     ///
@@ -92,11 +93,11 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         self.write(register, &masked(u16::from_le_bytes(held), and, or).to_le_bytes())
     }
 
-    /// Writes `data` to `write`, then reads `read` to the start of `buffer` and returns the length of the value in
-    /// bytes (function 23, MODBUS Application Protocol V1.1b3, 6.17). [`exchange`](Self::exchange) does the same
-    /// for items.
+    /// Writes `data` to the register `write`, then reads the register `read` into the start of `buffer` (function 23,
+    /// MODBUS Application Protocol V1.1b3, 6.17). Returns the length of the read value in bytes.
+    /// [`exchange`](Self::exchange) does the same for items.
     ///
-    /// The default implementation sends a write request and a read request.
+    /// The default implementation sends a write request, then a read request.
     ///
     /// # Errors
     ///
@@ -113,14 +114,14 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     }
 
     /// Reads items with as few requests as the device allows. The [module documentation](super) describes which items
-    /// one request can read. The whole request fails if the device lacks one of its items.
+    /// one request can read. If the device doesn't have one of the items, the request with this item fails.
     ///
     /// # Errors
     ///
     /// - The errors of [`Client::read`].
     /// - [`Error::Length`] if an item exceeds one request and the device doesn't allow a
-    ///   [split](super::TableLimits::split). The client then sends no request. [`Error::Length`] also occurs if the
-    ///   length of an item's type differs from the length of its registers.
+    ///   [split](super::TableLimits::split). The client then sends no request.
+    /// - [`Error::Length`] if the length of an item's type differs from the length of its registers.
     fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
     where
         Self: Sized,
@@ -130,11 +131,11 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         Ok(block.values(reading.values())?)
     }
 
-    /// Writes the bits of `mask` to those of `value`, in an item of one holding register. The other bits of the
-    /// register don't change. Raw values of any bits are allowed; the range of the item doesn't apply.
+    /// Sets the bits of `mask` to their values in `value`, in an item of one holding register. The other bits of the
+    /// register don't change. The range of the item is not checked.
     ///
-    /// With function 22 in the limits, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client reads
-    /// the register and writes it.
+    /// If the limits include function 22, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client
+    /// reads the register and then writes it.
     ///
     /// # Errors
     ///
@@ -158,7 +159,7 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Client::write`]; after such an error, some items may be written. Returns
+    /// Returns the errors of [`Client::write`]; after such an error, some items may have been written. Returns
     /// [`Error::OutOfRange`] if a value is outside the range of its item; nothing is sent then.
     fn write_block<const N: usize, B: WriteBlock<N>>(
         &mut self,
@@ -177,18 +178,18 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         Ok(())
     }
 
-    /// Writes items, then reads items, with as few requests as the device allows. With function 23 in the limits of
-    /// the holding registers, [`ModbusClient`](crate::clients) writes and reads with one request. The device writes
-    /// before it reads.
+    /// Writes items, then reads items, with as few requests as the device allows. If the limits of the holding
+    /// registers include function 23, [`ModbusClient`](crate::clients) writes and reads with one request. The device
+    /// writes before it reads.
     ///
-    /// Requests are combined if one request can write all items, or the last of them. The first request of the read
-    /// must also be for holding registers. The other requests are sent as in [`write_block`](Self::write_block) and
+    /// The combined request contains the last write and the first read. The write must be for whole holding registers,
+    /// and the read for holding registers. The other requests are sent as in [`write_block`](Self::write_block) and
     /// [`read_block`](Self::read_block).
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`write_block`](Self::write_block) and [`read_block`](Self::read_block). After
-    /// an error of the client, some or all items may be written.
+    /// Returns the errors of [`write_block`](Self::write_block) and [`read_block`](Self::read_block). After an error of
+    /// the client, some or all items may have been written.
     fn exchange<const N: usize, const M: usize, W: WriteBlock<N>, B: Block<M>>(
         &mut self,
         write: W,
@@ -202,7 +203,7 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     }
 }
 
-/// An asynchronous client that reads and writes several items with one call, as [`RegisterClient`] does.
+/// An asynchronous client that reads and writes several items with one call. See [`RegisterClient`].
 #[allow(async_fn_in_trait)]
 pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     /// Returns the limits of the device's requests; by default [`Limits::STANDARD`].
@@ -213,8 +214,8 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     /// Changes some bits of a holding register: the new value is `held & and | or & !and` (function 22, MODBUS
     /// Application Protocol V1.1b3, 6.16). [`write_masked_async`](Self::write_masked_async) calculates the masks.
     ///
-    /// The default implementation reads the register and writes it; no other client should write the register between
-    /// the two requests.
+    /// The default implementation reads the register and then writes it. If another client writes the register between
+    /// the two requests, its change is lost.
     ///
     /// # Errors
     ///
@@ -226,11 +227,11 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         self.write(register, &masked(u16::from_le_bytes(held), and, or).to_le_bytes()).await
     }
 
-    /// Writes `data` to `write`, then reads `read` to the start of `buffer` and returns the length of the value in
-    /// bytes (function 23, MODBUS Application Protocol V1.1b3, 6.17). [`exchange_async`](Self::exchange_async) does the same
-    /// for items.
+    /// Writes `data` to the register `write`, then reads the register `read` into the start of `buffer` (function 23,
+    /// MODBUS Application Protocol V1.1b3, 6.17). Returns the length of the read value in bytes.
+    /// [`exchange_async`](Self::exchange_async) does the same for items.
     ///
-    /// The default implementation sends a write request and a read request.
+    /// The default implementation sends a write request, then a read request.
     ///
     /// # Errors
     ///
@@ -260,11 +261,11 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         Ok(block.values(reading.values())?)
     }
 
-    /// Writes the bits of `mask` to those of `value`, in an item of one holding register. The other bits of the
-    /// register don't change. Raw values of any bits are allowed; the range of the item doesn't apply.
+    /// Sets the bits of `mask` to their values in `value`, in an item of one holding register. The other bits of the
+    /// register don't change. The range of the item is not checked.
     ///
-    /// With function 22 in the limits, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client reads
-    /// the register and writes it.
+    /// If the limits include function 22, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client
+    /// reads the register and then writes it.
     ///
     /// # Errors
     ///
@@ -288,7 +289,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`AsyncClient::write`]; after such an error, some items may be written. Returns
+    /// Returns the errors of [`AsyncClient::write`]; after such an error, some items may have been written. Returns
     /// [`Error::OutOfRange`] if a value is outside the range of its item; nothing is sent then.
     async fn write_block_async<const N: usize, B: WriteBlock<N>>(
         &mut self,
@@ -307,18 +308,19 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         Ok(())
     }
 
-    /// Writes items, then reads items, with as few requests as the device allows. With function 23 in the limits of
-    /// the holding registers, [`ModbusClient`](crate::clients) writes and reads with one request. The device writes
-    /// before it reads.
+    /// Writes items, then reads items, with as few requests as the device allows. If the limits of the holding
+    /// registers include function 23, [`ModbusClient`](crate::clients) writes and reads with one request. The device
+    /// writes before it reads.
     ///
-    /// Requests are combined if one request can write all items, or the last of them. The first request of the read
-    /// must also be for holding registers. The other requests are sent as in
+    /// The combined request contains the last write and the first read. The write must be for whole holding registers,
+    /// and the read for holding registers. The other requests are sent as in
     /// [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async).
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async). After
-    /// an error of the client, some or all items may be written.
+    /// Returns the errors of [`write_block_async`](Self::write_block_async) and
+    /// [`read_block_async`](Self::read_block_async). After an error of the client, some or all items may have been
+    /// written.
     async fn exchange_async<const N: usize, const M: usize, W: WriteBlock<N>, B: Block<M>>(
         &mut self,
         write: W,
@@ -332,7 +334,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     }
 }
 
-/// Returns whether function 23 can write and read these registers.
+/// Returns whether one request with function 23 can write and read these registers.
 pub(crate) fn is_combined(write: &Register, read: &Register) -> bool {
     let is_holding = |register: &Register| register.table == RegisterTable::Holding;
     is_holding(write) && write.part.is_none() && is_holding(read)

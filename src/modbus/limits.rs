@@ -45,8 +45,8 @@ pub struct TableLimits {
     /// True if a value that exceeds one request is split into several requests. A transfer in several requests isn't
     /// atomic: the device or the client may see a mix of the old and the new value.
     pub split: bool,
-    /// Addresses that a request can include between the addresses of items. Readable addresses exist on every model,
-    /// and reading them has no side effects.
+    /// Addresses that a read request may include if they are between the addresses of two items. These addresses exist
+    /// on every model, and reading them has no side effects.
     pub readable: &'static [Span],
 }
 
@@ -95,8 +95,8 @@ impl TableLimits {
         Self { functions: &[], max_read, max_write, split: false, readable: &[] }
     }
 
-    /// Returns whether the table supports a function. If the device description lists no functions, returns true for
-    /// every function.
+    /// Returns whether the device supports a function for this table. If the device description lists no functions,
+    /// returns true for every function.
     #[must_use]
     pub const fn takes(&self, function: u8) -> bool {
         self.functions.is_empty() || self.names(function)

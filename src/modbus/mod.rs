@@ -1,4 +1,4 @@
-//! Accesses to several Modbus values at once, and the limits of a device's requests.
+//! Access to several Modbus values with one request, and the limits of a device's requests.
 //!
 //! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`],
 //! which reads any number of values with as few requests as the device allows.
@@ -44,11 +44,11 @@
 //!
 //! # Items in one request
 //!
-//! One request reads values of the same table at consecutive addresses. Addresses between the values are included if
-//! the [`Limits`] of the device allow it. Generated bindings contain the limits as the constant `MODBUS`. A request
-//! never exceeds the device's limit, and never includes an address that isn't in the device description. The values of
-//! one request are consistent if the device updates its registers together. The values of different requests are not
-//! consistent. [`Plan`] can compute the requests at compile time.
+//! One request reads values of the same table at consecutive addresses. A request also includes addresses between the
+//! values if the [`Limits`] of the device allow it. Generated bindings contain the limits as the constant `MODBUS`. A
+//! request never exceeds the device's limit, and never includes an address that isn't in the device description. The
+//! values of one request are consistent if the device updates its registers together. The values of different requests
+//! are not consistent. [`Plan`] can compute the requests at compile time.
 //!
 //! [`RegisterClient::write_block`] writes adjacent holding registers with one request. [`RegisterClient::exchange`]
 //! writes and reads with one request if the device supports function 23. [`RegisterClient::write_masked`] changes some

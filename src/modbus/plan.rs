@@ -28,7 +28,7 @@ use crate::value_error::LengthError;
 pub struct Plan<const N: usize> {
     /// The first `len` entries are the requests.
     requests: [Register; N],
-    /// Index of the request for each item; `N` if the request isn't known yet.
+    /// Index of the request for each item; `N` if the item isn't planned yet.
     request_of: [usize; N],
     len: usize,
 }
@@ -38,8 +38,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`LengthError`], in bytes, if an item has no registers. [`LengthError`] also occurs if an item exceeds
-    /// one request and the device doesn't allow a [split](super::TableLimits::split).
+    /// Returns [`LengthError`] if an item has no registers, or if an item exceeds one request and the device doesn't
+    /// allow a [split](super::TableLimits::split).
     #[expect(clippy::indexing_slicing, reason = "`at` and `first` are below `N`, and there are at most `N` requests")]
     pub const fn new(items: [Register; N], limits: &Limits) -> Result<Self, LengthError> {
         let mut at = 0;
@@ -68,8 +68,8 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// Returns the requests. The request for a single item is the register of this item. Requests for several items
-    /// return bits or words in the order of their addresses ([`WordOrder::LowFirst`]).
+    /// Returns the requests. The request for a single item is the register of this item. A request for several items
+    /// reads bits or words in the order of their addresses ([`WordOrder::LowFirst`]).
     #[must_use]
     pub const fn requests(&self) -> &[Register] {
         self.requests.split_at(self.len).0
@@ -92,8 +92,8 @@ impl<const N: usize> Plan<N> {
         &self.request_of
     }
 
-    /// Returns the item at which the next request begins. This item has the lowest address among the items that are
-    /// compatible with the first unassigned item.
+    /// Returns the index of the item at which the next request begins. This item has the lowest address among the items
+    /// that are compatible with the first unassigned item.
     #[expect(clippy::indexing_slicing, reason = "`at` and `found` are below `N`")]
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);

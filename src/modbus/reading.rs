@@ -65,8 +65,8 @@ impl<const N: usize> Reading<N> {
         &self.values
     }
 
-    /// Returns the item of the current request if the request reads only this item. A request for one item reads the
-    /// item in the same way as a request outside a block.
+    /// Returns the index of the item, if the current request reads only one item. A request for one item reads the item
+    /// in the same way as a request outside a block.
     fn only_item(&self) -> Option<usize> {
         let mut items = (0..N).zip(self.plan.request_of()).filter(|(_, of)| **of == self.answered).map(|(at, _)| at);
         items.next().filter(|_| items.next().is_none())

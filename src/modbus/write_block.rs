@@ -29,7 +29,7 @@ pub trait WriteItem {
     /// Returns the register of the item.
     fn register(&self) -> Register;
 
-    /// Encodes a value at the start of 8 bytes, the least significant byte first.
+    /// Encodes a value into the first bytes of the array, the least significant byte first.
     ///
     /// # Errors
     ///
@@ -94,7 +94,7 @@ pub trait WriteBlock<const N: usize> {
     /// Returns the register of each item.
     fn registers(&self) -> [Register; N];
 
-    /// Encodes the values. Each value starts at the first of its 8 bytes and may need fewer bytes.
+    /// Encodes the values. Each value is at the start of its 8-byte array.
     ///
     /// # Errors
     ///
@@ -181,7 +181,7 @@ impl<const N: usize> Writing<N> {
         }
     }
 
-    /// Joins several items in adjacent holding registers into one write. Bits and parts of registers are not joined.
+    /// Joins several items in adjacent holding registers into one write. Coils and parts of registers are not joined.
     fn join(&self, limits: &Limits) -> Result<Option<(Register, [u8; MAX_BYTES])>, LengthError> {
         let can_join = |register: &Register| register.table == RegisterTable::Holding && register.part.is_none();
         if N < 2 || !self.registers.iter().all(can_join) {
@@ -212,7 +212,7 @@ impl<const N: usize> Writing<N> {
 }
 
 /// Returns the address and the masks of a mask write request (function 22) that sets the bits of `mask` to those of
-/// `value`. The masks contain the bits to keep and the bits to set.
+/// `value`. The first mask contains the bits to keep, and the second mask contains the bits to set.
 pub(super) fn masks<I: WriteItem, E>(item: &I, value: I::Native, mask: I::Native) -> Result<(u16, u16, u16), Error<E>> {
     let register = item.register();
     let length = I::LENGTH.min(8);
@@ -229,7 +229,7 @@ pub(super) fn masks<I: WriteItem, E>(item: &I, value: I::Native, mask: I::Native
     Ok((register.address, !mask, value & mask))
 }
 
-/// Returns the register after a mask write request (MODBUS Application Protocol V1.1b3, 6.16).
+/// Returns the value of the register after a mask write request (MODBUS Application Protocol V1.1b3, 6.16).
 pub(crate) const fn masked(held: u16, and: u16, or: u16) -> u16 {
     held & and | or & !and
 }

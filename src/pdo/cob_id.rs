@@ -42,18 +42,18 @@ impl CobId {
     }
 }
 
-/// Bit of a COB-ID: the CAN-ID has 29 bits.
+/// Bit 29 of a COB-ID: the CAN-ID has 29 bits.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const EXTENDED: u32 = 1 << 29;
 
-/// Returns whether a number is a CAN-ID: 11 bits, or 29 bits and bit 29.
+/// Returns whether a number is a valid CAN-ID: 11 bits, or 29 bits with bit 29 set.
 #[cfg(feature = "canopen")]
 pub(crate) const fn is_can_id(id: u32) -> bool {
     id <= 0x7FF || id >> 29 == 1
 }
 
-/// Returns the CAN-ID of a COB-ID, with bit 29 if the CAN-ID has 29 bits. Returns `None` if a CAN-ID of 11 bits has
-/// higher bits. Ignores bits 30 and 31, whose meaning depends on the object.
+/// Returns the CAN-ID of a COB-ID, with bit 29 set if the CAN-ID has 29 bits. Returns `None` if a CAN-ID with more than
+/// 11 bits is used without bit 29. Ignores bits 30 and 31, whose meaning depends on the object.
 #[cfg(feature = "canopen")]
 pub(crate) const fn can_id(cob_id: u32) -> Option<u32> {
     let id = cob_id & (EXTENDED | 0x1FFF_FFFF);
@@ -64,8 +64,8 @@ pub(crate) const fn can_id(cob_id: u32) -> Option<u32> {
     }
 }
 
-/// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). The CAN-IDs of NMT, SDO and heartbeat are restricted,
-/// and so are reserved CAN-IDs.
+/// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). Restricted CAN-IDs are the CAN-IDs of NMT, SDO and
+/// heartbeat, and reserved CAN-IDs.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
     // CAN-IDs of 29 bits are a separate range, of which none is restricted.

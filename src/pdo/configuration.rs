@@ -7,7 +7,7 @@ use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 
-/// COB-ID bits: the PDO is disabled, and remote requests are refused.
+/// Bit 31 of a COB-ID: the PDO is disabled. Bit 30: the PDO refuses remote requests.
 const DISABLED: u32 = 1 << 31;
 const NO_REMOTE_REQUESTS: u32 = 1 << 30;
 
@@ -25,8 +25,8 @@ impl PdoParameters {
     /// # Errors
     ///
     /// - [`PdoParameterError::NoCobId`] if `configuration` doesn't write the COB-ID.
-    /// - The other variants of [`PdoParameterError`] if a parameter is out of range, or contradicts the direction of the
-    ///   PDO or another parameter.
+    /// - The other variants of [`PdoParameterError`] if a parameter is out of range, or conflicts with the direction of
+    ///   the PDO or with another parameter.
     pub const fn configure<const N: usize>(
         self,
         configuration: [SdoWrite; N],
@@ -71,7 +71,7 @@ const fn communication(configuration: &[SdoWrite]) -> Option<u16> {
     }
 }
 
-/// Returns the value that the configuration writes first to a sub-index of an object.
+/// Returns the first value that the configuration writes to a sub-index of an object.
 #[expect(clippy::indexing_slicing, reason = "`at` is below the length")]
 const fn value(configuration: &[SdoWrite], index: u16, sub_index: u8) -> Option<u32> {
     let mut at = 0;
@@ -85,7 +85,8 @@ const fn value(configuration: &[SdoWrite], index: u16, sub_index: u8) -> Option<
     None
 }
 
-/// The next write of a configuration. A number is a position in the list of parameters, or in the configuration.
+/// The next write of a configuration. `Parameter` contains a position in [`SUB_INDICES`], and `Mapping` contains a
+/// position in the configuration.
 #[derive(Clone, Copy, Debug)]
 enum Step {
     Disable,
@@ -150,7 +151,8 @@ impl<const N: usize> PdoConfiguration<N> {
         Ok(())
     }
 
-    /// Returns the write of a communication parameter, or `None` if the parameter doesn't change.
+    /// Returns the write of a communication parameter, or `None` if neither the parameters nor the configuration set
+    /// it.
     fn parameter(&self, sub_index: u8) -> Option<SdoWrite> {
         let index = self.communication;
         let new = match sub_index {

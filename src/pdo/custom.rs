@@ -62,7 +62,7 @@ pub enum AnyPdo {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoPdo {}
 
-/// Marks a CANopen PDO without a default COB-ID.
+/// Marks a CANopen PDO that has no default COB-ID.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCobId {}
 
@@ -101,7 +101,7 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     const WORD: u32 = WORD;
 }
 
-/// Marks the directions of objects that can be mapped.
+/// Marks the directions of mappable objects: [`Rpdo`], [`Tpdo`] and [`AnyPdo`].
 #[diagnostic::on_unimplemented(
     message = "this object is not mappable",
     label = "the description doesn't allow it in a PDO",
@@ -117,7 +117,8 @@ impl IsMappable for Rpdo {}
 impl IsMappable for Tpdo {}
 impl IsMappable for AnyPdo {}
 
-/// Marks the directions of objects that can be mapped into PDOs of direction `D`.
+/// Marks the directions of objects that can be mapped into PDOs of direction `D`. [`NoPdo`] also has this trait, so
+/// that only [`IsMappable`] reports an unmappable object.
 #[diagnostic::on_unimplemented(
     message = "this object is mappable only into a `{Self}`, and the PDO is an `{D}`",
     label = "the device allows it only in the other direction",
@@ -133,8 +134,8 @@ impl MappableInto<Tpdo> for Tpdo {}
 impl<D> MappableInto<D> for AnyPdo {}
 impl<D> MappableInto<D> for NoPdo {}
 
-/// Only [`CobId`] implements this trait. The trait has a lifetime parameter, so that rustc checks the bound only when
-/// the method is called.
+/// Only [`CobId`] implements this trait. The trait has a lifetime parameter, so that rustc checks a bound with this
+/// trait only when the method with the bound is called.
 #[diagnostic::on_unimplemented(
     message = "this PDO has no default COB-ID",
     label = "the default COB-ID is unknown",
@@ -203,7 +204,7 @@ pub trait FitsLength {
 
 impl FitsLength for Check<true> {}
 
-/// Checks that [`pdo!`](crate::pdo!) makes at compile time.
+/// Checks that [`pdo!`](crate::pdo!) performs at compile time.
 pub mod check {
     use super::{MappedEntry, Remappable};
 
@@ -213,7 +214,8 @@ pub mod check {
         P::GRANULARITY == 0 || bits % P::GRANULARITY == 0
     }
 
-    /// Returns whether the device can map every gap.
+    /// Returns whether every gap has a mapping entry. [`gap`](super::gap) returns 0 for a gap that the device doesn't
+    /// support.
     #[must_use]
     pub const fn has_gaps(mapping: &[MappedEntry]) -> bool {
         !contains(mapping, 0)
@@ -316,8 +318,8 @@ pub const fn bits(mapping: &[MappedEntry]) -> u32 {
     bits
 }
 
-/// Returns the writes that change the mapping: clear the mapping, write the entries, write their number. `N` is the
-/// number of entries plus 2.
+/// Returns the writes that change the mapping: clear the mapping, write the entries, write the number of entries. `N`
+/// is the number of entries plus 2.
 ///
 /// While you send the writes of a mapping, a CANopen PDO must be disabled, and an EtherCAT device must be in
 /// Pre-Operational.
@@ -335,7 +337,8 @@ pub const fn configuration_len<P: Remappable>(mapping: &[MappedEntry]) -> usize 
 }
 
 /// Returns the writes that configure a CANopen PDO (CiA 301 7.5.2.36). In order, they disable the PDO, clear the
-/// mapping, write the entries and their number, set the timing, and enable the PDO. Read-only parameters are left out.
+/// mapping, write the entries and their number, set the transmission type and timers, and enable the PDO. Read-only
+/// parameters are left out.
 #[must_use]
 #[expect(clippy::indexing_slicing, reason = "`N` is `configuration_len`")]
 pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry], cob_id: u32) -> [SdoWrite; N] {
@@ -358,8 +361,8 @@ pub const fn configuration<P: Remappable, const N: usize>(mapping: &[MappedEntry
     out
 }
 
-/// Writes a mapping into `out` from `first` on. The element of `out` at `first` is already the write that clears the
-/// mapping.
+/// Writes a mapping into `out`, starting at `first`. The element of `out` at `first` is already the write that clears
+/// the mapping.
 #[expect(clippy::indexing_slicing, reason = "`N` is at least `first` and the number of writes of the mapping")]
 const fn put_mapping<P: Remappable, const N: usize>(
     mut out: [SdoWrite; N],

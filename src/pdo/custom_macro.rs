@@ -2,8 +2,8 @@
 //!
 //! A declarative macro needs no cargo feature and runs no code on the build machine. The macro refers to names in
 //! generated code: PDOs in the module `remappable`, objects in `mappable`. If a name is unknown, rustc reports the
-//! error at the position of the name. A conflict between two parts of the mapping causes the compile error that a trait
-//! isn't implemented. A conflict of the whole mapping causes a panic in a constant.
+//! error at the position of the name. If a single field is invalid, rustc reports that a trait isn't implemented. If
+//! the mapping as a whole is invalid, a constant panics at compile time.
 
 /// Declares a custom mapping: a struct for a PDO with a writable mapping. The mapping is checked at compile time.
 ///
@@ -38,12 +38,13 @@
 /// # Ok::<(), lexibus::LengthError>(())
 /// ```
 ///
-/// The path in the declaration is the path of the PDO's struct in the module `pdo` of the device. PDOs without a
-/// default mapping have paths of the same form.
+/// The path in the declaration is the path of the PDO's struct in the module `pdo` of the device. Use a path of the
+/// same form for a PDO without a default mapping, although such a PDO has no struct.
 ///
-/// A field has the name and value type of an accessor, such as `controlword`. For an entry of an array or a record,
-/// write a field name and the path of the entry: `pressure: analog_inputs::input_2`. `_: 8` is a gap of 8 bits. On
-/// EtherCAT, a gap is padding. On CANopen, a gap is a dummy entry (CiA 301 7.4.9.2) that the device must support.
+/// A field has the name and the value type of an accessor of the device, such as `controlword`. For an entry of an
+/// array or a record, write a field name and the path of the entry: `pressure: analog_inputs::input_2`. `_: 8` is a gap
+/// of 8 bits. On EtherCAT, a gap is padding. On CANopen, a gap is a dummy entry (CiA 301 7.4.9.2) that the device must
+/// support.
 ///
 /// The macro keeps the attributes of the struct and its fields. Use `#[derive]` for the traits that you need.
 ///
@@ -68,8 +69,8 @@
 ///   or the maximum length of the sync manager on EtherCAT.
 /// - The mapping must include all fixed entries (`Fixed`, ETG.2000).
 ///
-/// An object can be mapped if the device description allows it or maps the object by default. If the description is
-/// incomplete, use an overlay to set `pdo = "rx"`, `"tx"` or `"both"`.
+/// An object is mappable if the device description allows its mapping, or maps the object by default. If the
+/// description is incomplete, use an overlay to set `pdo = "rx"`, `"tx"` or `"both"`.
 ///
 /// A mapping of more than 60 fields with doc comments may need `#![recursion_limit = "256"]`.
 #[macro_export]
@@ -196,7 +197,8 @@ macro_rules! pdo {
                 }
             }
 
-            /// Returns only the writes of the mapping: clear the mapping, write the entries, write their number.
+            /// Returns only the writes of the mapping: clear the mapping, write the entries, write the number of
+            /// entries.
             ///
             /// On EtherCAT, send the writes in Pre-Operational while the PDO is not assigned. On CANopen, the PDO must
             /// be disabled.
@@ -222,8 +224,8 @@ macro_rules! pdo {
             }
 
             /// Returns the writes that configure the PDO in a CANopen device with the given COB-ID. In order, they
-            /// disable the PDO, clear the mapping, write the entries and their number, set the timing, and enable the
-            /// PDO. Read-only parameters are left out.
+            /// disable the PDO, clear the mapping, write the entries and their number, set the transmission type and
+            /// timers, and enable the PDO. Read-only parameters are left out.
             #[must_use]
             pub const fn configuration_as(
                 cob_id: u32,

@@ -14,7 +14,7 @@ use crate::wide::{Int, Uint};
     label = "expected a type with a fixed number of bits"
 )]
 pub trait Field: Copy {
-    /// Returns the field in the low bits of a word. Bits above the length of the field are undefined.
+    /// Returns a word with the value of the field in the low bits. Bits above the length of the field are undefined.
     #[must_use]
     fn to_word(self) -> u64;
 
@@ -111,7 +111,7 @@ impl<const N: usize> Field for [u8; N] {
 
 /// The `LEN` bytes of a PDO to which fields are being added. The code of [`pdo!`](crate::pdo!) uses this type.
 ///
-/// A frame of up to 8 bytes is handled as one word, so that the compiler can evaluate all shifts.
+/// A frame of up to 8 bytes is stored as one word, so that the compiler can evaluate all shifts at compile time.
 pub struct Frame<const LEN: usize> {
     word: u64,
     data: [u8; LEN],

@@ -12,7 +12,7 @@ pub struct MappedEntry {
     pub sub_index: u8,
     /// Slot dependency of the index, for a module of an EtherCAT slave.
     pub depends_on: DependsOn,
-    /// Length in bits. In a mapping object, the length is at most 255. A fixed mapping may have longer entries.
+    /// Length in bits. In a mapping object, the length is at most 255. A read-only mapping may have longer entries.
     pub bits: u32,
 }
 

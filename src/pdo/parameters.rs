@@ -11,16 +11,18 @@ pub enum TransmissionType {
     /// next SYNC.
     SynchronousAcyclic,
     /// Synchronous, cyclic (1 to 240). The device sends the TPDO after every nth SYNC. An RPDO takes effect at the next
-    /// SYNC, for each n.
+    /// SYNC, regardless of n.
     EverySync(u8),
-    /// Sampled at SYNC, sent on remote request (252); only for TPDOs.
+    /// On remote request, synchronous (252); only for TPDOs. The device samples the data at a SYNC and sends the TPDO
+    /// on a remote request.
     SampledOnSync,
-    /// Sent on remote request (253); only for TPDOs.
+    /// On remote request, event-driven (253); only for TPDOs. The device samples the data and sends the TPDO on a
+    /// remote request.
     OnRemoteRequest,
-    /// Event-driven, with events that the manufacturer defines (254). An RPDO takes effect at once.
+    /// Event-driven, with events that the manufacturer defines (254). An RPDO takes effect immediately.
     ManufacturerEvent,
-    /// Event-driven, with events that the device profile or application profile defines (255). An RPDO takes effect at
-    /// once.
+    /// Event-driven, with events that the device profile or application profile defines (255). An RPDO takes effect
+    /// immediately.
     ProfileEvent,
 }
 
@@ -61,7 +63,7 @@ impl TransmissionType {
 }
 
 /// Communication parameters of a PDO (CiA 301 7.5.2.35 and 7.5.2.37). [`configure`](Self::configure) adds them to the
-/// configuration of a PDO struct. Parameters that are not set keep the value in the configuration, or in the device.
+/// configuration of a PDO struct. A parameter that is not set keeps its value in the configuration or in the device.
 ///
 /// ```
 /// use core::time::Duration;
@@ -106,13 +108,13 @@ pub(super) struct Defaults {
     pub refuses_remote_requests: bool,
 }
 
-/// Parameters as the object dictionary contains them.
+/// Parameters as raw values of the object dictionary.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RawParameters {
     pub transmission: Option<u8>,
-    /// In units of 100 µs.
+    /// Inhibit time in units of 100 µs.
     pub inhibit_time: Option<u16>,
-    /// In ms.
+    /// Event timer in ms.
     pub event_timer: Option<u16>,
     pub sync_start: Option<u8>,
     pub remote_requests: Option<bool>,
@@ -147,20 +149,20 @@ impl PdoParameters {
     }
 
     /// Sets the SYNC start value (sub-index 6), 1 to 240. The SYNC message with this counter value counts as the first
-    /// SYNC for a cyclic TPDO. 0 disables the SYNC start value. The SYNC messages must contain a counter (0x1019).
+    /// SYNC for a cyclic TPDO. The value 0 disables the SYNC start value. The SYNC messages must contain a counter
+    /// (0x1019).
     #[must_use]
     pub const fn sync_start(self, counter: u8) -> Self {
         Self { sync_start: Some(counter), ..self }
     }
 
-    /// Sets whether the TPDO can be requested with a remote frame (bit 30 of the COB-ID, which is set if remote requests
-    /// are refused).
+    /// Allows or refuses remote requests for the TPDO (bit 30 of the COB-ID; a set bit refuses them).
     #[must_use]
     pub const fn remote_requests(self, are_allowed: bool) -> Self {
         Self { remote_requests: Some(are_allowed), ..self }
     }
 
-    /// Checks the parameters and converts them.
+    /// Checks the parameters and converts them to raw values.
     pub(super) const fn raw(self, defaults: Defaults) -> Result<RawParameters, PdoParameterError> {
         if let Err(error) = self.check_transmission(defaults) {
             return Err(error);

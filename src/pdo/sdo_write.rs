@@ -8,7 +8,7 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::node_id::NodeId;
 
-/// A write of a value to an object. A configuration is a list of SDO writes.
+/// An SDO write: an object, and the value to write. A configuration is a list of SDO writes.
 ///
 /// ```
 /// use lexibus::SdoWrite;

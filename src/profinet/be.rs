@@ -8,7 +8,7 @@ use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};
 use crate::value_error::LengthError;
 
-/// Returns the `N` bytes from `at` on. Returns zeros if the data are too short.
+/// Returns `N` bytes that start at byte offset `at`. Returns zeros if the data are too short.
 #[must_use]
 #[inline]
 pub const fn bytes<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
@@ -74,7 +74,8 @@ pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     }
 }
 
-/// Returns how many bytes contain bits of a field, at most 8. The field has `width` bits at bit offset `shift`.
+/// Returns the number of bytes that contain bits of a field, at most 8. The field has `width` bits at bit offset
+/// `shift`.
 const fn touched(shift: u32, width: u32) -> usize {
     let bytes = shift.saturating_add(width).div_ceil(8);
     if bytes > 8 {
@@ -84,7 +85,7 @@ const fn touched(shift: u32, width: u32) -> usize {
     }
 }
 
-/// Returns how many bits of a field are in a ninth byte, or `None` if the field ends before the ninth byte.
+/// Returns the number of bits that a field has in a ninth byte, or `None` if the field ends before the ninth byte.
 const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     if shift < 8 && width <= 64 && shift + width > 64 {
         Some(8 - shift)
@@ -93,8 +94,7 @@ const fn in_ninth(shift: u32, width: u32) -> Option<u32> {
     }
 }
 
-/// Reads an unsigned number of `width` bits, 1 to 64. The number starts at bit offset `shift` of the bytes from `at`
-/// on.
+/// Reads an unsigned number of `width` bits, 1 to 64. The number starts at byte offset `at` and bit offset `shift`.
 #[must_use]
 #[inline]
 #[expect(clippy::indexing_slicing, reason = "`next` is below the length")]
@@ -138,8 +138,7 @@ bits! {
     bits_u64 u64, bits_i64 i64;
 }
 
-/// Writes the low `width` bits of `value` at bit offset `shift` of the bytes from `at` on. All other bits keep their
-/// values.
+/// Writes the low `width` bits of `value` at byte offset `at` and bit offset `shift`. All other bits keep their values.
 #[inline]
 pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64) {
     if let Some(low) = in_ninth(shift, width) {

@@ -22,9 +22,9 @@ const CYCLE: Duration = Duration::from_millis(1);
 ///
 /// Outputs keep the values that were written last. The caller sets the status of the outputs, for example with
 /// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once. When a write returns, the data
-/// have been sent. When a read returns, the data are from the exchange of this access. If the program has its own
-/// cycle, call [`by_hand`](Self::by_hand). After this call, only [`cycle`](Self::cycle) exchanges the frames, and one
-/// cycle can send several fields together.
+/// have been sent. A read returns data that were received in its own exchange. If the program has its own cycle, call
+/// [`by_hand`](Self::by_hand). After this call, reads and writes don't exchange the frames, and one
+/// [`cycle`](Self::cycle) can send several fields together.
 ///
 /// ```
 /// use lexibus::profinet::{Cyclic, ImageClient, SubmoduleIo, IoSpan, IoStatus};
@@ -72,8 +72,8 @@ impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O,
         Self { image, submodule, outputs, inputs, is_by_hand: false }
     }
 
-    /// Turns off the frame exchange in each access. Instead, the caller must call [`cycle`](Self::cycle) or
-    /// [`cycle_async`](Self::cycle_async). An access that waits still exchanges frames.
+    /// Disables the frame exchange in reads and writes. The caller must call [`cycle`](Self::cycle) or
+    /// [`cycle_async`](Self::cycle_async) instead. [`Client::wait`] still exchanges frames.
     #[must_use]
     pub fn by_hand(self) -> Self {
         Self { is_by_hand: true, ..self }
@@ -126,7 +126,7 @@ fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     span.ok_or(LengthError::new(1, 0))
 }
 
-/// Splits the next step off the remaining waiting time. A step is at most [`CYCLE`].
+/// Subtracts the next step from the remaining waiting time and returns the step, at most [`CYCLE`].
 fn step(left: &mut Duration) -> Option<Duration> {
     let step = (*left).min(CYCLE);
     *left -= step;
@@ -174,7 +174,7 @@ macro_rules! clients {
                 self.$cycle()$(.$await)?
             }
 
-            /// Waits and continues to exchange frames.
+            /// Waits, and exchanges frames during the waiting time.
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
                 let mut left = time;
                 self.$cycle()$(.$await)??;

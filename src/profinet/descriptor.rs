@@ -11,7 +11,7 @@ pub struct Dap {
     pub slot: u16,
     /// The device access point as a module, with its ident number, name and submodules.
     pub module: Module,
-    /// Available slots, as ranges of the first and the last slot number.
+    /// Available slots, as ranges `(first, last)` of slot numbers.
     pub slots: &'static [(u16, u16)],
     /// Modules that the device supports.
     pub modules: &'static [ModuleUse],
@@ -41,8 +41,8 @@ pub struct Module {
     pub name: &'static str,
     /// Built-in submodules, and submodules that can be plugged in.
     pub submodules: &'static [SubmoduleUse],
-    /// Available subslots, as ranges of the first and the last number. If the list is empty, the available subslots are
-    /// the subslots of the submodules.
+    /// Available subslots, as ranges `(first, last)` of subslot numbers. If the list is empty, the subslots of the
+    /// submodules are available.
     pub subslots: &'static [(u16, u16)],
 }
 
@@ -122,20 +122,20 @@ impl Record {
     }
 }
 
-/// The slots of a module, or the subslots of a submodule, as ranges of the first and the last number. If all lists are
-/// empty, every slot is allowed.
+/// The slots of a module, or the subslots of a submodule, as ranges `(first, last)` of numbers. If all lists are empty,
+/// every slot or subslot is allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
     /// Slots or subslots into which the module or submodule can be plugged.
     pub allowed: &'static [(u16, u16)],
-    /// Slots or subslots in which the module or submodule is built in.
+    /// Slots or subslots into which the module or submodule is built.
     pub fixed: &'static [(u16, u16)],
-    /// Slots or subslots in which the module or submodule is plugged by default.
+    /// Slots or subslots into which the module or submodule is plugged by default.
     pub used: &'static [(u16, u16)],
 }
 
 impl Places {
-    /// Creates the lists of slots or subslots.
+    /// Creates the value from its three lists of slots or subslots.
     #[must_use]
     pub const fn new(
         allowed: &'static [(u16, u16)],
@@ -145,13 +145,13 @@ impl Places {
         Self { allowed, fixed, used }
     }
 
-    /// Creates a list of slots or subslots in which the module or submodule is built in.
+    /// Creates the value for a module or submodule that is built into these slots or subslots.
     #[must_use]
     pub const fn fixed(fixed: &'static [(u16, u16)]) -> Self {
         Self::new(&[], fixed, &[])
     }
 
-    /// Creates a list of slots or subslots into which the module or submodule can be plugged.
+    /// Creates the value for a module or submodule that can be plugged into these slots or subslots.
     #[must_use]
     pub const fn allowed(allowed: &'static [(u16, u16)]) -> Self {
         Self::new(allowed, &[], &[])
@@ -164,7 +164,7 @@ impl Places {
         anywhere || contains(self.allowed, place) || contains(self.fixed, place) || contains(self.used, place)
     }
 
-    /// Returns whether the slot or subslot is fixed.
+    /// Returns whether the module or submodule is built into this slot or subslot.
     #[must_use]
     pub const fn is_fixed(&self, place: u16) -> bool {
         contains(self.fixed, place)

@@ -1,12 +1,12 @@
 //! F-parameters of PROFIsafe.
 //!
-//! The checksum F_Par_CRC has the polynomial 0x4EAB and the start value 0. The checksum covers F_iPar_CRC first, and
-//! then all other fields. The layout and the checksum of the record have been compared with the default values in the
-//! GSDML files of several vendors.
+//! The checksum F_Par_CRC is a 16-bit CRC with the polynomial 0x4EAB and the initial value 0. The checksum covers
+//! F_iPar_CRC first, and then all other fields. The layout and the checksum of the record have been checked against the
+//! default values in the GSDML files of several vendors.
 
 use crate::value_error::LengthError;
 
-/// Writes bytes at offset `$at` of an array. This macro can be used in constants.
+/// Writes bytes at offset `$at` of an array. This macro can be used in `const` functions.
 macro_rules! push {
     ($record:ident, $at:ident, $bytes:expr) => {
         let bytes = $bytes;

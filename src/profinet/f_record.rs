@@ -58,7 +58,7 @@ impl FField {
 pub struct FLimit {
     /// The F-parameter whose values are limited.
     pub field: FField,
-    /// Allowed ranges, with their first and last value, encoded as in the record.
+    /// Allowed ranges. Each range consists of its first and last value, encoded as in the record.
     pub allowed: &'static [(u32, u32)],
 }
 
@@ -106,7 +106,7 @@ impl<const LEN: usize> FRecord<LEN> {
     ///
     /// # Errors
     ///
-    /// Returns [`NotAllowed`] if an F-parameter has a value that isn't allowed. [`NotAllowed`] also occurs if the
+    /// Returns [`NotAllowed`] if an F-parameter has a value that isn't allowed. Also returns [`NotAllowed`] if the
     /// record has F_WD_Time_2, because the checksum cannot be computed. For a record with F_WD_Time_2, use
     /// [`FParameters::encode_with_crc`].
     pub fn encode(&self, parameters: &FParameters) -> Result<[u8; LEN], NotAllowed> {

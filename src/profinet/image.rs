@@ -43,8 +43,8 @@ pub trait ImageClient {
 
     /// Sends `outputs` in the next cycle and copies the last received frame to `inputs`.
     ///
-    /// [`Plan::lengths`] returns the lengths of both frames. If a bus library has its own cycle, the implementation
-    /// copies the data and returns at once.
+    /// [`Plan::lengths`] returns the lengths of both frames. If the bus library exchanges frames in its own cycle, this
+    /// method only copies the data and returns immediately.
     ///
     /// # Errors
     ///
@@ -52,14 +52,15 @@ pub trait ImageClient {
     /// the wrong length.
     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Waits, as [`Client::wait`](crate::Client::wait) does.
+    /// Waits for `time`, as [`Client::wait`](crate::Client::wait) does.
     ///
     /// If an access has to wait, [`Cyclic`](super::Cyclic) calls this method between two cycles, for at most 1 ms at a
     /// time.
     ///
     /// # Errors
     ///
-    /// Returns [`Error::NoClock`] if there is no clock. The default implementation needs the feature `std`.
+    /// Returns [`Error::NoClock`] if there is no clock. The default implementation returns this error without the
+    /// feature `std`.
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         sleep(time)
     }
@@ -95,7 +96,7 @@ pub trait AsyncImageClient {
     /// Returns the errors of [`ImageClient::cycle`].
     async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Waits, as [`AsyncClient::wait`](crate::AsyncClient::wait) does.
+    /// Waits for `time`, as [`AsyncClient::wait`](crate::AsyncClient::wait) does.
     ///
     /// # Errors
     ///
@@ -148,8 +149,8 @@ impl IoSpan {
 
 /// Positions of the data and the status of one submodule in the frames.
 ///
-/// A position is `None` if the submodule has no such data. An access without a position fails like an access beyond the
-/// end of the frame.
+/// A position is `None` if the submodule has no such data. The methods [`read`](Self::read) and [`write`](Self::write)
+/// return [`LengthError`] if the position is `None`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SubmoduleIo {
     /// Number of the slot.
@@ -168,7 +169,8 @@ pub struct SubmoduleIo {
 }
 
 impl SubmoduleIo {
-    /// Returns the positions with swapped directions, for a simulated device, which reads outputs and writes inputs.
+    /// Returns the positions with inputs and outputs swapped, for a simulated device, which reads outputs and writes
+    /// inputs.
     #[must_use]
     pub const fn of_device(self) -> Self {
         Self {

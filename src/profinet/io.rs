@@ -38,7 +38,7 @@ impl IoStatus {
     /// The data are valid.
     pub const GOOD: Self = Self(0x80);
 
-    /// The data are invalid. The subslot reports the invalid data.
+    /// The data are invalid, and the subslot reports this status.
     pub const BAD: Self = Self(0x00);
 
     /// Returns whether the data are valid (bit 7).
@@ -63,8 +63,8 @@ impl IoStatus {
         }
     }
 
-    /// Writes the status to every byte of `bytes`. In every byte except the last one, bit 0 is set because another byte
-    /// follows.
+    /// Writes the status to every byte of `bytes`. Bit 0 is set in every byte except the last one, to indicate that
+    /// another byte follows.
     pub fn write(self, bytes: &mut [u8]) {
         let last = bytes.len().saturating_sub(1);
         for (place, byte) in bytes.iter_mut().enumerate() {

@@ -12,10 +12,10 @@
 //! A controller library transfers the bytes. An adapter to this library implements [`RecordClient`] for records and
 //! [`ImageClient`] for the process image, or [`AsyncRecordClient`] and [`AsyncImageClient`].
 //!
-//! - [`RecordAccess`] uses a record client to access records as structs, and items in records. [`parameter_access`]
-//!   uses a record client to access PROFIdrive parameters.
-//! - [`Cyclic`] uses an image client to access items in the data of a submodule. [`Plan::layout`] returns the offsets
-//!   of the data of all submodules.
+//! - [`RecordAccess`] accesses records as structs, and individual items in records, through a record client.
+//!   [`parameter_access`] accesses PROFIdrive parameters through a record client.
+//! - [`Cyclic`] accesses items in the cyclic data of a submodule through an image client. [`Plan::layout`] returns the
+//!   offsets of the data of all submodules.
 //!
 //! ```
 //! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};

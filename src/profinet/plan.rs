@@ -16,7 +16,7 @@ use super::descriptor::{contains, numbers, Dap, Module, Submodule, SubmoduleUse}
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<const N: usize> {
     dap: &'static Dap,
-    /// Entries sorted by slot and subslot. Entries from `len` on are `None`.
+    /// Entries sorted by slot and subslot. Only the first `len` entries are used; the others are `None`.
     entries: [Option<Entry>; N],
     len: usize,
 }
@@ -159,7 +159,7 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns a [`PlanError`] if the slot doesn't exist or already has a module. [`PlanError`] also occurs if the
+    /// Returns a [`PlanError`] if the slot doesn't exist or already has a module. Also returns a [`PlanError`] if the
     /// module isn't allowed in the slot, or if there are too many submodules or data. After an error, the plan is
     /// unchanged.
     pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
@@ -200,8 +200,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns a [`PlanError`] if the slot is empty, or if the subslot doesn't exist or already has a submodule.
-    /// [`PlanError`] also occurs if the submodule isn't allowed in the subslot, or if there are too many submodules or
+    /// Returns a [`PlanError`] if the slot is empty, or if the subslot doesn't exist or already has a submodule. Also
+    /// returns a [`PlanError`] if the submodule isn't allowed in the subslot, or if there are too many submodules or
     /// data. After an error, the plan is unchanged.
     pub fn plug_submodule(&mut self, slot: u16, subslot: u16, submodule: &'static Submodule) -> Result<(), PlanError> {
         let module = self.module(slot).ok_or(PlanError::EmptySlot)?;

@@ -7,7 +7,7 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// Reads and writes records as structs, and items in records.
+/// Reads and writes records as structs, and individual items in records.
 ///
 /// `N` is the size of the buffer in bytes. The buffer must hold the longest record.
 ///
@@ -61,7 +61,7 @@ pub struct RecordAccess<C, const N: usize> {
 }
 
 impl<C, const N: usize> RecordAccess<C, N> {
-    /// Creates an access to the device of `client`.
+    /// Creates a record access through `client`.
     pub const fn new(client: C) -> Self {
         Self { client, buffer: [0; N] }
     }

@@ -21,7 +21,7 @@ impl SubmoduleAddress {
         Self { api, slot, subslot }
     }
 
-    /// Returns the address of this submodule's record with index `index`.
+    /// Returns the address of record `index` of this submodule.
     #[must_use]
     pub const fn record(self, index: u16) -> RecordAddress {
         RecordAddress { api: self.api, slot: self.slot, subslot: self.subslot, index }
@@ -95,7 +95,7 @@ impl<const N: usize> Plan<N> {
 /// # Ok::<(), Error<PnioStatus>>(())
 /// ```
 pub trait RecordClient {
-    /// Error type of the client. The error type covers communication errors and refusals of the device
+    /// Error type of the client. The error type covers communication errors and refusals by the device
     /// ([`PnioStatus`](super::PnioStatus)).
     type Error;
 
@@ -152,7 +152,7 @@ pub trait RecordClient {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncRecordClient {
-    /// Error type of the client. The error type covers communication errors and refusals of the device.
+    /// Error type of the client. The error type covers communication errors and refusals by the device.
     type Error;
 
     /// Reads the record at `address`, as [`RecordClient::read_record`] does.

@@ -29,7 +29,7 @@ pub struct Limited<R> {
 }
 
 impl<R> Limited<R> {
-    /// Creates a route that accepts only `values` and uses the route `at`.
+    /// Creates a route that accepts only `values` and accesses the item through the route `at`.
     #[must_use]
     pub const fn new(at: R, is_signed: bool, values: &'static [(i64, i64)]) -> Self {
         Self { at, is_signed, values }

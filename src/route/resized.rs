@@ -1,4 +1,4 @@
-//! Items whose value has another width on a bus.
+//! Items whose value has a different width on a bus.
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};
@@ -12,9 +12,9 @@ use crate::value_error::{LengthError, OutOfRange};
 
 /// Route of an integer that has `bits` bits on the bus, independent of the width of its item.
 ///
-/// If the bus has fewer bits, values that don't fit aren't sent, and values that are read are extended. If the bus has
-/// more bits, values to write are extended, and values that are read have to fit. Values are sign-extended if
-/// `is_signed` is set.
+/// If the value has fewer bits on the bus than in the item, a write fails if the value doesn't fit, and a read extends
+/// the value. If the value has more bits on the bus, a write extends the value, and a read fails if the value doesn't
+/// fit. Values are sign-extended if `is_signed` is set.
 ///
 /// ```
 /// use lexibus::{CanOpen, Client, Error, Modbus, Object, Register, Resized};
@@ -94,8 +94,8 @@ const fn bits_of(bytes: &[u8]) -> u32 {
     8 * bytes.len() as u32
 }
 
-/// Converts the number of `bits` bits in `raw` to the width of the item, and writes it to `buffer`. `buffer` has the
-/// length of the item's value.
+/// Converts `raw`, a number of `bits` bits, to the width of the item, and writes the result to `buffer`. `buffer` has
+/// the length of the item's value.
 pub(super) fn read(raw: &[u8], bits: u32, is_signed: bool, buffer: &mut [u8]) -> Result<usize, OutOfRange> {
     let value = fit(from_bytes(raw), bits, bits_of(buffer), is_signed).ok_or(OutOfRange)?;
     let mut bytes = value.to_le_bytes().into_iter();

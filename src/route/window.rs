@@ -10,14 +10,14 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::value_error::OutOfRange;
 
-/// Interval between two polls for a number that the device clears.
+/// Interval between two polls of a number that the device clears.
 const INTERVAL: Duration = Duration::from_millis(1);
 
 /// Specifies how a device reports that it has completed an access through a window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Handshake {
     /// Maximum number of polls if the device clears the number to 0. Polls are 1 ms apart if the client [can
-    /// wait](Client::wait). The value is 0 if the device doesn't clear the number.
+    /// wait](Client::wait). This field is 0 if the device doesn't clear the number.
     pub polls: u16,
     /// Time in milliseconds that the device needs for the access, if it doesn't clear the number. An access through a
     /// client that cannot wait fails with [`Error::NoClock`].
@@ -25,7 +25,7 @@ pub struct Handshake {
 }
 
 impl Handshake {
-    /// The device needs no time after its reply.
+    /// The device has completed the access when it replies.
     pub const NONE: Self = Self { polls: 0, wait: 0 };
 
     /// Creates the handshake of a device that clears the number to 0. The client polls at most `polls` times.
@@ -152,7 +152,7 @@ impl<W> Through<W> {
     }
 }
 
-/// Ignores a missing clock. Without a clock, the polls follow each other directly.
+/// Ignores [`Error::NoClock`]: without a clock, the client polls without pauses.
 fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
     match waited {
         Err(Error::NoClock) => Ok(()),
@@ -191,7 +191,7 @@ macro_rules! settle {
 settle! { settle Client }
 settle! { settle_async AsyncClient async await }
 
-/// A value behind a window has no address.
+/// A value that is accessed through a window has no address.
 impl<W> Route for Through<W> {}
 
 impl<B: Bus> ReadRoute<B> for Through<ReadWindow<B::Address>> {

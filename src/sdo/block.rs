@@ -8,7 +8,7 @@ use crate::abort::AbortCode;
 /// Maximum number of repetitions of a sub-block of which no segment arrived.
 const MOST_REPETITIONS: u8 = 3;
 
-/// Returns a received number of segments per sub-block if it is valid: 1 to 127.
+/// Checks a received number of segments per sub-block, which must be 1 to 127.
 pub(super) fn block_size(size: u8) -> Result<u8, AbortCode> {
     match size {
         1..=MOST_SEGMENTS => Ok(size),
@@ -23,7 +23,7 @@ pub(super) struct Sender {
     acknowledged: usize,
     /// Number of sent segments of the current sub-block.
     sent: u8,
-    /// Number of segments in the current sub-block, unless the value ends earlier.
+    /// Maximum number of segments in the current sub-block.
     size: u8,
     /// Number of times that the current sub-block was sent without success.
     repetitions: u8,
@@ -52,7 +52,8 @@ impl Sender {
     }
 
     /// Processes an acknowledgment: the number of the last segment that arrived in sequence, and the size of the next
-    /// sub-block. Segments after this segment are sent again. Returns whether the whole value has arrived.
+    /// sub-block. Segments after the last segment in sequence are sent again. Returns whether the whole value has
+    /// arrived.
     pub fn acknowledge(&mut self, value: &[u8], sequence: u8, size: u8) -> Result<bool, AbortCode> {
         if sequence > self.sent {
             return Err(AbortCode::SEQUENCE_NUMBER);
@@ -91,7 +92,7 @@ pub(super) struct Receiver {
     sequence: u8,
     /// Number of segments in a sub-block.
     size: u8,
-    /// The previous message. CAN controllers may receive a frame twice.
+    /// The previous message. The receiver ignores its repetition, because CAN controllers may receive a frame twice.
     previous: Message,
 }
 

@@ -13,9 +13,9 @@ pub struct Channel {
 impl Channel {
     /// Creates a channel from the COB-IDs of requests (client to server) and replies (server to client).
     ///
-    /// Returns `None` if the COB-IDs are equal, or if a COB-ID is invalid (bit 30 or 31 is set, or more than 11 bits
-    /// without bit 29) or restricted (CiA 301 7.3.5).
-    /// The COB-IDs of the default channel are restricted; use [`of_node`](Self::of_node).
+    /// Returns `None` if the COB-IDs are equal, or if a COB-ID is invalid or restricted (CiA 301 7.3.5). A COB-ID is
+    /// invalid if bit 30 or 31 is set, or if the CAN-ID has more than 11 bits and bit 29 isn't set. The COB-IDs of the
+    /// default channel are restricted; use [`of_node`](Self::of_node).
     #[must_use]
     pub const fn new(request: u32, reply: u32) -> Option<Self> {
         if request == reply || !is_possible(request) || !is_possible(reply) {

@@ -41,7 +41,7 @@ pub(super) mod block {
     pub const START: u8 = 3;
 }
 
-/// Command specifier of an abort, of both sides.
+/// Command specifier of an abort, which the client or the server sends.
 pub(super) const ABORT: u8 = 4;
 
 /// Bit of an initiate message of a block transfer: the sender supports the CRC.
@@ -52,7 +52,7 @@ pub(super) const WITH_SIZE: u8 = 1 << 1;
 pub(super) const LAST_OF_BLOCK: u8 = 1 << 7;
 /// First byte of an abort. No segment of a block transfer has this first byte.
 pub(super) const ABORT_COMMAND: u8 = ABORT << 5;
-/// Bit of segments and their confirmations, which alternates.
+/// Toggle bit of segments and their confirmations.
 const TOGGLE: u8 = 1 << 4;
 
 /// Returns the command specifier of a message.
@@ -108,8 +108,8 @@ pub(super) fn with_data(command: u8, data: &[u8]) -> Message {
     [command, a, b, c, d, e, f, g]
 }
 
-/// Creates the initiate message of an expedited or segmented transfer: a download request or an upload reply. Values of
-/// 1 to 4 bytes are in the message.
+/// Creates the initiate message of an expedited or segmented transfer: a download request or an upload reply. The
+/// message contains the value if the value has 1 to 4 bytes.
 pub(super) fn initiate_value(specifier: u8, object: Object, value: &[u8]) -> Message {
     if let 1..=4 = value.len() {
         let command = specifier << 5 | (4 - value.len() as u8) << 2 | 3;
@@ -118,7 +118,7 @@ pub(super) fn initiate_value(specifier: u8, object: Object, value: &[u8]) -> Mes
     initiate(specifier << 5 | 1, object, length_field(value.len()))
 }
 
-/// Returns the length of a value as it is sent. A length over 32 bits is not possible in a transfer.
+/// Encodes the length of a value. The length field has 32 bits.
 pub(super) fn length_field(length: usize) -> [u8; 4] {
     u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes()
 }
@@ -145,8 +145,8 @@ impl Initiated {
     }
 }
 
-/// Creates a segment of a segmented transfer. `rest` is the part of the value that isn't sent yet. Returns the number of
-/// bytes in the segment, too.
+/// Creates a segment of a segmented transfer. `rest` is the part of the value that isn't sent yet. Also returns the
+/// number of data bytes in the segment.
 pub(super) fn segment(specifier: u8, toggle: bool, rest: &[u8]) -> (Message, usize) {
     let length = rest.len().min(SEGMENT);
     let is_last = rest.len() <= SEGMENT;

@@ -3,7 +3,7 @@
 //! [`Transfer`] is the client side of one transfer, and [`Server`] is the server of a node. Both support expedited,
 //! segmented and block transfers. Neither allocates memory: a transfer uses the caller's buffer, and a server has a
 //! buffer of a fixed size. The caller sends the messages that `next` returns, passes received messages to `handle`, and
-//! measures the time. `clients::canopen::Node` does this for any CAN interface.
+//! measures the time. `clients::canopen::Node` performs these tasks for any CAN interface.
 //!
 //! ```
 //! use core::time::Duration;

@@ -67,7 +67,7 @@ impl Expected {
         }
     }
 
-    /// Returns whether the server expects further messages of the transfer: the first request has been answered.
+    /// Returns whether the server has answered the first request and expects further messages of the transfer.
     pub const fn is_continued(self) -> bool {
         !matches!(self.kind, Kind::Upload | Kind::Download | Kind::BlockUpload | Kind::BlockDownload)
     }

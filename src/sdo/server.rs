@@ -28,8 +28,9 @@ pub trait Objects {
     /// Returns the code with which the server aborts the transfer.
     fn write(&mut self, object: Object, data: &[u8]) -> Result<(), AbortCode>;
 
-    /// Returns the length of an object in bytes if its type has a fixed length of at most 4 bytes. The server needs this
-    /// length for an expedited download that doesn't indicate its length; without this length, the value has 4 bytes.
+    /// Returns the length of an object in bytes if its type has a fixed length of at most 4 bytes. The server uses this
+    /// length for an expedited download that doesn't indicate its length. If this method returns `None`, the value of
+    /// such a download has 4 bytes.
     fn length(&mut self, object: Object) -> Option<usize> {
         let _ = object;
         None
@@ -56,7 +57,7 @@ pub struct Server<const N: usize> {
     deadline: Option<Duration>,
 }
 
-/// The next request of the client, and the state that it needs.
+/// The request that the server expects next, with the data to process the request.
 #[derive(Clone, Copy, Debug)]
 enum State {
     Idle,
@@ -130,15 +131,15 @@ impl<const N: usize> Server<N> {
         self.deadline
     }
 
-    /// Aborts an unfinished transfer if its [deadline](Self::deadline) has passed. `now` is the time since any fixed
-    /// moment.
+    /// Aborts an unfinished transfer if its [deadline](Self::deadline) has passed. `now` is the time since an arbitrary
+    /// fixed moment.
     pub fn time_out(&mut self, now: Duration) {
         if self.deadline.is_some_and(|deadline| deadline <= now) {
             self.abort(self.object, AbortCode::TIMEOUT);
         }
     }
 
-    /// Processes a request. `now` is the time since any fixed moment.
+    /// Processes a request. `now` is the time since an arbitrary fixed moment.
     pub fn handle(&mut self, request: &Message, now: Duration, objects: &mut impl Objects) {
         let reply = match self.state {
             // Segments of a block have no command specifier.
@@ -281,8 +282,8 @@ impl<const N: usize> Server<N> {
     }
 }
 
-/// Block transfers (CiA 301 7.2.4.3.9 to 7.2.4.3.15). The server confirms the CRC only to a client that supports it,
-/// because some clients then check the CRC in any case.
+/// Block transfers (CiA 301 7.2.4.3.9 to 7.2.4.3.15). The server announces CRC support only to a client that supports
+/// the CRC, because some clients always check the CRC after this announcement.
 impl<const N: usize> Server<N> {
     fn block_upload(&mut self, request: &Message, objects: &mut impl Objects) -> Reply {
         match (command(request), self.state) {

@@ -1,4 +1,4 @@
-//! Tests of client and server against each other, and against wrong messages.
+//! Tests of the client and the server with each other, and with invalid messages.
 
 mod lossy;
 
@@ -55,8 +55,8 @@ fn value(length: usize) -> Vec<u8> {
     (0..length).map(|at| (at % 251) as u8).collect()
 }
 
-/// Runs a transfer. `fate` returns how often each message arrives: requests are numbered from 0, and replies have `true`.
-/// Returns the result and all messages.
+/// Runs a transfer. `fate` returns how often a message arrives. Its first argument is `false` for a request and `true`
+/// for a reply. Returns the result and all messages.
 fn run(
     transfer: &mut Transfer<'_>,
     device: &mut Device,

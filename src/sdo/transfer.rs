@@ -21,11 +21,11 @@ use crate::value_error::LengthError;
 /// Default minimum length of a block transfer, in bytes.
 pub const BLOCK_THRESHOLD: usize = 1024;
 
-/// Length up to which the server may switch from a block upload to a segmented or expedited one (protocol switch
-/// threshold), in bytes. A block upload of this length needs as many messages as a segmented one.
+/// Protocol switch threshold in bytes: the server may switch from a block upload to a segmented or expedited upload for
+/// values up to this length. A block upload of this length needs as many messages as a segmented one.
 const SWITCH_THRESHOLD: u8 = 28;
 
-/// The timeout divided by this number is the time by which each segment prolongs a transfer.
+/// Each segment extends the maximum duration of a transfer by the timeout divided by this number.
 const SEGMENTS_PER_TIMEOUT: u32 = 10;
 
 /// Reason why a transfer failed.
@@ -34,7 +34,7 @@ const SEGMENTS_PER_TIMEOUT: u32 = 10;
 pub enum TransferError {
     /// The server aborted the transfer.
     Refused(AbortCode),
-    /// A reply was wrong: toggle bit, sequence number, length or CRC. The client aborted the transfer.
+    /// A reply had a wrong toggle bit, sequence number, length or CRC. The client aborted the transfer.
     UnexpectedReply,
     /// The uploaded value is longer than the buffer.
     TooLong(LengthError),
@@ -71,8 +71,9 @@ impl<E> From<TransferError> for Error<E> {
 ///    message arrives that the transfer [accepts](Self::accepts).
 ///
 /// Values with at least the minimum length of a block transfer are transferred in blocks with CRC (CiA 301 7.2.4.3.9 to
-/// 7.2.4.3.16). The length of an upload is not known before the transfer, so the length of the buffer decides. If the
-/// server doesn't support block transfers (abort code 0x05040001) or the CRC, the transfer continues as a segmented one.
+/// 7.2.4.3.16). For an upload, the length of the buffer decides, because the length of the value is unknown before the
+/// transfer. If the server doesn't support block transfers (abort code 0x05040001) or the CRC, the transfer continues
+/// as a segmented one.
 #[derive(Debug)]
 pub struct Transfer<'a> {
     object: Object,
@@ -95,7 +96,7 @@ enum Value<'a> {
     Download(&'a [u8]),
 }
 
-/// The next reply of the server, and the state that it needs.
+/// The reply that the client expects next, with the data to process the reply.
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     Upload,
@@ -185,24 +186,25 @@ impl<'a> Transfer<'a> {
         self.result.is_none() && self.expected().accepts(message)
     }
 
-    /// Returns the maximum duration of the whole transfer for a `timeout` of each reply. The duration is one timeout,
-    /// plus one tenth of the timeout for each segment of 7 bytes. Call [`time_out`](Self::time_out) if the transfer
-    /// takes longer. The duration of an upload grows until its length is known.
+    /// Returns the maximum duration of the whole transfer if the timeout for a reply is `timeout`. The duration is one
+    /// timeout, plus one tenth of the timeout for each segment of 7 bytes. Call [`time_out`](Self::time_out) if the
+    /// transfer takes longer. The maximum duration of an upload of unknown length increases with each received segment.
     #[must_use]
     pub fn limit(&self, timeout: Duration) -> Duration {
         let segments = u32::try_from(self.length.div_ceil(SEGMENT)).unwrap_or(u32::MAX);
         timeout.saturating_add((timeout / SEGMENTS_PER_TIMEOUT).saturating_mul(segments))
     }
 
-    /// Returns the result if the transfer has ended: the length of the value. The length can be greater than the length
-    /// of the buffer if the value has at most 4 bytes. Send the messages that [`next`](Self::next) returns first.
+    /// Returns the result if the transfer has ended: the length of the value, or the reason for the failure. The length
+    /// can be greater than the length of the buffer if the value has at most 4 bytes. Before you use the result, send
+    /// all messages that [`next`](Self::next) returns.
     #[must_use]
     pub const fn result(&self) -> Option<Result<usize, TransferError>> {
         self.result
     }
 
-    /// Returns whether the server doesn't support block transfers with CRC, and the transfer continued as a segmented
-    /// one.
+    /// Returns whether the transfer continued as a segmented one because the server doesn't support block transfers
+    /// with CRC.
     #[must_use]
     pub const fn is_block_refused(&self) -> bool {
         self.is_block_refused
@@ -293,7 +295,7 @@ impl<'a> Transfer<'a> {
         self.give_up(AbortCode::OUT_OF_MEMORY, TransferError::TooLong(LengthError::new(room, length)));
     }
 
-    /// Ends the transfer after an abort of the server, or continues without blocks.
+    /// Ends the transfer after an abort by the server, or continues without blocks.
     fn refused(&mut self, code: AbortCode) {
         match self.phase {
             Phase::BlockUpload | Phase::BlockDownload if code == AbortCode::COMMAND => {

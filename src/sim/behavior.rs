@@ -6,16 +6,16 @@ use super::device::Device;
 
 /// Behavior of one axis of a device, such as that of a drive.
 pub(super) trait Behavior: fmt::Debug + Send {
-    /// Returns the number of the axis, from 1.
+    /// Returns the number of the axis. The first axis has number 1.
     fn axis(&self) -> u8;
 
     /// Executes one step of the simulation. Returns whether the state of the axis has changed.
     fn step(&mut self, device: &mut Device) -> bool;
 
-    /// Reacts to a write by a client or in process data.
+    /// Reacts to a write by a client or by process data.
     fn observe(&mut self, device: &mut Device);
 
-    /// Enters the fault reaction with an error code. `persists` means that the cause of the fault persists.
+    /// Enters the fault reaction with an error code. If `persists` is true, the cause of the fault persists.
     fn fail(&mut self, code: u16, persists: bool, device: &mut Device);
 
     /// Removes the cause of the fault, so that the fault can be reset.

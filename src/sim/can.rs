@@ -39,10 +39,10 @@ const MOST_FRAMES: usize = 1024;
 /// A simulated device as a node on a CAN bus.
 ///
 /// The node simulates the SDO server, NMT, heartbeat and emergency messages. The node transmits PDOs on SYNC, on change
-/// and by timer, as their communication parameters declare: transmission type, inhibit time, event timer and SYNC start
-/// value. CANopen clients use the node as their CAN port. The clock of the node is simulated. The clock advances
-/// only by [`advance`](Self::advance), by waiting for a frame, and by the access time of the device for each received
-/// frame. Tests therefore never wait in real time.
+/// and by timer, according to their transmission type, inhibit time, event timer and SYNC start value. CANopen clients
+/// use the node as their CAN port. The clock of the node is simulated. The clock advances only by
+/// [`advance`](Self::advance), by waiting for a frame, and by the access time of the device for each received frame.
+/// Tests therefore never wait in real time.
 ///
 /// ```
 /// use core::time::Duration;
@@ -65,12 +65,13 @@ const MOST_FRAMES: usize = 1024;
 /// The SDO server supports expedited, segmented and block transfers of at most 8,192 bytes. The objects 0x1201 to 0x127F
 /// declare further SDO channels.
 ///
-/// The node is an LSS slave (CiA 305). Its LSS address is in object 0x1018. [`without_node_id`](Self::without_node_id)
-/// creates a node that an LSS master has to configure first. [`CanBus`] is a bus with several nodes.
+/// The node is an LSS slave (CiA 305). The LSS address of the node is in object 0x1018.
+/// [`without_node_id`](Self::without_node_id) creates a node that an LSS master has to configure first. [`CanBus`] is a
+/// bus with several nodes.
 ///
-/// The node answers node guarding if its heartbeat producer time (0x1017) is 0, and sends the emergency message 0x8130 if
-/// the master fails for longer than the node life time (0x100C and 0x100D). The node consumes TIME if bit 31 of object
-/// 0x1012 is set. The node doesn't send PDOs on remote frames.
+/// The node answers node guarding if its heartbeat producer time (0x1017) is 0. The node sends the emergency message
+/// 0x8130 if no guarding request arrives within the node life time (0x100C and 0x100D). The node consumes TIME if bit
+/// 31 of object 0x1012 is set. The node doesn't send PDOs in response to remote frames.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -127,7 +128,7 @@ impl CanNode {
         self.lss.node_id()
     }
 
-    /// Returns the time in the last TIME message, or `None` if the node has not consumed TIME.
+    /// Returns the time in the last TIME message, or `None` if the node has not consumed a TIME message.
     #[must_use]
     pub const fn time_of_day(&self) -> Option<TimeOfDay> {
         self.time_of_day
@@ -298,7 +299,7 @@ impl CanNode {
         }
     }
 
-    /// Processes an SDO request. Returns whether the frame is one.
+    /// Processes an SDO request. Returns false for any other frame.
     fn transfer(&mut self, frame: &CanFrame) -> bool {
         if self.state == NmtState::Stopped {
             return false;

@@ -122,8 +122,8 @@ impl Cells {
         }
     }
 
-    /// Updates the value of an item from its registers. The item keeps a value with the same encoding, for example a
-    /// text with fewer bytes.
+    /// Updates the value of an item from its registers. The value doesn't change if it has the same encoding as the
+    /// registers, for example a text with fewer bytes.
     pub fn refresh(&self, slot: &mut Slot) {
         let Some(register) = slot.entry.register else { return };
         let words = self.words(register);

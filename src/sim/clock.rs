@@ -3,14 +3,14 @@
 use core::time::Duration;
 use std::time::Instant;
 
-/// Duration of one step of the simulation. All times are rounded down to whole steps, and the rest counts for the next
-/// step. The result therefore doesn't depend on how a test divides the time.
+/// Duration of one step of the simulation. The simulation advances in whole steps, and the remaining time is added to
+/// the next advance. The result therefore doesn't depend on how a test divides the time.
 pub(super) const STEP: Duration = Duration::from_millis(1);
 
-/// Source of the time of a device, in addition to `Device::step`.
+/// Source of simulated time, in addition to `Device::step`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) enum Pace {
-    /// No further source.
+    /// Only `Device::step` advances the time.
     #[default]
     Manual,
     /// Each access of a client advances the time by this duration.

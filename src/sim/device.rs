@@ -75,8 +75,8 @@ pub struct Device {
 impl Device {
     /// Creates a device after power-on with node-ID 1. `entries` is the static table `ENTRIES` of the bindings.
     ///
-    /// If the device description declares no initial value, a text or byte string is empty. A number is 0, or the
-    /// number within its limits that is nearest to 0.
+    /// If the device description declares no initial value, a text or byte string is empty. A number without a declared
+    /// initial value is 0, or the number within its limits that is nearest to 0.
     #[must_use]
     pub fn new(entries: &[Entry]) -> Self {
         let mut device = Self {
@@ -143,8 +143,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table, and the errors of all
-    /// methods (see [`Device`]).
+    /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table, and the common errors of
+    /// the methods for tests (see [`Device`]).
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.axis_value(&item, 1)
     }
@@ -152,14 +152,14 @@ impl Device {
     /// Sets the value of an item, as the device itself does. Access rights and limits don't apply, and no reaction is
     /// called.
     ///
-    /// If the item has different widths as an object and on Modbus, the table has two entries for the item. The method
-    /// `set` changes both entries. A client writes only the entry of its bus.
+    /// If the item has different widths as an object and as a register, the table has two entries for the item. The
+    /// method `set` changes both entries. A client changes only the entry of its bus.
     ///
     /// # Errors
     ///
     /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table. Returns
-    /// [`AbortCode::TOO_HIGH`] if the value doesn't fit its type. Also returns the errors of all methods (see
-    /// [`Device`]).
+    /// [`AbortCode::TOO_HIGH`] if the value doesn't fit its type. Also returns the common errors of the methods for
+    /// tests (see [`Device`]).
     pub fn set<V: Fixed, A, L: Location>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
         self.set_axis_value(&item, 1, value)
     }
@@ -179,7 +179,7 @@ impl Device {
     /// # Errors
     ///
     /// Returns [`AbortCode::TOO_LONG`], [`AbortCode::TOO_SHORT`] or [`AbortCode::LENGTH`] if the bytes don't fit the
-    /// item's type. Also returns the errors of all methods (see [`Device`]).
+    /// item's type. Also returns the common errors of the methods for tests (see [`Device`]).
     pub fn set_bytes(&mut self, address: impl ItemAddress, bytes: &[u8]) -> Result<(), AbortCode> {
         let at = self.slot(&address, 1)?;
         values::check_length(&self.slots.get(at).entry, bytes)?;
@@ -224,7 +224,8 @@ impl Device {
         self.axes.map_or(1, |axes| axes.count.max(1))
     }
 
-    /// Returns axis `number` of the device, from 1. The axis has the same items at its own addresses.
+    /// Returns axis `number` of the device. The first axis has number 1. Each axis has the same items at its own
+    /// addresses.
     pub fn axis(&mut self, number: u8) -> DeviceAxis<'_> {
         DeviceAxis { device: self, number }
     }
@@ -254,8 +255,8 @@ impl Device {
         self.hooks.push(Hook { slots: None, reaction: Box::new(reaction) });
     }
 
-    /// Makes the next access of a client fail with `fault`. After several calls, several accesses fail, in the order of
-    /// the calls. Faults don't affect process data.
+    /// Makes the next access of a client fail with `fault`. Each call makes one more access fail, in the order of the
+    /// calls. Faults don't affect process data.
     pub fn fail_next(&mut self, fault: impl Into<Fault>) {
         self.faults.push_back(fault.into());
     }
@@ -304,8 +305,8 @@ impl Device {
         old
     }
 
-    /// Calls the reactions to a write of an item, and then lets the drives react. A change by a reaction calls no
-    /// further reactions.
+    /// Calls the reactions to a write of an item, and then lets the drives react. A value that a reaction changes
+    /// triggers no further reactions.
     pub(super) fn react(&mut self, at: usize) -> Result<(), AbortCode> {
         let entry = self.slots.get(at).entry;
         let mut hooks = core::mem::take(&mut self.hooks);

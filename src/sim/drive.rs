@@ -24,7 +24,7 @@ const HALT: u16 = 1 << 8;
 /// A drive of one axis. The drive reads and writes the objects of the axis by index.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Drive {
-    /// Number of the axis, from 1.
+    /// Number of the axis. The first axis has number 1.
     axis: u8,
     state: State,
     /// Last controlword.
@@ -36,7 +36,7 @@ pub(super) struct Drive {
     motion: Motion,
     set_points: SetPoints,
     homing: Homing,
-    /// Demanded torque of the mode "profile torque", in 0.1 % of the rated torque.
+    /// Torque demand in the mode "profile torque", in 0.1 % of the rated torque.
     torque: f64,
     /// True if the cause of the fault persists, so that the fault cannot be reset.
     has_cause: bool,
@@ -103,7 +103,8 @@ impl Drive {
         }
     }
 
-    /// Adopts changes by the test and executes the controlword: at most one transition, or the bits of the mode.
+    /// Adopts changes by the test and executes the controlword: performs at most one state transition, or evaluates the
+    /// bits of the active mode.
     fn control(&mut self, objects: &mut Objects<'_>) {
         self.adopt_position(objects);
         let word = objects.word(0x6040);

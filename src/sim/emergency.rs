@@ -7,7 +7,7 @@ use crate::emergency::Emergency;
 
 impl Device {
     /// Simulates an error and emits an emergency message. The error register (0x1001) and the error list (0x1003) are
-    /// updated if the device has these objects. Code 0 means that no error is left. Code 0 isn't added to the error
+    /// updated if the device has these objects. Code 0 means that no error remains. Code 0 isn't added to the error
     /// list.
     pub fn emit_emergency(&mut self, code: u16, register: u8, vendor: [u8; 5]) {
         let _ = self.set_bytes(Object::new(0x1001, 0), &[register]);

@@ -28,12 +28,12 @@ impl<F, M: ?Sized> Default for Faults<F, M> {
 }
 
 impl<F: Clone, M: ?Sized> Faults<F, M> {
-    /// Adds a fault of the messages that `selects` accepts.
+    /// Adds a fault that affects all messages that `selects` accepts.
     pub fn add(&mut self, fault: F, selects: impl FnMut(&M) -> bool + Send + 'static) {
         self.rules.push(Rule { fault, affected: Affected::Selected(Box::new(selects)) });
     }
 
-    /// Adds a fault of the `n`th message from now on. 0 has the same effect as 1.
+    /// Adds a fault that affects the `n`th message from now on. The value 0 has the same effect as 1.
     pub fn add_nth(&mut self, fault: F, n: u64) {
         self.rules.push(Rule { fault, affected: Affected::Nth(n) });
     }
@@ -42,7 +42,8 @@ impl<F: Clone, M: ?Sized> Faults<F, M> {
         self.rules.clear();
     }
 
-    /// Returns the fault of the next message. If several faults affect it, the first one that was added applies.
+    /// Returns the fault of the next message. If several faults affect the message, the first one that was added
+    /// applies.
     pub fn next(&mut self, message: &M) -> Option<F> {
         let mut found = None;
         self.rules.retain_mut(|rule| {

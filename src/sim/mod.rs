@@ -1,4 +1,4 @@
-//! Simulated devices, which test drivers without hardware (feature `std`).
+//! Simulated devices for tests of drivers without hardware (feature `std`).
 //!
 //! A [`Device`] is created from the static table `ENTRIES` of the bindings. The table is generated if the option
 //! `table` is set. The device starts with its initial values and checks the access rights and limits of the
@@ -44,8 +44,8 @@
 //! - Modbus: [`Device::read_words`] and related methods handle requests. A Modbus server can call these methods.
 //! - CAN: with the feature `canopen`, a `CanNode` is a device on a simulated CAN bus, and a `CanBus` is a bus with
 //!   several nodes. The CANopen clients of this crate can use both.
-//! - Faults of the bus: a `FaultyCan` delays, loses, repeats or changes frames, and simulates bus-off and restarts.
-//!   A [`FaultyStream`] does the same with the messages on a byte stream, for Modbus and serial protocols.
+//! - Faults of the bus: a `FaultyCan` delays, loses, repeats or changes frames, and simulates bus-off and restarts. A
+//!   [`FaultyStream`] delays, loses, repeats or changes messages on a byte stream, for Modbus and serial protocols.
 //! - Further axes: [`Device::with_axes`] adds further axes.
 //! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
 //! - Time: [`Device::step`] advances the simulated time.

@@ -60,8 +60,8 @@ impl Device {
         self.command_cells(table, address, words).map_err(Exception::of_fault)
     }
 
-    /// Handles function 22: changes bits of a holding register to `held & and | or & !and`. Bits of read-only items don't
-    /// change.
+    /// Handles function 22: sets a holding register with the value `held` to `held & and | or & !and`. Bits of
+    /// read-only items don't change.
     ///
     /// # Errors
     ///
@@ -71,8 +71,8 @@ impl Device {
         self.mask(address, and, or).map_err(Exception::of_fault)
     }
 
-    /// Handles function 23: writes `words` to the holding registers from `write` on, then reads `count` holding
-    /// registers from `read` on.
+    /// Handles function 23: writes `words` to the holding registers starting at `write`, then reads `count` holding
+    /// registers starting at `read`.
     ///
     /// # Errors
     ///
@@ -160,7 +160,8 @@ impl Device {
         self.held_cells(table, read, count)
     }
 
-    /// Handles a request of a client with function 23, with two requests if a value isn't in whole holding registers.
+    /// Handles a write and a read of a client with function 23, or with two requests if a value doesn't occupy whole
+    /// holding registers.
     pub(super) fn exchange_registers(
         &mut self,
         write: Register,

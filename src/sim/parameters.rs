@@ -12,7 +12,7 @@ const COUNT_NOT_ZERO: AbortCode = AbortCode(0x0601_0003);
 
 /// COB-ID bit of a disabled PDO.
 const UNUSED: u64 = 1 << 31;
-/// COB-ID bits, including the one of a 29-bit CAN-ID, that can change only while the PDO is disabled.
+/// COB-ID bits that can change only while the PDO is disabled: the CAN-ID, and bit 29 for 29-bit CAN-IDs.
 const IDENTIFIER: u64 = 0x3FFF_FFFF;
 
 /// Maximum SYNC start value.
@@ -86,7 +86,7 @@ impl Device {
         require(value == 0 || bits > 0, AbortCode::INVALID_VALUE)
     }
 
-    /// Returns the length of an entry in bits, if the mapping object `index` can contain it.
+    /// Checks that the mapping object `index` can contain an entry, and returns the length of the entry in bits.
     fn check_mapped(&self, network: Network, index: u16, entry: MappedEntry) -> Result<u32, AbortCode> {
         let is_received = index < 0x1800;
         let is_gap = match network {

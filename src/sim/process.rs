@@ -49,8 +49,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::TOO_SHORT`] if bytes are missing; then nothing is written. Returns the abort code of the
-    /// first value that the device refuses; then the other values are written.
+    /// Returns [`AbortCode::TOO_SHORT`] if bytes are missing. In this case, nothing is written. If the device refuses
+    /// values, the method returns the abort code of the first refused value, and writes the other values.
     pub fn receive_pdo(&mut self, index: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.mapping(index)?;
         self.receive_mapped(&mapping, data)
@@ -91,7 +91,7 @@ impl Device {
         Ok(mappings.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
-    /// Processes received data with the mapping `mapping`. This method is for a PDO without a mapping object
+    /// Processes received data that contain the objects in `mapping`. This method is for a PDO without a mapping object
     /// ([`Pdo::MAPPING`](crate::Pdo::MAPPING)).
     ///
     /// # Errors
@@ -130,7 +130,7 @@ impl Device {
         Ok((at, self.store(at, bytes)))
     }
 
-    /// Returns the current data with the mapping `mapping`. This method is for a PDO without a mapping object.
+    /// Returns the current data of the objects in `mapping`. This method is for a PDO without a mapping object.
     ///
     /// # Errors
     ///

@@ -66,8 +66,8 @@ impl Slots {
         }
     }
 
-    /// Resets the items that `which` selects. An item gets its stored value if there is one, otherwise the initial
-    /// value that the test has set, otherwise the initial value in the description.
+    /// Resets the items that `which` selects. An item gets the first of these values that exists: its stored value, the
+    /// initial value that the test has set, or the initial value in the description.
     pub fn power_on(&mut self, node: NodeId, which: impl Fn(&Entry) -> bool) {
         for at in 0..self.list.len() {
             let Slot { entry, initial, stored, .. } = self.get(at);
@@ -84,8 +84,8 @@ impl Slots {
     /// declares no value. In a mapping object, only entries with a value in the description count. In all other
     /// objects, the initial value of sub-index 0 is the highest sub-index.
     ///
-    /// The error list (CiA 301 7.5.2.4) is empty after power-on. A value in the description is the capacity of the list
-    /// (`CompactSubObj` of CiA 306).
+    /// The error list (CiA 301 7.5.2.4) is empty after power-on. For this list, a value in the description is the
+    /// capacity (`CompactSubObj` of CiA 306), not the number of errors.
     fn count(&self, entry: &Entry) -> Option<Vec<u8>> {
         let is_count = |object: &Object| object.sub_index == 0 && entry.data_type == DataType::Unsigned8;
         let is_meant = |object: &Object| object.index == ERRORS || entry.initial == RawInitial::Unknown;

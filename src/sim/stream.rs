@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use super::faults::Faults;
 
-/// A fault of a message on a byte stream. [`FaultyStream`] injects it.
+/// A fault of a message on a byte stream. [`FaultyStream`] injects the fault.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StreamFault {
@@ -17,9 +17,9 @@ pub enum StreamFault {
     Lost,
     /// The message is sent twice.
     Duplicated,
-    /// The first half of the message is sent.
+    /// Only the first half of the message is sent.
     Truncated,
-    /// Other bytes are sent repeatedly instead of the message.
+    /// Instead of the message, other bytes are sent `count` times.
     Foreign {
         /// The bytes that are sent.
         bytes: Vec<u8>,
@@ -47,7 +47,7 @@ impl StreamFault {
     }
 }
 
-/// The device's end of a byte stream, with faults on request. It tests clients of Modbus and of serial protocols.
+/// The device's end of a byte stream, with injected faults, for tests of clients of Modbus and serial protocols.
 ///
 /// Bytes that the device reads are unchanged. Each call of `write` is a message, such as one reply. A [`StreamFault`]
 /// affects one of the messages, or all messages that a function selects.
@@ -67,13 +67,14 @@ impl StreamFault {
 /// # Ok::<(), std::io::Error>(())
 /// ```
 ///
-/// With the traits of `std::io`, `write` blocks the device until the delay of a late message has passed. `W` is the function that
-/// waits, by default `std::thread::sleep`. With the feature `modbus`, the stream also implements the traits of `tokio::io`. There, `write`
-/// returns at once. The device sends a late message while it reads, flushes the stream or writes the next message. The
-/// runtime needs timers. Use the stream in one task: if `tokio::io::split` divides it between tasks, a late message can wait for the
-/// next call of the other task.
+/// With the traits of `std::io`, `write` blocks the device until the delay of a late message has passed. `W` is the
+/// function that waits, by default `std::thread::sleep`. With the feature `modbus`, the stream also implements the
+/// traits of `tokio::io`. With the traits of `tokio::io`, `write` returns immediately. The device sends a late message
+/// while it reads, flushes the stream or writes the next message. The tokio runtime must have timers enabled. Use the
+/// stream in one task: if `tokio::io::split` divides it between tasks, a late message can wait for the next call of the
+/// other task.
 ///
-/// The crate `embedded-io-adapters` converts both to streams of `embedded-io`.
+/// The crate `embedded-io-adapters` converts streams of `std::io` and of `tokio::io` to streams of `embedded-io`.
 pub struct FaultyStream<S, W = fn(Duration)> {
     pub(super) inner: S,
     faults: Faults<StreamFault, [u8]>,

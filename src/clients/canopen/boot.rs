@@ -25,7 +25,7 @@ const DEVICE_TYPE: Object = Object::new(0x1000, 0);
 const HARDWARE_VERSION: Object = Object::new(0x1009, 0);
 const SOFTWARE_VERSION: Object = Object::new(0x100A, 0);
 const STORE: Object = Object::new(0x1010, 1);
-/// Index of the identity object. Its sub-indices are those of [`Checks::identity`], from 1.
+/// Index of the identity object. Sub-indices 1 to 4 contain the numbers of [`Checks::identity`].
 const IDENTITY: u16 = 0x1018;
 /// Index of "verify configuration" (CiA 301 7.5.2.23).
 const VERIFY: u16 = 0x1020;
@@ -37,7 +37,8 @@ const CONFIGURATION_TIME: Object = Object::new(VERIFY, 2);
 pub struct Booted {
     /// Device type (0x1000).
     pub device_type: u32,
-    /// Whether the configuration was written. Otherwise, there is none, or the node already has it.
+    /// Whether the configuration was written. False if there is no configuration, if the node already has it, or if the
+    /// node was kept running.
     pub is_configured: bool,
     /// Whether the node has stored the configuration and its date.
     pub is_stored: bool,
@@ -57,7 +58,7 @@ impl Booted {
     }
 }
 
-/// Returns the number in an object, or an error if the value doesn't have 4 bytes.
+/// Returns the value of an object as a number, or an error if the value isn't 4 bytes long.
 fn number<E>(object: Object, bytes: [u8; 4], result: Result<usize, Error<E>>) -> Result<u32, BootError<E>> {
     match result {
         Ok(4) => Ok(u32::from_le_bytes(bytes)),
@@ -80,7 +81,7 @@ const fn is_silence<E>(error: &BootError<E>) -> bool {
     matches!(error, BootError::NoHeartbeat | BootError::Guarding(GuardError::NodeLost))
 }
 
-/// Returns the error for a part of the identity.
+/// Returns the error for an entry of the identity object that differs from the expected value.
 const fn other_identity<E>(sub_index: u8, expected: u32, actual: u32) -> BootError<E> {
     match sub_index {
         1 => BootError::VendorId { expected, actual },
@@ -98,18 +99,20 @@ macro_rules! boot {
         impl<P: $Port> Node<P> {
             /// Boots the node as the NMT master (CiA 302-2). The steps have this order:
             ///
-            /// 1. Restart, if it is [requested](Boot::reset). With [`Boot::keep_running`], the master determines the state of
-            ///    the node before. A node that is already in Operational is only checked, and then keeps running.
+            /// 1. Restart, if it is [requested](Boot::reset). With [`Boot::keep_running`], the master first determines
+            ///    the state of the node. If the node is already in Operational, it keeps running, and the master only
+            ///    checks it.
             /// 2. Check of the device type, the identity and the versions.
             /// 3. [Configuration](Boot::configuration), unless the node already has it. With [`Boot::store`], the node
-            ///    stores the configuration, and then its date.
-            /// 4. Start of the node (NMT), and wait for its heartbeat or node guarding.
+            ///    stores the configuration, and then the date of the configuration.
+            /// 4. Start of the node (NMT), and wait for a heartbeat or a node guarding answer that reports Operational.
             ///
-            /// The node must be in Pre-operational, or must be restarted. In Operational, the node sends PDOs during the
-            /// configuration. In Stopped, the node has no SDO server.
+            /// The node must be in Pre-operational, unless it is restarted. A node in Operational would send PDOs
+            /// during the configuration, and a node in Stopped has no SDO server.
             ///
-            /// After an error, the node is not in Operational, unless the error is [`BootError::NotOperational`] or
-            /// [`BootError::Guarding`], or the node is to be [kept running](Boot::keep_running).
+            /// After an error, the node can be in Operational only in two cases: the error is
+            /// [`BootError::NotOperational`], [`BootError::Guarding`] or [`BootError::Command`], or the node is to be
+            /// [kept running](Boot::keep_running).
             ///
             /// # Errors
             ///
@@ -154,8 +157,8 @@ macro_rules! boot {
                 }
             }
 
-            /// Returns the state of a node that may be running. Without error control, the state is unknown, and the node
-            /// is booted.
+            /// Returns the state of a node that may be running. Without error control, the state is unknown: the method
+            /// returns Pre-operational, so that the node is booted.
             $($async)? fn $state(&mut self, error_control: ErrorControl) -> Result<NmtState, BootError<P::Error>> {
                 match error_control {
                     ErrorControl::None => Ok(NmtState::PreOperational),
@@ -220,7 +223,7 @@ macro_rules! boot {
                 Ok(device_type)
             }
 
-            /// Returns the date of the configuration of the node, or `None` if the node doesn't have the object 0x1020.
+            /// Returns the date of the configuration of the node, or `None` if the node refuses to read object 0x1020.
             $($async)? fn $date(&mut self) -> Result<Option<[u32; 2]>, BootError<P::Error>> {
                 let mut date = [0; 2];
                 for (part, object) in date.iter_mut().zip([CONFIGURATION_DATE, CONFIGURATION_TIME]) {
@@ -247,8 +250,8 @@ macro_rules! boot {
                 result.map_err(|error| BootError::Store { object, error })
             }
 
-            /// Stores the configuration, and then its date. If the node fails to store the configuration, it doesn't get
-            /// the date.
+            /// Stores the configuration, and then its date. If the node fails to store the configuration, the date is
+            /// not written.
             $($async)? fn $store(&mut self, date: Option<[u32; 2]>) -> Result<(), BootError<P::Error>> {
                 self.$write(STORE, b"save")$(.$await)??;
                 let Some(date) = date else { return Ok(()) };

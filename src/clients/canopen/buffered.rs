@@ -86,7 +86,7 @@ macro_rules! buffered {
     ($Port:ident $clear:ident $($async:ident $await:ident)?) => {
         impl<P: $Port, const N: usize> Buffered<P, N> {
             /// Discards all frames that have already arrived: those in the buffer and those in the receive queue of the
-            /// interface. All frames that are received afterwards arrived after this call.
+            /// interface. Any frame that is received later has therefore arrived after this call.
             ///
             /// # Errors
             ///

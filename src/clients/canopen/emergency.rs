@@ -15,8 +15,8 @@ impl Emergency {
         Self::of_id(frame, EMERGENCY + u32::from(node.get()))
     }
 
-    /// Returns the emergency message in a frame with the COB-ID `id` (object 0x1014; bit 29 for CAN-IDs of 29 bits,
-    /// bits 30 and 31 are ignored). Returns `None` for other frames.
+    /// Returns the emergency message in a frame with the COB-ID `id` (object 0x1014), or `None` for other frames. Bit
+    /// 29 of `id` means that the CAN-ID has 29 bits; bits 30 and 31 are ignored.
     #[must_use]
     pub fn of_id(frame: &CanFrame, id: u32) -> Option<Self> {
         Self::from_bytes(frame.data()).filter(|_| Some(frame.id()) == can_id(id))

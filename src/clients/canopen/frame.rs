@@ -9,8 +9,8 @@ use crate::pdo::{is_can_id, EXTENDED};
 /// A CAN frame: a data frame, or a remote frame, which requests a data frame. A received frame also has a
 /// [time](Self::time).
 ///
-/// The identifier is that of a COB-ID: for a CAN-ID of 29 bits, bit 29 is set ([`EXTENDED`](Self::EXTENDED)). The
-/// identifiers of frames with 11 and 29 bits are therefore always different:
+/// The identifier has the format of a COB-ID: for a CAN-ID of 29 bits, bit 29 is set ([`EXTENDED`](Self::EXTENDED)). An
+/// 11-bit and a 29-bit CAN-ID therefore never have the same identifier:
 ///
 /// ```
 /// use lexibus::clients::canopen::CanFrame;
@@ -41,11 +41,11 @@ impl PartialEq for CanFrame {
 impl Eq for CanFrame {}
 
 impl CanFrame {
-    /// Bit of an identifier: the CAN-ID has 29 bits.
+    /// Bit of an identifier that is set if the CAN-ID has 29 bits.
     pub const EXTENDED: u32 = EXTENDED;
 
-    /// Creates a data frame. Returns `None` if `data` has more than 8 bytes, or if `id` is invalid: a CAN-ID has 11 bits,
-    /// or 29 bits in addition to [`EXTENDED`](Self::EXTENDED).
+    /// Creates a data frame. Returns `None` if `data` has more than 8 bytes, or if `id` is neither an 11-bit CAN-ID nor
+    /// a 29-bit CAN-ID with [`EXTENDED`](Self::EXTENDED).
     #[must_use]
     pub fn new(id: u32, data: &[u8]) -> Option<Self> {
         let mut bytes = [0; 8];
@@ -61,7 +61,7 @@ impl CanFrame {
         is_possible.then_some(Self { id, data: [0; 8], length, is_remote: true, time: None })
     }
 
-    /// Creates a frame whose identifier and length are known to be valid: at most 8 bytes.
+    /// Creates a data frame. The caller ensures that `id` is valid and that `data` has at most 8 bytes.
     pub(super) fn of<const N: usize>(id: u32, data: [u8; N]) -> Self {
         let mut bytes = [0; 8];
         bytes.iter_mut().zip(data).for_each(|(to, from)| *to = from);
@@ -73,8 +73,8 @@ impl CanFrame {
         self.data
     }
 
-    /// Returns the frame with the time at which it was taken from the interface, or `None` if there is no clock. A port
-    /// sets the time of each received frame.
+    /// Returns the frame with this time: the time at which the frame was taken from the interface, or `None` if there
+    /// is no clock. A port sets the time of each received frame.
     #[must_use]
     pub const fn at(self, time: Option<Duration>) -> Self {
         Self { time, ..self }

@@ -11,7 +11,7 @@ use super::port::{AsyncCanPort, CanPort, BACKLOG};
 use crate::clock::elapsed;
 use crate::node_id::NodeId;
 
-/// Bit of an answer that alternates.
+/// Toggle bit of an answer, which alternates.
 const TOGGLE: u8 = 1 << 7;
 
 /// Node guarding of one node, as NMT master. [`Node::guard`] runs one cycle.
@@ -33,10 +33,10 @@ pub struct Guarding {
 }
 
 impl Guarding {
-    /// Creates the guarding of a node. Set the objects 0x100C and 0x100D of the node to the same values, so that the node
-    /// notices if the master fails.
+    /// Creates the guarding of a node. Set objects 0x100C and 0x100D of the node to the same values, so that the node
+    /// detects a failure of the master.
     ///
-    /// The guard time is the time between two cycles, and the longest time of a cycle. The node is lost after
+    /// The guard time is the time between two cycles, and the maximum duration of a cycle. The node is lost after
     /// `life_time_factor` consecutive cycles without a valid answer. The factor 0 has the same effect as 1.
     #[must_use]
     pub const fn new(guard_time: Duration, life_time_factor: u8) -> Self {
@@ -55,8 +55,8 @@ impl Guarding {
         self.guard_time.saturating_mul(self.life_time_factor.into())
     }
 
-    /// Returns the number of consecutive cycles without a valid answer. A cycle that failed for any reason counts, and so
-    /// does an async cycle that was dropped.
+    /// Returns the number of consecutive cycles without a valid answer. Every failed cycle counts, and so does a
+    /// dropped async cycle.
     #[must_use]
     pub const fn missed(&self) -> u8 {
         self.missed
@@ -87,7 +87,8 @@ impl Guarding {
         state
     }
 
-    /// Processes the error of a cycle without a valid answer. Returns `NodeLost` if the life time has passed.
+    /// Returns the error of a cycle without a valid answer: `NodeLost` if the life time has passed or too many cycles
+    /// were missed, and otherwise `error`.
     fn fail<E>(&self, error: GuardError<E>, now: Option<Duration>) -> GuardError<E> {
         let silence = elapsed(self.answered, now);
         let is_over = silence.is_some_and(|silence| silence >= self.life_time());
@@ -112,9 +113,9 @@ pub enum GuardError<E> {
     NoAnswer,
     /// The toggle bit of the answer did not alternate. The node is not lost yet.
     ToggleBit,
-    /// The node is lost: no valid answer arrived within the node life time, or in as many consecutive cycles as the life time
-    /// factor. The last cycle failed for any reason: no answer, a wrong toggle bit, a request that was not sent, or an error of
-    /// the CAN interface.
+    /// The node is lost: no valid answer arrived within the node life time, or the number of consecutive failed cycles
+    /// has reached the life time factor. The last cycle can have failed for any reason: no answer, a wrong toggle bit,
+    /// a request that was not sent, or an error of the CAN interface.
     NodeLost,
 }
 
@@ -150,28 +151,28 @@ fn answer(frame: &CanFrame, node: NodeId) -> Option<u8> {
 macro_rules! guard {
     ($Port:ident $guard:ident $cycle:ident $settle_guarding:ident $($async:ident $await:ident)?) => {
         impl<P: $Port> Node<P> {
-            /// Runs one cycle of node guarding and returns the state of the node: sends a remote frame and waits for the
-            /// answer. Call this method once in each guard time. A cycle takes at most one guard time. Discards the
-            /// answers that have arrived before.
+            /// Runs one cycle of node guarding and returns the state of the node: sends a remote frame and waits for
+            /// the answer. Call this method once in each guard time. A cycle takes at most one guard time. Discards
+            /// answers that have arrived before this call.
             ///
             /// Returns [`NmtState::BootUp`] if the node has restarted since the last cycle, or restarts during the cycle.
             ///
-            /// After a cycle without an answer, and after an async cycle that was dropped, the next cycle waits for the
-            /// late answer before it sends a request, for at most half of the guard time. If the node needs more than one
-            /// guard time for an answer, the state can therefore be one cycle old.
+            /// After a cycle without an answer, or a dropped async cycle, the next cycle first waits for the late
+            /// answer, for at most half of the guard time. Then the cycle sends its request. If the node needs more
+            /// than one guard time for an answer, the state can therefore be one cycle old.
             ///
-            /// Each cycle without a valid answer counts as [missed](Guarding::missed). The node is lost if as many
-            /// consecutive cycles as the life time factor are missed, or if the node life time has passed since the last
-            /// valid answer, measured with the clock of the port.
+            /// Each cycle without a valid answer counts as [missed](Guarding::missed). The node is lost if the number
+            /// of consecutive missed cycles reaches the life time factor. The node is also lost if the node life time
+            /// has passed since the last valid answer, measured with the clock of the port.
             ///
             /// # Errors
             ///
-            /// - [`GuardError::NodeLost`] if the node is lost, as described above, for any reason. The other errors mean
-            ///   that the node is not lost yet.
+            /// - [`GuardError::NodeLost`] if the node is lost, as described above. The other errors mean that the node
+            ///   is not lost yet.
             /// - [`GuardError::Client`] if the interface fails.
             /// - [`GuardError::NotSent`] if the bus stays busy, or if the interface cannot send remote frames.
             /// - [`GuardError::NoAnswer`] if the node doesn't answer in this cycle.
-            /// - [`GuardError::ToggleBit`] if the only answers have the toggle bit of the previous answer.
+            /// - [`GuardError::ToggleBit`] if no answer has the expected toggle bit.
             pub $($async)? fn $guard(&mut self, guarding: &mut Guarding) -> Result<NmtState, GuardError<P::Error>> {
                 guarding.start(self.port().now());
                 let result = self.$cycle(guarding)$(.$await)?;

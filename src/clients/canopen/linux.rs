@@ -1,4 +1,4 @@
-//! SocketCAN, the CAN interfaces of Linux, blocking.
+//! Blocking access to the CAN interfaces of Linux (SocketCAN).
 
 use std::io;
 use std::time::{Duration, Instant};

@@ -1,4 +1,4 @@
-//! SocketCAN, the CAN interfaces of Linux, async.
+//! Async access to the CAN interfaces of Linux (SocketCAN).
 
 use std::io;
 use std::time::Duration;

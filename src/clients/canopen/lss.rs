@@ -15,7 +15,7 @@ use crate::lss::{
 };
 use crate::node_id::NodeId;
 
-/// Default time in which slaves answer a fastscan request, and in which further answers are an error.
+/// Default window: the time in which slaves answer a fastscan request, and in which further answers are an error.
 const WINDOW: Duration = Duration::from_millis(20);
 
 /// Master of the layer setting services (LSS, CiA 305) on a CAN interface: assigns node-IDs and bit rates. With a
@@ -55,22 +55,22 @@ const WINDOW: Duration = Duration::from_millis(20);
 /// # Several answers
 ///
 /// A slave that is in Configuration by mistake would get the same node-ID as the intended slave. After an answer, the
-/// master therefore waits for further answers and returns [`LssError::SeveralAnswers`] if a second one arrives. It waits
-/// for 20 ms ([`with_window`](Self::with_window)), and for the whole timeout after an answer to a service that changes a
-/// slave: node-ID, bit timing and store.
+/// master therefore waits for further answers and returns [`LssError::SeveralAnswers`] if a second one arrives. The
+/// master waits for 20 ms ([`with_window`](Self::with_window)). After an answer to a service that changes a slave
+/// (node-ID, bit timing, store), the master waits for the whole timeout.
 ///
 /// # Node-IDs that were not confirmed
 ///
 /// If [`configure_node_id`](Self::configure_node_id) fails, one or several slaves may have the node-ID as pending
-/// node-ID, and would use it as soon as they leave Configuration. The master therefore removes the pending node-ID of all
-/// slaves in Configuration, before it returns the error. If the master cannot send this request, or if the async call was
-/// dropped, the next call sends it before any other request. A slave that uses a node-ID keeps it until reset
-/// communication, and then has none until it gets another one or is switched off and on.
+/// node-ID, and would use it as soon as they leave Configuration. The master therefore removes the pending node-ID of
+/// all slaves in Configuration, before it returns the error. If the master cannot send this request, or if the async
+/// call was dropped, the next call sends this request first. A slave that already uses a node-ID keeps it until the NMT
+/// command "reset communication". Then the slave has no node-ID until it gets a new one, or is switched off and on.
 ///
 /// # Late answers
 ///
-/// After a timeout, after [`LssError::SeveralAnswers`], after a scan that failed, and after an async call that was dropped,
-/// the next request first waits for one timeout, and discards the answers of all slaves that arrive in this time.
+/// Late answers can arrive after a timeout, [`LssError::SeveralAnswers`], a failed scan or a dropped async call. The
+/// next request therefore first waits for one timeout, and discards all answers that arrive in this time.
 #[derive(Clone, Debug)]
 pub struct LssMaster<P> {
     port: P,
@@ -89,23 +89,23 @@ impl<P> LssMaster<P> {
         Self { port, timeout: TIMEOUT, window: WINDOW, pause: Duration::ZERO, is_owed: false, is_doubtful: false }
     }
 
-    /// Returns the master with another timeout for each answer, and for sending a frame on a busy bus.
+    /// Sets the timeout for each answer, and for sending a frame on a busy bus.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
     }
 
-    /// Returns the master with another time in which further answers are an error. The same time is the duration of
-    /// each of the 133 steps of a fastscan. All slaves must answer within this time. The default is 20 ms.
+    /// Sets the window: the time in which further answers are an error. The window is also the duration of each of the
+    /// 133 steps of a fastscan, within which all slaves must answer. The default is 20 ms.
     ///
-    /// Without a [clock](CanPort::now), each answer extends the time of a step by at most one eighth.
+    /// Without a [clock](CanPort::now), each answer extends a step by at most one eighth of the window.
     #[must_use]
     pub fn with_window(self, window: Duration) -> Self {
         Self { window, ..self }
     }
 
-    /// Returns the master with a pause before each message. The default is no pause. Some slaves lose a message that
-    /// arrives before they have processed the previous one, for example the four messages of
+    /// Sets a pause before each message. By default, there is no pause. Some slaves lose a message that arrives before
+    /// they have processed the previous one, for example the four messages of
     /// [`switch_selective`](Self::switch_selective).
     #[must_use]
     pub fn with_pause(self, pause: Duration) -> Self {
@@ -136,9 +136,9 @@ macro_rules! master {
         $withdraw:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> LssMaster<P> {
-            /// Switches all slaves to a state. Slaves don't answer. A slave without a node-ID that was configured starts
-            /// with its new node-ID when it is switched to [`LssState::Waiting`]. Some slaves restart their communication
-            /// at this moment: they also use a configured bit rate, and some enter Operational.
+            /// Switches all slaves to a state. Slaves don't answer this service. A slave that had no node-ID starts
+            /// with its configured node-ID when it is switched to [`LssState::Waiting`]. Some slaves then restart their
+            /// communication: they also change to a configured bit rate, and some of them enter Operational.
             ///
             /// # Errors
             ///
@@ -147,7 +147,7 @@ macro_rules! master {
                 self.$run(Service::SwitchGlobal(state))$(.$await)?.map(|_| ())
             }
 
-            /// Switches the slave with this address to the state Configuration, and all other slaves to Waiting first.
+            /// Switches all slaves to Waiting, and then the slave with this address to Configuration.
             ///
             /// # Errors
             ///
@@ -159,12 +159,13 @@ macro_rules! master {
                 self.$run(Service::SwitchSelective(address))$(.$await)?.map(|_| ())
             }
 
-            /// Sets the node-ID of the slave in Configuration. A slave without a node-ID uses it when it is switched to
-            /// Waiting. A slave that already uses a node-ID uses the new one after the NMT command reset communication.
+            /// Sets the node-ID of the slave in Configuration. A slave without a node-ID uses the new one when it is
+            /// switched to Waiting. A slave that already uses a node-ID uses the new one after the NMT command "reset
+            /// communication".
             ///
-            /// After an error other than `Refused`, the master removes the pending node-ID of all slaves in Configuration.
-            /// Don't give the same node-ID to another slave until a [`fast_scan`](Self::fast_scan) or
-            /// [`inquire_node_id`](Self::inquire_node_id) has shown that this slave doesn't use it.
+            /// After an error other than `Refused`, the master removes the pending node-ID of all slaves in
+            /// Configuration. Don't give the same node-ID to another slave until a [`fast_scan`](Self::fast_scan) or
+            /// [`inquire_node_id`](Self::inquire_node_id) has shown that the first slave doesn't use it.
             ///
             /// # Errors
             ///
@@ -186,8 +187,8 @@ macro_rules! master {
                 result.map(|_| ())
             }
 
-            /// Removes the node-ID of the slave in Configuration. A slave that uses a node-ID uses it until the NMT command
-            /// reset communication.
+            /// Removes the node-ID of the slave in Configuration. The slave uses its present node-ID until the NMT
+            /// command "reset communication".
             ///
             /// # Errors
             ///
@@ -196,11 +197,11 @@ macro_rules! master {
                 self.$run(Service::ConfigureNodeId(None))$(.$await)?.map(|_| ())
             }
 
-            /// Sets the bit rate of the slave in Configuration. The bit rate changes with
-            /// [`activate_bit_timing`](Self::activate_bit_timing), or if the slave stores it and restarts. Some slaves also
-            /// use it as soon as they start with a new node-ID. A slave with another bit rate than the bus disturbs all
-            /// nodes. Therefore, first give all slaves their node-IDs. Then configure the bit rate of each slave, switch
-            /// all slaves to Configuration, and activate the bit timing.
+            /// Sets the bit rate of the slave in Configuration. The slave changes its bit rate at
+            /// [`activate_bit_timing`](Self::activate_bit_timing), or at a restart if it has stored the new bit rate.
+            /// Some slaves also change their bit rate when they start with a new node-ID. A slave with a wrong bit rate
+            /// disturbs all nodes on the bus. Therefore, first give all slaves their node-IDs. Then configure the bit
+            /// rate of each slave, switch all slaves to Configuration, and activate the bit timing.
             ///
             /// # Errors
             ///
@@ -209,8 +210,8 @@ macro_rules! master {
                 self.$configure_bit_timing(0, rate.index())$(.$await)?
             }
 
-            /// Sets the bit timing of the slave in Configuration: an index in a table. Table 0 is the table of
-            /// [`BitRate`]; tables 128 to 255 are specific to the vendor.
+            /// Sets the bit timing of the slave in Configuration to entry `index` of table `table`. Table 0 is the
+            /// table of [`BitRate`]; tables 128 to 255 are vendor-specific.
             ///
             /// # Errors
             ///
@@ -222,9 +223,10 @@ macro_rules! master {
                 self.$run(Service::ConfigureBitTiming { table, index })$(.$await)?.map(|_| ())
             }
 
-            /// Activates the bit timings of all slaves in Configuration. Slaves don't answer. The slaves change their bit
-            /// timing after `delay` milliseconds, and don't send for another `delay` milliseconds. Change the bit rate
-            /// of your interface after the first delay, and don't send before the end of the second one.
+            /// Activates the bit timings of all slaves in Configuration. Slaves don't answer this service. The slaves
+            /// change their bit timing after `delay` milliseconds, and don't send for another `delay` milliseconds.
+            /// Change the bit rate of your interface after the first delay, and don't send before the end of the second
+            /// one.
             ///
             /// # Errors
             ///
@@ -246,7 +248,7 @@ macro_rules! master {
                 self.$run(Service::Store)$(.$await)?.map(|_| ())
             }
 
-            /// Returns one number of the address of the slave in Configuration.
+            /// Returns one of the four numbers in the address of the slave in Configuration.
             ///
             /// # Errors
             ///
@@ -300,8 +302,9 @@ macro_rules! master {
                 Ok(frame.as_ref().and_then(answer))
             }
 
-            /// Receives messages of slaves for the duration `time`, and calls `handle` with each message that `wanted` accepts.
-            /// Returns whether `wanted` accepted a message. Without a clock, the time is divided into eighths, and each message restarts its eighth.
+            /// Receives messages of slaves for the duration `time`, and calls `handle` with each message that `wanted`
+            /// accepts. Returns whether `wanted` accepted a message. Without a clock, `time` is divided into eight
+            /// parts, and each message restarts the present part.
             $($async)? fn $collect(
                 &mut self,
                 time: Duration,
@@ -326,8 +329,8 @@ macro_rules! master {
                 Ok(is_answered)
             }
 
-            /// Removes the pending node-ID of all slaves in Configuration, and waits for their answers. That no slave answers
-            /// is not an error, because there may be none.
+            /// Removes the pending node-ID of all slaves in Configuration, and waits for their answers. If no slave
+            /// answers, this is not an error, because there may be no slave in Configuration.
             $($async)? fn $withdraw(&mut self) -> Result<(), LssError<P::Error>> {
                 for message in Service::ConfigureNodeId(None).messages() {
                     self.$send(message)$(.$await)??;
@@ -339,8 +342,8 @@ macro_rules! master {
                 Ok(())
             }
 
-            /// Removes node-IDs that were not confirmed, waits for further answers to an earlier request, and discards all
-            /// answers that have arrived.
+            /// Removes pending node-IDs that were not confirmed, waits for further answers to an earlier request, and
+            /// discards all answers that have arrived.
             $($async)? fn $settle(&mut self) -> Result<(), LssError<P::Error>> {
                 if self.is_doubtful {
                     self.$withdraw()$(.$await)??;

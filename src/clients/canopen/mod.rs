@@ -1,8 +1,8 @@
 //! CANopen over any CAN interface.
 //!
-//! Supports SDO transfers (CiA 301 7.2.4; expedited, segmented and block transfers), NMT and heartbeat (7.2.8), emergency messages
-//! (7.2.7), node guarding (7.2.8.3.2.1), SYNC (7.2.5), TIME (7.2.6), PDOs (7.2.2), LSS (CiA 305), and the boot of a
-//! node (CiA 302-2).
+//! Supports SDO transfers (CiA 301 7.2.4; expedited, segmented and block transfers), NMT and heartbeat (7.2.8),
+//! emergency messages (7.2.7), node guarding (7.2.8.3.2.1), SYNC (7.2.5), TIME (7.2.6), PDOs (7.2.2), LSS (CiA 305),
+//! and the boot of a node (CiA 302-2).
 //!
 //! ```
 //! use std::time::{Duration, Instant};

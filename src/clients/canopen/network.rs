@@ -26,24 +26,24 @@ const MOST_WAKERS: usize = 16;
 /// [`CanPort`](super::CanPort), the handles are [`CanPort`](super::CanPort)s. With an
 /// [`AsyncCanPort`](super::AsyncCanPort), they are [`AsyncCanPort`](super::AsyncCanPort)s, for tasks on the same thread.
 ///
-/// A handle receives the frames of its node: those with the default COB-IDs of CiA 301 7.3.5 that a node sends, and those
-/// with the COB-IDs that [`NetworkPort::with_pdo`], [`NetworkPort::with_emergency`] and [`NetworkPort::with_sdo`] add. A
-/// frame that arrives while another handle uses the interface is kept, if its node has a handle. The handle
-/// [`services`](Self::services) receives LSS answers, SYNC and TIME. All other frames are for the handle that uses the
-/// interface, and are lost if it doesn't expect them; [`unclaimed`](Self::unclaimed) counts them. The network keeps up to
-/// `N` frames:
+/// A handle receives the frames of its node: those with the default COB-IDs of CiA 301 7.3.5 that a node sends, and
+/// those with the COB-IDs that [`NetworkPort::with_pdo`], [`NetworkPort::with_emergency`] and [`NetworkPort::with_sdo`]
+/// add. If a frame arrives while another handle uses the interface, the network keeps it, provided that the node of the
+/// frame has a handle. The handle [`services`](Self::services) receives LSS answers, SYNC and TIME. All other frames go
+/// to the handle that uses the interface. If this handle doesn't expect them, they are lost, and
+/// [`unclaimed`](Self::unclaimed) counts them. The network keeps up to `N` frames:
 ///
 /// - Of each PDO, only the newest is kept. Of each node, only the newest heartbeat and the newest boot-up message are kept.
-/// - If there is no room for an emergency message or a reply, the oldest PDO, heartbeat or boot-up message is discarded. If
-///   none is waiting, the oldest frame is discarded.
+/// - If there is no room for an emergency message or a reply, the oldest PDO, heartbeat or boot-up message is
+///   discarded. If there is no such frame, the oldest frame of any kind is discarded.
 /// - If there is no room for a PDO, heartbeat or boot-up message, the oldest frame of these kinds is discarded. If emergency
 ///   messages and replies use more than half of the room, the oldest of them is discarded instead. Therefore, PDOs arrive
 ///   even if the program never receives emergency messages.
 /// - Discarded frames are counted: [`lost`](Self::lost) counts all of them, and
 ///   [`lost_emergencies`](Self::lost_emergencies) counts the emergency messages.
 ///
-/// The network discards no frame for lack of room if `N` is at least twice the number of PDOs, plus four for each node, and emergency messages are
-/// received as fast as they arrive.
+/// Make `N` at least twice the number of PDOs plus four times the number of nodes. Then no frame is discarded, unless
+/// emergency messages arrive faster than the program receives them.
 ///
 /// ```
 /// use lexibus::clients::canopen::{Network, Node};
@@ -66,18 +66,18 @@ const MOST_WAKERS: usize = 16;
 /// # }
 /// ```
 ///
-/// The network needs no allocator. It is not [`Sync`]: use one network for each thread.
+/// The network needs no allocator. `Network` is not [`Sync`]: use one network for each thread.
 pub struct Network<P, const N: usize> {
     /// The interface, unless a handle uses it.
     port: Cell<Option<P>>,
-    /// Latest time of the interface.
+    /// Last known time of the interface.
     time: Cell<Option<Duration>>,
     /// Number of times that a handle has returned the interface.
     turn: Cell<u32>,
     /// Number of frames without a handle that were lost.
     unclaimed: Cell<usize>,
     kept: RefCell<Kept<N>>,
-    /// Numbers of handles of each node-ID. The first number is that of the services.
+    /// Number of handles for each node-ID. The first element is the number of handles of the services.
     handles: [Cell<u16>; 128],
     wakers: RefCell<[Option<Waker>; MOST_WAKERS]>,
 }
@@ -85,8 +85,9 @@ pub struct Network<P, const N: usize> {
 /// A handle of one node on a [`Network`], or of its services. The handle is the CAN port of a [`Node`](super::Node) or an
 /// [`LssMaster`](super::LssMaster).
 ///
-/// While an async handle waits for a frame or for a busy bus, the other handles get the interface after each millisecond.
-/// When the last handle of a node is dropped, the network discards the frames and the added COB-IDs of the node.
+/// While an async handle waits for a frame or for a busy bus, the other handles can use the interface after at most one
+/// millisecond. When the last handle of a node is dropped, the network discards the frames and the added COB-IDs of the
+/// node.
 #[derive(Debug)]
 pub struct NetworkPort<'n, P, const N: usize> {
     network: &'n Network<P, N>,
@@ -150,8 +151,8 @@ impl<P, const N: usize> Network<P, N> {
         self.handles.get(usize::from(owner.map_or(0, NodeId::get)))
     }
 
-    /// Returns the number of frames of nodes with a handle that were discarded because more than `N` frames were waiting.
-    /// PDOs that a newer one has replaced don't count.
+    /// Returns the number of frames of nodes with a handle that were discarded because more than `N` frames were
+    /// waiting. Frames that a newer frame has replaced don't count.
     pub fn lost(&self) -> usize {
         self.kept.try_borrow().map_or(0, |kept| kept.lost)
     }
@@ -161,10 +162,10 @@ impl<P, const N: usize> Network<P, N> {
         self.kept.try_borrow().map_or(0, |kept| kept.lost_emergencies)
     }
 
-    /// Returns the number of frames that were lost because no handle is for them and the handle that used the interface
-    /// didn't expect them. A growing number can show that a node has no handle, or a PDO another COB-ID, which was not
-    /// [added](NetworkPort::with_pdo). SYNC, TIME and LSS answers without the handle [`services`](Self::services), and
-    /// frames of other masters, also count, and so do remote frames.
+    /// Returns the number of lost frames: frames that belong to no handle, and that the handle that used the interface
+    /// didn't expect. A growing number can mean that a node has no handle, or that the COB-ID of a PDO was not
+    /// [added](NetworkPort::with_pdo). Frames of other masters and remote frames also count. SYNC, TIME and LSS answers
+    /// count if there is no handle for the [`services`](Self::services).
     pub fn unclaimed(&self) -> usize {
         self.unclaimed.get()
     }
@@ -197,18 +198,19 @@ impl<P, const N: usize> Network<P, N> {
         false
     }
 
-    /// Returns a kept frame of a handle that `wanted` accepts.
+    /// Removes the oldest kept frame of a handle that `wanted` accepts, and returns it.
     fn take(&self, handle: Owner, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> Option<CanFrame> {
         self.kept.try_borrow_mut().ok()?.take(handle, wanted)
     }
 
-    /// Wakes all handles that wait for the interface or a frame. Returns whether there are any.
+    /// Wakes all handles that wait for the interface or a frame. Returns whether a handle was waiting.
     fn wake(&self) -> bool {
         let Ok(mut wakers) = self.wakers.try_borrow_mut() else { return false };
         wakers.iter_mut().filter_map(Option::take).map(Waker::wake).count() > 0
     }
 
-    /// Notes a handle that waits for the interface or a frame. If too many handles wait, this one polls.
+    /// Stores the waker of a handle that waits for the interface or a frame. If too many handles wait, wakes this
+    /// handle at once, so that it polls.
     fn note(&self, waker: &Waker) {
         let Ok(mut wakers) = self.wakers.try_borrow_mut() else { return waker.wake_by_ref() };
         if wakers.iter().flatten().any(|noted| noted.will_wake(waker)) {
@@ -222,19 +224,19 @@ impl<P, const N: usize> Network<P, N> {
 }
 
 impl<P, const N: usize> NetworkPort<'_, P, N> {
-    /// Adds a PDO that the node sends to the frames of the handle. This is not necessary for the PDOs whose COB-IDs are
-    /// 0x180, 0x280, 0x380 or 0x480 plus the node-ID.
+    /// Adds a PDO of the node to the frames that the handle receives. This is not necessary for the PDOs whose COB-IDs
+    /// are 0x180, 0x280, 0x380 or 0x480 plus the node-ID.
     ///
-    /// Returns `None` if `cob_id` isn't a COB-ID that a PDO may have, if it was added for another node or for other frames,
-    /// or if there is no room: a network has room for `N` COB-IDs. Also returns `None` for the handle of the services.
+    /// Returns `None` if `cob_id` isn't allowed for a PDO, if it was added for another node or another kind of frame,
+    /// or if `N` COB-IDs have already been added. Also returns `None` for the handle of the services.
     #[must_use]
     pub fn with_pdo(self, cob_id: CobId) -> Option<Self> {
         let id = pdo_id(cob_id, self.owner?)?;
         self.with(id, Kind::ProcessData)
     }
 
-    /// Adds the COB-ID of the emergency messages of the node (object 0x1014; bit 29 for CAN-IDs of 29 bits, bits 30 and 31
-    /// are ignored). This is not necessary for the default COB-ID. Use
+    /// Adds the COB-ID of the emergency messages of the node (object 0x1014). Bit 29 means that the CAN-ID has 29 bits;
+    /// bits 30 and 31 are ignored. This is not necessary for the default COB-ID. Also call
     /// [`Node::with_emergency_id`](super::Node::with_emergency_id) with the same COB-ID.
     ///
     /// Returns `None` for the same reasons as [`with_pdo`](Self::with_pdo).
@@ -244,7 +246,7 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
         self.with(id, Kind::Emergency)
     }
 
-    /// Adds the replies of another SDO channel than the default one. Use
+    /// Adds the replies of an SDO channel that isn't the default channel. Also call
     /// [`Node::with_channel`](super::Node::with_channel) with the same channel.
     ///
     /// Returns `None` for the same reasons as [`with_pdo`](Self::with_pdo).

@@ -124,7 +124,7 @@ pub fn sync() -> CanFrame {
     CanFrame::of(SYNC, [])
 }
 
-/// Returns a SYNC message with a counter (CiA 301 7.2.5.3), or `None` if the counter isn't 1 to 240.
+/// Returns a SYNC message with a counter (CiA 301 7.2.5.3), or `None` if the counter is outside the range 1 to 240.
 #[must_use]
 pub fn sync_with_counter(counter: u8) -> Option<CanFrame> {
     matches!(counter, 1..=240).then(|| CanFrame::of(SYNC, [counter]))

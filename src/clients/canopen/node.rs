@@ -28,23 +28,24 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// If a reply doesn't arrive within the timeout, the client aborts the transfer. The reply to the aborted transfer may
 /// still arrive. The next transfer therefore waits for the late reply, for at most one more timeout, and discards it.
 /// After an async transfer that was dropped, the next transfer sends the abort first. Therefore, a transfer after a
-/// timeout takes up to one timeout longer. Replies to other requests don't prolong a transfer.
+/// timeout takes up to one timeout longer. Replies to other requests don't restart the timeout.
 ///
 /// # Duration of a transfer
 ///
 /// Each reply must arrive within the timeout. In addition, a transfer as a whole ends after one timeout, plus one tenth
-/// of the timeout for each segment of 7 bytes. For an upload without an announced length, the received segments count.
-/// For example, a value of 70 bytes takes at most two timeouts, even if the node sends each segment just before the
-/// timeout of a reply. If the limit is exceeded, the client aborts the transfer and returns [`Error::Timeout`]. The
-/// client measures this time with [`CanPort::now`]. Without a clock, only the timeout of each reply applies.
+/// of the timeout for each segment of 7 bytes. If the node doesn't announce the length of an upload, only the segments
+/// received so far count. For example, a value of 70 bytes takes at most two timeouts, even if the node sends each
+/// segment just before the timeout of a reply. If the limit is exceeded, the client aborts the transfer and returns
+/// [`Error::Timeout`]. The client measures this time with [`CanPort::now`]. Without a clock, only the timeout of each
+/// reply applies.
 ///
 /// # Block transfers
 ///
-/// Values of at least [`BLOCK_THRESHOLD`] bytes are transferred in blocks with CRC (CiA 301 7.2.4.3.9 to 7.2.4.3.16). The
-/// length of a read value is not known before the transfer, so the length of the buffer decides. If the node aborts the
-/// first block transfer with the code 0x05040001, or doesn't support the CRC, the client continues with a segmented
-/// transfer and doesn't try block transfers again. A segment that is lost within a sub-block is sent again. If the last
-/// segment of a sub-block is lost, the transfer ends with [`Error::Timeout`].
+/// Values of at least [`BLOCK_THRESHOLD`] bytes are transferred in blocks with CRC (CiA 301 7.2.4.3.9 to 7.2.4.3.16).
+/// For a read, the length of the buffer is used instead, because the length of the value is not known before the
+/// transfer. If the node aborts the first block transfer with code 0x05040001, or doesn't support the CRC, the client
+/// continues with a segmented transfer and doesn't try block transfers again. A segment that is lost within a sub-block
+/// is sent again. If the last segment of a sub-block is lost, the transfer ends with [`Error::Timeout`].
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -72,26 +73,26 @@ impl<P> Node<P> {
         }
     }
 
-    /// Returns the client with another timeout for each reply, and for sending a frame on a busy bus.
+    /// Sets the timeout for each reply, and for sending a frame on a busy bus.
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         Self { timeout, ..self }
     }
 
-    /// Returns the client with another SDO channel. The default is the [default channel](Channel::of_node) of the node.
+    /// Sets the SDO channel. The default is the [default channel](Channel::of_node) of the node.
     #[must_use]
     pub fn with_channel(self, channel: Channel) -> Self {
         Self { channel, ..self }
     }
 
-    /// Returns the client with another COB-ID of the emergency messages (object 0x1014; bit 29 for CAN-IDs of 29 bits, bits
-    /// 30 and 31 are ignored). The default is 0x80 plus the node-ID.
+    /// Sets the COB-ID of the emergency messages (object 0x1014). Bit 29 means that the CAN-ID has 29 bits; bits 30 and
+    /// 31 are ignored. The default is 0x80 plus the node-ID.
     #[must_use]
     pub fn with_emergency_id(self, cob_id: u32) -> Self {
         Self { emergency_id: cob_id, ..self }
     }
 
-    /// Returns the client with another minimum length of block transfers, in bytes. `usize::MAX` disables block
+    /// Sets the minimum length in bytes of values that are transferred in blocks. `usize::MAX` disables block
     /// transfers, for example for a node that doesn't reply to them. Values of at most 4 bytes are never transferred in
     /// blocks.
     #[must_use]
@@ -104,8 +105,8 @@ impl<P> Node<P> {
         self.channel
     }
 
-    /// Returns the minimum length of block transfers in bytes. After the node has refused a block transfer, this length is
-    /// `usize::MAX`.
+    /// Returns the minimum length in bytes of values that are transferred in blocks. After the node has refused a block
+    /// transfer, this length is `usize::MAX`.
     pub const fn block_threshold(&self) -> usize {
         if self.is_block_refused {
             usize::MAX
@@ -148,7 +149,7 @@ pub(super) fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
-/// Returns the CAN-ID of a PDO of `node`, with bit 29 if it has 29 bits.
+/// Returns the CAN-ID of a PDO of `node`; bit 29 is set if the CAN-ID has 29 bits.
 ///
 /// Some PDOs have the default COB-ID 0, which would be an NMT command to all nodes. Restricted COB-IDs are therefore
 /// rejected.
@@ -237,12 +238,12 @@ macro_rules! methods {
                 self.$send(&time.frame())$(.$await)?
             }
 
-            /// Returns the newest TIME message of the network with the default COB-ID 0x100: its time, and the
-            /// [time](CanFrame::time) at which the message was taken from the interface. Waits for `patience` if no message
-            /// has arrived since the last call. Returns `None` if no message arrives.
+            /// Returns the time in the newest TIME message with the default COB-ID 0x100, and the
+            /// [time](CanFrame::time) at which the message was taken from the interface. Waits for `patience` if no
+            /// message has arrived since the last call. Returns `None` if no message arrives.
             ///
-            /// An interface that keeps frames can return an old message. Use the second time to get its age. On a
-            /// [`Network`](super::Network), call this method on the handle of the
+            /// An interface that keeps frames can return an old message. To get its age, compare the second time with
+            /// [`CanPort::now`]. On a [`Network`](super::Network), call this method on the handle of the
             /// [services](super::Network::services).
             ///
             /// # Errors
@@ -272,7 +273,8 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Returns the errors of [`send`](Self::send), or [`Error::OutOfRange`] if the counter isn't 1 to 240.
+            /// Returns the errors of [`send`](Self::send), or [`Error::OutOfRange`] if the counter is outside the range
+            /// 1 to 240.
             pub $($async)? fn $sync_with_counter(&mut self, counter: u8) -> Result<(), Error<P::Error>> {
                 let frame = nmt::sync_with_counter(counter).ok_or(Error::OutOfRange(OutOfRange))?;
                 self.$send(&frame)$(.$await)?
@@ -306,9 +308,9 @@ macro_rules! methods {
             /// message, which a node sends after its start.
             ///
             /// This method also accepts heartbeats that a [`Buffered`](super::Buffered) interface or a
-            /// [`Network`](super::Network) has stored. To ignore them, call [`Buffered::clear`](super::Buffered::clear) or
-            /// [`NetworkPort::clear`](super::NetworkPort::clear) first. [`nmt`](Self::nmt) does so for the heartbeats of the
-            /// node before a restart.
+            /// [`Network`](super::Network) has stored. To ignore them, call [`Buffered::clear`](super::Buffered::clear)
+            /// or [`NetworkPort::clear`](super::NetworkPort::clear) first. [`nmt`](Self::nmt) discards the heartbeats
+            /// of the node before a command that restarts the node.
             ///
             /// # Errors
             ///
@@ -321,8 +323,9 @@ macro_rules! methods {
             }
 
             /// Waits for the node's next emergency message and returns it. Returns `None` if no message arrives within
-            /// `patience`. A [`Buffered`](super::Buffered) interface returns its oldest message. For a node with another
-            /// COB-ID than the default one, use [`with_emergency_id`](Self::with_emergency_id).
+            /// `patience`. If a [`Buffered`](super::Buffered) interface contains several messages, this method returns
+            /// the oldest one. If the node doesn't use the default COB-ID, set the COB-ID with
+            /// [`with_emergency_id`](Self::with_emergency_id).
             ///
             /// # Errors
             ///
@@ -338,8 +341,8 @@ macro_rules! methods {
             ///
             /// # Errors
             ///
-            /// Returns the errors of [`send`](Self::send). Returns [`Error::OutOfRange`] if `cob_id` isn't a COB-ID
-            /// that a PDO may have (CiA 301 7.3.5), or [`Error::Length`] if `data` has more than 8 bytes.
+            /// Returns the errors of [`send`](Self::send). Returns [`Error::OutOfRange`] if `cob_id` isn't allowed for
+            /// a PDO (CiA 301 7.3.5), or [`Error::Length`] if `data` has more than 8 bytes.
             pub $($async)? fn $send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
                 let frame = pdo(cob_id, self.id, data)?;
                 self.$send(&frame)$(.$await)?

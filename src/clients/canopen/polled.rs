@@ -5,7 +5,8 @@ use core::time::Duration;
 use super::frame::CanFrame;
 use super::port::{CanPort, MOST_WAITING};
 
-/// Non-blocking interface of `embedded-can` with a clock: a function that returns the time since any fixed moment.
+/// CAN port that polls a non-blocking interface of `embedded-can`. The clock is a function that returns the time since
+/// any fixed moment.
 #[derive(Clone, Debug)]
 pub struct Polled<C, T> {
     can: C,

@@ -5,11 +5,11 @@ use core::time::Duration;
 use super::frame::CanFrame;
 use crate::clock::{Clock, DefaultClock};
 
-/// Maximum number of frames of one kind that are read after the timeout, so that a busy bus doesn't block the caller forever.
+/// Maximum number of matching frames that one call processes, so that a busy bus doesn't block the caller forever.
 pub(super) const BACKLOG: usize = 256;
 
-/// Maximum number of frames that are read from the receive queue of an interface after the timeout: more than any queue holds. Frames
-/// that have already arrived are therefore found even with a timeout of zero.
+/// Maximum number of frames that are read from the receive queue of an interface after the timeout: more than any queue
+/// holds. Frames that have already arrived are therefore found even with a timeout of zero.
 pub(super) const MOST_WAITING: usize = 0x1_0000;
 
 /// CAN interface with timeouts.

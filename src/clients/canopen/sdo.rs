@@ -51,7 +51,7 @@ impl Running<'_> {
         }
     }
 
-    /// Returns the reply that the node still has to send after the last request.
+    /// Returns the reply to the last request if the node still has to send it.
     fn owed(&self) -> Option<Owed> {
         let is_aborted = self.transfer.result().is_some();
         (self.transfer.is_owed() || !is_aborted).then_some(Owed { reply: self.transfer.expected(), is_aborted })
@@ -91,7 +91,7 @@ macro_rules! transfers {
             }
 
             /// Waits for a late reply and discards it. In a block upload, discards all segments that arrive within the
-            /// timeout: the next transfer must not take them for its replies.
+            /// timeout, because the next transfer could mistake them for its replies.
             $($async)? fn $discard(&mut self, late: Expected) -> Result<(), Error<P::Error>> {
                 let answers = self.channel().reply();
                 let mut patience = self.timeout();

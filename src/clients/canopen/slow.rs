@@ -13,7 +13,7 @@ use std::vec::Vec;
 use super::frame::CanFrame;
 use super::port::AsyncCanPort;
 
-/// Returns a waker without effect.
+/// Returns a waker that does nothing.
 pub fn silent() -> Waker {
     struct Silent;
     impl Wake for Silent {
@@ -76,8 +76,8 @@ impl AsyncCanPort for &Slow {
     }
 }
 
-/// Polls a future that waits for long, and then another one for at most 3 ms in steps of 0.1 ms. Returns the output of the
-/// second future.
+/// Polls `long` and `short` in turn, in steps of 0.1 ms for at most 3 ms; `long` must stay pending. Returns the output
+/// of `short`, or `None` if it takes longer.
 pub fn beside<T>(slow: &Slow, long: impl Future, short: impl Future<Output = T>) -> Option<T> {
     let waker = silent();
     let mut context = Context::from_waker(&waker);

@@ -14,8 +14,8 @@ impl TimeOfDay {
         Self::of_id(frame, TIME)
     }
 
-    /// Returns the time in a TIME message with the COB-ID `id` (object 0x1012; bit 29 for CAN-IDs of 29 bits, bits 30
-    /// and 31 are ignored). Returns `None` for other frames.
+    /// Returns the time in a TIME message with the COB-ID `id` (object 0x1012), or `None` for other frames. Bit 29 of
+    /// `id` means that the CAN-ID has 29 bits; bits 30 and 31 are ignored.
     #[must_use]
     pub fn of_id(frame: &CanFrame, id: u32) -> Option<Self> {
         let [a, b, c, d, e, f] = <[u8; 6]>::try_from(frame.data()).ok()?;

@@ -46,7 +46,8 @@ impl Cycle {
         Self { working_counter: counts.sum() }
     }
 
-    /// Creates the check for another working counter, for example for a group with process data in several frames.
+    /// Creates the check for this expected working counter, for example for a group with process data in several
+    /// frames.
     #[must_use]
     pub const fn expecting(working_counter: u16) -> Self {
         Self { working_counter }

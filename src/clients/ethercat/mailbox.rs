@@ -1,4 +1,4 @@
-//! Mailbox of a SubDevice: sends one message and receives one message (ETG.1000.4 6.7, ETG.1000.6 5.3).
+//! Mailbox of a SubDevice, which transfers one message at a time in each direction (ETG.1000.4 6.7, ETG.1000.6 5.3).
 
 use core::future::pending;
 use core::ops::Deref;
@@ -149,7 +149,7 @@ impl<'m> Mailbox<'m, DefaultClock> {
 }
 
 impl<'m, T: Timer> Mailbox<'m, T> {
-    /// Returns the mailbox with another timer.
+    /// Returns the mailbox with this timer.
     pub(super) fn with_timer<U>(self, timer: U) -> Mailbox<'m, U> {
         let Self { controller, timeout, clock, buffers, emergency, is_unsettled, .. } = self;
         Mailbox { controller, timeout, clock, timer, buffers, emergency, is_unsettled }
@@ -264,7 +264,7 @@ impl<'m> Controller<'m> {
         }
     }
 
-    /// Waits until the last message is in the mailbox again. Toggles the repeat request if the mailbox is empty.
+    /// Requests the last message again, unless the mailbox is full, and waits until the message is in the mailbox.
     async fn repeat<T: Timer>(self, back: Buffer, deadline: &mut Deadline<'_, T>) -> Result<(), Error<BusError>> {
         if self.is_full(back).await? {
             return Ok(());

@@ -28,7 +28,7 @@ const ERROR_REPLY: [u8; 2] = [1, 0];
 /// Protocol number of CoE in the header of a mailbox message.
 const COE: u8 = 3;
 
-/// Says whether bytes of the value follow the head of a request.
+/// Whether bytes of the value follow the head of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
     /// The head contains all data.
@@ -46,8 +46,8 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// Creates a request from the command and the fields before the value. `length` is the length after the mailbox
-    /// header in bytes.
+    /// Creates a request from the command and the fields before the value. `length` is the number of bytes after the
+    /// mailbox header.
     fn new(rest: &[u8], length: usize, command: Command) -> Self {
         // The address is 0, with the lowest priority. The counter stays 0, which disables the detection of repeated
         // messages, because the counter of `ethercrab` is unknown.

@@ -47,7 +47,7 @@ impl<T> Shared<T> {
 }
 
 impl<T: AsyncRead + Unpin> Shared<T> {
-    /// Waits for bytes and returns their number. Also appends the bytes to `to`, up to a length of 260.
+    /// Waits for bytes and returns their number. Appends the bytes to `to`, until `to` has 260 bytes.
     pub(super) async fn discard(&self, to: &mut Vec<u8>) -> io::Result<usize> {
         let mut bytes = [0; 260];
         let mut buffer = ReadBuf::new(&mut bytes);

@@ -24,7 +24,7 @@ use crate::framing::Check;
 /// of this length, the link considers a late reply complete.
 const GAP: Duration = Duration::from_micros(1750);
 
-/// Minimum waiting time: the executor must have time to report bytes that have already arrived.
+/// Minimum time to wait for bytes, within which the executor can report bytes that have already arrived.
 const TURN: Duration = Duration::from_millis(1);
 
 /// Default turnaround delay of RTU: the time for all devices to execute a broadcast (MODBUS over Serial Line V1.02,
@@ -108,8 +108,8 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         Self { turnaround: Some(delay), ..self }
     }
 
-    /// Sends a request and waits for the reply. A broadcast has no reply, so the link returns the reply that confirms
-    /// the write, after the turnaround delay.
+    /// Sends a request and waits for the reply. Devices don't reply to a broadcast, so the link itself creates the
+    /// reply that confirms the write, after the turnaround delay.
     pub(super) async fn call(&mut self, request: Request<'_>) -> Reply {
         match self.turnaround.filter(|_| self.device.is_broadcast()) {
             Some(delay) => self.broadcast(request, delay).await,
@@ -149,7 +149,7 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         Ok(())
     }
 
-    /// Discards bytes and appends them to `discarded`. Returns false if none arrived until `end`.
+    /// Discards bytes and appends them to `discarded`. Returns false if no byte arrives before `end`.
     async fn discard_until(&self, end: Instant, discarded: &mut Vec<u8>) -> io::Result<bool> {
         match timeout_at(end, self.line.discard(discarded)).await {
             Ok(Ok(0)) => Err(io::ErrorKind::UnexpectedEof.into()),
@@ -177,7 +177,7 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         reply
     }
 
-    /// Waits until no earlier reply can arrive any more. Discards all received bytes.
+    /// Waits until no reply to an earlier request can arrive. Discards all received bytes.
     async fn settle(&mut self) -> io::Result<()> {
         // A broadcast may have been dropped.
         self.line.lock().is_broadcast = false;
@@ -250,7 +250,7 @@ impl<T> SlaveContext for Link<T> {
     }
 }
 
-/// Content by which a reply is matched to its request.
+/// Content that the reply to a request must have.
 enum Expected {
     Words(u16),
     Bits(u16),
@@ -328,8 +328,8 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> BlockingLink<T> {
 }
 
 impl BlockingLink<TcpStream> {
-    /// Connects to `device` with Modbus TCP. Unit 0 is the device itself, which replies. `timeout` limits the time to connect, and the time of each call as in
-    /// [`Link`].
+    /// Connects to `device` with Modbus TCP. Unit 0 is the device itself, which replies. `timeout` limits the time to
+    /// connect, and the time of each call as in [`Link`].
     ///
     /// # Errors
     ///

@@ -240,7 +240,7 @@ fn takes(register: Register, data: &[u8]) -> bool {
 pub(super) struct NoReply;
 
 impl NoReply {
-    /// Returns whether the error is this error.
+    /// Returns whether `error` is a `NoReply`.
     pub(super) fn is(error: &io::Error) -> bool {
         error.get_ref().is_some_and(|error| error.is::<Self>())
     }

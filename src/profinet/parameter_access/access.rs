@@ -16,8 +16,8 @@ pub const GLOBAL: u16 = 0xB02F;
 /// Application process identifier (API) of PROFIdrive.
 pub const API: u32 = 0x3A00;
 
-/// Maximum length in bytes of a request or a response in [`ParameterAccess`] calls for one parameter. Every drive
-/// supports a parameter channel of this length.
+/// Maximum length in bytes of a request or response when a [`ParameterAccess`] method accesses a single parameter.
+/// Every drive supports a parameter channel of this length.
 pub const BLOCK_LEN: usize = 240;
 
 /// Default number of attempts to read a response.
@@ -26,15 +26,14 @@ const POLLS: u32 = 200;
 /// Reads and changes drive parameters through a submodule that has a parameter record. The methods with the suffix
 /// `_async` don't block.
 ///
-/// A call writes a request and reads the record until the drive provides the response. The call reads again if the
-/// record is empty or if the client reports that the device is busy ([`RecordClient::is_busy`]). Between two reads, the
-/// call pauses with [`RecordClient::pause`]. [`with_polls`](Self::with_polls) limits the number of reads. A drive
-/// processes only one request at a time.
+/// Each method writes a request, and then reads the record until the drive provides the response. The method reads
+/// again if the record is empty or if the client reports that the device is busy ([`RecordClient::is_busy`]). Between
+/// two reads, the method calls [`RecordClient::pause`]. [`with_polls`](Self::with_polls) limits the number of reads. A
+/// drive processes only one request at a time.
 ///
 /// # Errors
 ///
-/// - The errors of the client, including the last error of a busy device if there is no response after the last
-///   attempt.
+/// - The errors of the client, including the error for a busy device if the device is still busy at the last attempt.
 /// - [`Error::Timeout`] if the record is still empty after the last attempt.
 /// - [`Error::ParameterAccess`] if the drive refuses the request, or if the response is invalid.
 /// - [`Error::Length`] if a request or a response is too short or exceeds the buffer.
@@ -59,7 +58,7 @@ impl<C> ParameterAccess<C> {
         Self { client, record, polls: POLLS, reference: 0 }
     }
 
-    /// Returns the access with this number of attempts to read a response. The value 0 counts as 1.
+    /// Returns the access with at most `polls` attempts to read a response. The value 0 has the same effect as 1.
     #[must_use]
     pub fn with_polls(self, polls: u32) -> Self {
         Self { polls, ..self }
@@ -75,7 +74,7 @@ impl<C> ParameterAccess<C> {
         self.client
     }
 
-    /// Returns the reference for the next request. References count from 1 to 255, and then start at 1 again.
+    /// Returns the reference for the next request. References run from 1 to 255, and then restart at 1.
     pub fn next_reference(&mut self) -> u8 {
         self.reference = self.reference.checked_add(1).unwrap_or(1);
         self.reference
@@ -127,7 +126,7 @@ fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), 
 }
 
 /// Evaluates an attempt to read a response. The inner result is the length of the response, or the error to return if
-/// this was the last attempt. The outer error ends the attempts.
+/// this was the last attempt. An outer error means that no further attempt follows.
 fn response_length<E>(
     outcome: Result<usize, Error<E>>,
     is_busy: impl FnOnce(&E) -> bool,
@@ -164,7 +163,8 @@ macro_rules! calls {
                 Ok(self.$request(request, &mut response)$(.$await)??.values()?.get(0)?)
             }
 
-            /// Reads elements of an array, from `subindex` on. The length of `values` is the number of elements.
+            /// Reads consecutive elements of an array, starting at `subindex`. The length of `values` is the number of
+            /// elements.
             pub $($async)? fn $read_array<T: ParameterValue>(
                 &mut self,
                 axis: u8,
@@ -189,7 +189,7 @@ macro_rules! calls {
                 self.$write_array(axis, pnu, subindex, &[value])$(.$await)?
             }
 
-            /// Changes elements of an array, from `subindex` on.
+            /// Changes consecutive elements of an array, starting at `subindex`.
             pub $($async)? fn $write_array<T: ParameterValue + Copy>(
                 &mut self,
                 axis: u8,

@@ -14,7 +14,7 @@ pub enum ParameterError {
     Refused(Refusal),
     /// The number of parameters isn't in the range 1 to [`MAX_PARAMETERS`](super::MAX_PARAMETERS).
     Count(usize),
-    /// The bytes of a change are not 1 to 255 values of this format.
+    /// The data of a change don't consist of 1 to 255 values of this format.
     Values(Format),
     /// The request has the reference 0, or it has fewer than four bytes.
     NoRequest,
@@ -35,7 +35,7 @@ pub enum ParameterError {
         /// Axis of the response.
         actual: u8,
     },
-    /// The response has more parameters than the request, or fewer parameters without a refusal.
+    /// The response has more parameters than the request, or it has fewer parameters and contains no refusal.
     ParameterCount {
         /// Number of parameters in the request.
         expected: u8,

@@ -48,7 +48,7 @@ impl ParameterAddress {
         Self::values(pnu, subindex, 1)
     }
 
-    /// Creates the address of several elements of an array, from `subindex` on.
+    /// Creates the address of consecutive elements of an array, starting at `subindex`.
     #[must_use]
     pub const fn values(pnu: u16, subindex: u16, elements: u8) -> Self {
         Self { attribute: Attribute::Value, elements, pnu, subindex }
@@ -109,7 +109,7 @@ pub fn read_request<'b>(
     to.finish()
 }
 
-/// Encodes a request into `buffer` and returns the request. The request makes `changes` to parameters. `axis` is the
+/// Encodes a request into `buffer` and returns the request. The request applies `changes` to parameters. `axis` is the
 /// drive object number (DO-ID).
 ///
 /// # Errors

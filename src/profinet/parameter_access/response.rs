@@ -158,8 +158,8 @@ impl<'r> Response<'r> {
 }
 
 impl<'r> Values<'r> {
-    /// Splits the first values off `data`. If the values are incomplete, returns the number of missing bytes as an
-    /// error.
+    /// Decodes the values of the first parameter in `data`, and returns the values and the remaining data. If the
+    /// values are incomplete, returns the number of missing bytes as an error.
     fn split(data: &'r [u8]) -> Result<(Self, &'r [u8]), usize> {
         let Some((&[format, count], rest)) = data.split_first_chunk() else { return Err(2 - data.len()) };
         let format = Format(format);

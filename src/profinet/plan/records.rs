@@ -18,7 +18,7 @@ pub struct RecordWrite<'r> {
     pub data: &'r [u8],
 }
 
-/// New content for a record in a plan, instead of the default content.
+/// Content that replaces the default content of a record in a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replacement<'r> {
     /// Slot.
@@ -55,11 +55,12 @@ impl<const N: usize> Plan<N> {
         Records { plan: *self, replacements: &[], entry: 0, record: 0 }
     }
 
-    /// Returns the start-up records. `replacements` replace the default content of some records.
+    /// Returns the start-up records. `replacements` contains the records whose content differs from the default
+    /// content.
     ///
     /// # Errors
     ///
-    /// Returns [`PlanError::NoSuchRecord`] if the plan lacks the record of a replacement. Returns
+    /// Returns [`PlanError::NoSuchRecord`] if the plan doesn't contain the record of a replacement. Returns
     /// [`PlanError::RecordLength`] if the lengths of record and replacement differ.
     pub fn records_with<'r>(&self, replacements: &'r [Replacement<'r>]) -> Result<Records<'r, N>, PlanError> {
         for replacement in replacements {

@@ -1,4 +1,4 @@
-//! Property: on a bus that loses and repeats messages, a transfer has the right value or an error.
+//! Property test: on a bus that loses and repeats messages, a transfer returns the correct value or an error.
 
 use core::cell::Cell;
 use std::vec;

@@ -8,8 +8,8 @@ use std::vec::Vec;
 use super::{CanNode, MOST_FRAMES};
 use crate::clients::canopen::{AsyncCanPort, CanFrame, CanPort};
 
-/// A simulated CAN bus with several nodes, which also receive the frames of each other. CANopen clients use the bus as
-/// their CAN port. The clock of the bus is simulated, as that of a [`CanNode`].
+/// A simulated CAN bus with several nodes, which also receive each other's frames. CANopen clients use the bus as their
+/// CAN port. The clock of the bus is simulated, like the clock of a [`CanNode`].
 ///
 /// ```
 /// use core::time::Duration;
@@ -66,7 +66,7 @@ impl CanBus {
         self.advance_to(self.now.saturating_add(time));
     }
 
-    /// Moves the clock forward, from event to event, so that the nodes receive the frames of each other in time.
+    /// Moves the clock forward, from event to event, so that the nodes receive each other's frames in time.
     fn advance_to(&mut self, end: Duration) {
         self.exchange();
         while let Some(next) = self.next_event().filter(|next| *next <= end) {
@@ -100,8 +100,8 @@ impl CanBus {
         self.synchronize();
     }
 
-    /// Exchanges the frames that the nodes have sent. The limit ends an endless exchange between nodes that answer each
-    /// other.
+    /// Delivers the frames that the nodes have sent to the other nodes. A limit ends an endless exchange between nodes
+    /// that answer each other.
     fn exchange(&mut self) {
         for _ in 0..MOST_FRAMES {
             let frames = self.nodes.iter_mut().enumerate();

@@ -7,7 +7,8 @@ use std::vec::Vec;
 
 use crate::clients::canopen::CanFrame;
 
-/// A fault of a frame that a client receives from a simulated CAN bus. [`FaultyCan`](super::FaultyCan) injects it.
+/// A fault of a frame that a client receives from a simulated CAN bus. [`FaultyCan`](super::FaultyCan) injects the
+/// fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CanFault {
@@ -17,9 +18,9 @@ pub enum CanFault {
     Lost,
     /// The frame arrives twice.
     Duplicated,
-    /// The frame arrives with the first half of its data.
+    /// The frame arrives with only the first half of its data.
     Truncated,
-    /// Another frame arrives repeatedly instead of the frame, such as the reply to another request.
+    /// Instead of the frame, another frame arrives `count` times, such as the reply to another request.
     Foreign {
         /// The frame that arrives.
         frame: CanFrame,
@@ -31,17 +32,17 @@ pub enum CanFault {
     /// This number of frames with the CAN-ID 0x123 arrives before the frame. The predefined connection set (CiA 301 7.3.3)
     /// doesn't use this CAN-ID.
     Noise(u32),
-    /// The frame arrives with the wrong toggle bit: bit 7 of an answer of node guarding, and bit 4 of an SDO segment from the
-    /// default SDO server. Other frames have no toggle bit and are not changed. In block transfers, sequence numbers up to 63
-    /// are wrong.
+    /// The frame arrives with the wrong toggle bit: bit 7 of an answer of node guarding, and bit 4 of an SDO segment
+    /// from the default SDO server. Other frames have no toggle bit and are not changed. In block transfers, bit 4 of
+    /// sequence numbers up to 63 is inverted.
     WrongToggle,
     /// The frame is lost, because all devices on the bus restart, as after a power failure.
     Restart,
-    /// The interface goes to the state bus-off. The frame and all others are lost, and each call returns
+    /// The interface enters the bus-off state. This frame and all following frames are lost, and each call returns
     /// [`CanError::BusOff`], until [`recover`](super::FaultyCan::recover) is called.
     BusOff,
     /// The interface receives an error frame, and the call returns [`CanError::ErrorFrame`]. The frame arrives after
-    /// that, because the sender repeats it.
+    /// the error frame, because the sender repeats the frame.
     ErrorFrame,
 }
 
@@ -49,7 +50,7 @@ pub enum CanFault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CanError {
-    /// The interface is in the state bus-off: it neither sends nor receives.
+    /// The interface is in the bus-off state: it neither sends nor receives.
     BusOff,
     /// The interface received an error frame.
     ErrorFrame,

@@ -12,7 +12,7 @@ use crate::clients::canopen::{AsyncCanPort, CanFrame, CanPort};
 /// Maximum number of frames that wait for the client. Older frames are lost, as on a real bus.
 const MOST_WAITING: usize = 0x1_0000;
 
-/// A simulated CAN bus, as inner bus of a [`FaultyCan`]. It needs a simulated clock, and cannot fail.
+/// A simulated CAN bus that a [`FaultyCan`] can wrap. The bus must have a simulated clock, and its methods cannot fail.
 pub trait SimulatedCan: CanPort<Error = Infallible> {
     /// Switches all devices on the bus off and on.
     fn power_cycle(&mut self);
@@ -36,10 +36,11 @@ impl<B: SimulatedCan + ?Sized> SimulatedCan for &mut B {
     }
 }
 
-/// A simulated CAN bus with faults on request. CANopen clients use it as their CAN port.
+/// A simulated CAN bus with injected faults. CANopen clients use this bus as their CAN port.
 ///
 /// A [`CanFault`] affects one of the frames that the client receives, or all frames that a function selects. All other
-/// frames arrive unchanged. The time is that of the simulated bus, so tests don't wait for late frames in real time.
+/// frames arrive unchanged. Delays elapse in the time of the simulated bus, so tests don't wait for late frames in real
+/// time.
 ///
 /// ```
 /// use lexibus::clients::canopen::Node;
@@ -80,8 +81,9 @@ impl<B: SimulatedCan> FaultyCan<B> {
         Self { bus, faults: Faults::default(), waiting: VecDeque::new(), is_off: false }
     }
 
-    /// Injects a fault into the `n`th frame that arrives from now on: 1 is the next frame. Frames of all identifiers
-    /// count, also those that the client ignores and those that bus-off loses. Boot-up messages after a restart do not count.
+    /// Injects a fault into the `n`th frame that arrives from now on: 1 is the next frame. All frames count, including
+    /// frames that the client ignores and frames that are lost in the bus-off state. Boot-up messages after a restart
+    /// don't count.
     pub fn inject_nth(&mut self, fault: CanFault, n: u64) {
         self.collect();
         self.faults.add_nth(fault, n);
@@ -101,13 +103,13 @@ impl<B: SimulatedCan> FaultyCan<B> {
         self.faults.clear();
     }
 
-    /// Ends the state bus-off. The frames that were sent in the meantime are lost.
+    /// Ends the bus-off state. Frames that were sent during this state are lost.
     pub fn recover(&mut self) {
         self.collect();
         self.is_off = false;
     }
 
-    /// Returns the bus.
+    /// Returns the wrapped bus.
     pub fn bus(&mut self) -> &mut B {
         &mut self.bus
     }
@@ -137,7 +139,7 @@ impl<B: SimulatedCan> FaultyCan<B> {
         self.bus.receive(patience, &mut |_| true).unwrap_or_else(|never| match never {})
     }
 
-    /// Adds the fault to a frame that arrives.
+    /// Applies the injected faults to an arriving frame.
     fn arrive(&mut self, frame: CanFrame) {
         let fault = self.faults.next(&frame);
         if self.is_off {
@@ -171,7 +173,8 @@ impl<B: SimulatedCan> FaultyCan<B> {
         }
     }
 
-    /// Restarts all devices. Frames that they are sending are lost, and their first messages have no faults.
+    /// Restarts all devices. Frames that have not arrived are lost. The first messages of the devices after the restart
+    /// have no faults.
     fn restart(&mut self) {
         while self.take(Duration::ZERO).is_some() {}
         self.bus.power_cycle();

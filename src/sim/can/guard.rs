@@ -10,7 +10,7 @@ use crate::time::TimeOfDay;
 /// Error code of an emergency message: life guard error or heartbeat error.
 const LIFE_GUARD_ERROR: u16 = 0x8130;
 
-/// Toggle bit and life time of a node that is guarded.
+/// Toggle bit and life time of a guarded node.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Guard {
     toggle: bool,
@@ -18,8 +18,8 @@ pub(super) struct Guard {
 }
 
 impl Guard {
-    /// Returns the byte of the answer to a request. The node expects the next request within `life_time`; 0 disables
-    /// life guarding.
+    /// Returns the data byte of the answer to a guarding request. The node expects the next request within `life_time`;
+    /// 0 disables life guarding.
     pub fn answer(&mut self, state: NmtState, life_time: Duration, now: Duration) -> u8 {
         let raw = state.raw() | u8::from(self.toggle) << 7;
         self.toggle = !self.toggle;
@@ -32,7 +32,7 @@ impl Guard {
         self.deadline
     }
 
-    /// Returns whether the node life time has passed. Returns `true` only once.
+    /// Returns whether the node life time has passed. Returns `true` only once each time the node life time passes.
     pub fn is_expired(&mut self, now: Duration) -> bool {
         let is_expired = self.deadline.is_some_and(|deadline| deadline <= now);
         if is_expired {
@@ -43,7 +43,7 @@ impl Guard {
 }
 
 impl CanNode {
-    /// Answers a request of node guarding (CiA 301 7.2.8.3.2.1). The heartbeat producer takes precedence.
+    /// Answers a request of node guarding (CiA 301 7.2.8.3.2.1). A node that produces heartbeats doesn't answer.
     pub(super) fn answer_guarding(&mut self, id: u32) {
         let is_request = id == 0x700 + u32::from(self.device.node_id().get());
         if is_request && self.heartbeat.is_none() {
@@ -66,7 +66,7 @@ impl CanNode {
         }
     }
 
-    /// Processes TIME if the node consumes it (0x1012). Returns whether the frame is TIME.
+    /// Processes a TIME message if the node consumes TIME (0x1012). Returns whether the frame is a TIME message.
     pub(super) fn consume_time(&mut self, frame: &CanFrame) -> bool {
         let cob_id = self.device.slots.number(0x1012, 0).filter(|cob_id| cob_id >> 31 & 1 == 1);
         let time = cob_id.and_then(|cob_id| TimeOfDay::of_id(frame, cob_id as u32));

@@ -22,7 +22,7 @@ struct Memory {
     configured_rate: Option<BitRate>,
     rate: Option<BitRate>,
     now: Duration,
-    /// End of the time in which the node must not send after a change of its bit rate.
+    /// Time until which the node must not send after a change of its bit rate.
     silent_until: Duration,
 }
 

@@ -32,8 +32,8 @@ impl CanNode {
         self.heartbeat = Some(heartbeat);
     }
 
-    /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3). A node without a node-ID waits for LSS
-    /// before that.
+    /// Sends the boot-up message and enters Pre-operational (CiA 301 7.2.8.3.3). A node without a node-ID first waits
+    /// until an LSS master assigns a node-ID.
     pub(super) fn boot(&mut self) {
         self.heartbeat = None;
         self.guard = Guard::default();

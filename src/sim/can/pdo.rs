@@ -14,7 +14,7 @@ use crate::pdo::can_id;
 /// Indices of the communication parameters of RPDOs and TPDOs.
 const RECEIVED: RangeInclusive<u16> = 0x1400..=0x15FF;
 const TRANSMITTED: RangeInclusive<u16> = 0x1800..=0x19FF;
-/// Difference between the indices of mapping and communication parameters.
+/// Difference between the index of the mapping and the index of the communication parameters.
 const MAPPING: u16 = 0x200;
 /// Minimum transmission type of PDOs that are sent on change or by timer.
 const EVENT: u64 = 254;
@@ -128,8 +128,9 @@ impl Pdos {
 
     /// Returns the PDOs to send after SYNC: the cyclic PDOs that are due, and the acyclic PDOs whose data changed.
     ///
-    /// `counter` is the counter in the SYNC message. A cyclic PDO with a SYNC start value ignores SYNC messages until the counter
-    /// equals the start value. This message counts as the first. The start value has no effect if the message has no counter.
+    /// `counter` is the counter in the SYNC message. A cyclic PDO with a SYNC start value ignores SYNC messages until
+    /// the counter equals the start value. The message with the start value is the first one that counts. The start
+    /// value has no effect if the message has no counter.
     pub fn sampled(&mut self, device: &Device, now: Duration, counter: Option<u8>) -> Vec<CanFrame> {
         let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|pdo| pdo.kind <= SYNCHRONOUS);
         let frames = synchronous.filter_map(|pdo| {
@@ -186,7 +187,7 @@ pub(super) fn emit_communication_error(device: &mut Device, code: u16) {
 }
 
 /// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long. If the
-/// device refuses a value, returns the index of the mapping and the abort code.
+/// device refuses a value, returns the index of the mapping object and the abort code.
 fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)> {
     let index = index + MAPPING;
     let mapping = device.mapping(index).ok().filter(|mapping| !mapping.is_empty())?;

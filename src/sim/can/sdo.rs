@@ -106,7 +106,7 @@ impl Servers {
     }
 }
 
-/// The simulated device as the objects of an SDO server.
+/// The objects of a simulated device, for an SDO server.
 struct Dictionary<'d> {
     device: &'d mut Device,
     /// True if a simulated fault suppresses the reply.

@@ -34,7 +34,7 @@ const U8: DataType = DataType::Unsigned8;
 const U16: DataType = DataType::Unsigned16;
 const U32: DataType = DataType::Unsigned32;
 
-/// Creates a node with an RPDO (COB-ID 0x205) and a TPDO (COB-ID 0x185), both with object 0x2000.
+/// Creates a node with an RPDO (COB-ID 0x205) and a TPDO (COB-ID 0x185), which both map object 0x2000.
 pub(super) fn node() -> CanNode {
     let entries = [
         entry(0x1001, 0, U8, &[0]),

@@ -13,17 +13,17 @@ impl Device {
     /// Returns the device after power-on, with the behavior of CiA 402 for each axis that has a controlword (0x6040)
     /// and a statusword (0x6041).
     ///
-    /// The drive has the state machine, halt, quick stop, [faults](Self::fail), and the modes 1 (profile position), 2
+    /// The drive has the state machine, halt, quick stop, [faults](Self::fail), and modes 1 (profile position), 2
     /// (velocity), 3 (profile velocity), 4 (profile torque), 6 (homing), 7 (interpolated position), and 8 to 11 (cyclic
-    /// synchronous position, velocity, torque, and torque with commutation angle). The axis moves on ramps. The drive
-    /// accesses all objects by index, so it works on every bus and with process data. Objects that the table lacks are
-    /// ignored, and default values apply. The drive doesn't activate a mode if the table lacks its target, for example
-    /// 0x607A in the modes 1 and 8.
+    /// synchronous position, velocity, torque, and torque with commutation angle). The axis accelerates and decelerates
+    /// on ramps. The drive accesses all objects by index, so it works on every bus and with process data. If the table
+    /// lacks an object, its default value applies. The drive doesn't activate a mode if the table lacks its target, for
+    /// example 0x607A in modes 1 and 8.
     ///
     /// The drive executes the controlword at once. Everything else happens when the simulated time advances
     /// ([`step`](Self::step)), for example motion, the change of the mode, and the transition after power-on. If the
-    /// test changes the actual position (0x6064), the axis continues there. The bits 7, 8, 14 and 15 of the statusword
-    /// stay as the test sets them.
+    /// test changes the actual position (0x6064), the axis continues from this position. The drive doesn't change bits
+    /// 7, 8, 14 and 15 of the statusword, which the test can set.
     ///
     /// ```
     /// use core::time::Duration;
@@ -51,9 +51,9 @@ impl Device {
     ///
     /// Velocities are in position units per second, and accelerations in position units per second squared, even if the
     /// device description declares other units. Homing takes 100 ms, and the current position becomes the home
-    /// position. In the mode 7, the drive moves to the newest data record (0x60C1:01) within the interpolation period, and
-    /// has no buffer. The mode 11 ignores the commutation angle. The drive doesn't simulate gears, polarity, switches,
-    /// other modes, and the loss of the connection.
+    /// position. In mode 7, the drive moves to the newest data record (0x60C1:01) within the interpolation period, and
+    /// has no buffer for data records. Mode 11 ignores the commutation angle. The drive doesn't simulate gears,
+    /// polarity, switches, other modes, or the loss of the connection.
     #[must_use]
     pub fn with_cia402(mut self) -> Self {
         self.has_cia402 = true;
@@ -72,8 +72,8 @@ impl Device {
         self.axis(1).fail(code)
     }
 
-    /// Simulates a fault, as [`fail`](Self::fail) does, whose cause persists. A fault reset has no effect until
-    /// [`clear_cause`](Self::clear_cause).
+    /// Simulates a fault like [`fail`](Self::fail), but the cause of the fault persists. A fault reset has no effect
+    /// until [`clear_cause`](Self::clear_cause).
     ///
     /// # Errors
     ///

@@ -26,8 +26,8 @@ const REFERENCE_RAMP: u16 = 1 << 6;
 /// Maximum interpolation period in steps.
 const MAX_PERIOD: f64 = 10_000.0;
 
-/// Returns whether the drive supports a mode: whether the axis has the target of the mode. The object 0x6502 can exclude
-/// modes.
+/// Returns whether the drive supports a mode. The axis must have the target object of the mode, and object 0x6502 can
+/// exclude modes.
 pub(super) fn is_supported(mode: i64, objects: &Objects<'_>) -> bool {
     let has_target = match mode {
         0 => return true,
@@ -43,13 +43,13 @@ pub(super) fn is_supported(mode: i64, objects: &Objects<'_>) -> bool {
     has_target && objects.number(0x6502).map_or(true, is_listed)
 }
 
-/// Velocity at which the friction needs the rated torque.
+/// Returns the velocity at which friction requires the rated torque.
 fn top_velocity(objects: &Objects<'_>) -> f64 {
     objects.positive(0x607F).unwrap_or_else(|| 10.0 * Profile::read(objects).velocity)
 }
 
-/// Returns the torque for the present motion, in 0.1 % of the rated torque. The rated torque causes the profile
-/// acceleration. The friction is proportional to the velocity.
+/// Returns the torque for the current motion, in 0.1 % of the rated torque. Without friction, the rated torque produces
+/// the profile acceleration. The friction is proportional to the velocity.
 pub(super) fn torque(motion: &Motion, objects: &Objects<'_>) -> f64 {
     let inertia = motion.acceleration / Profile::read(objects).acceleration;
     1000.0 * (inertia + motion.velocity / top_velocity(objects))
@@ -120,7 +120,7 @@ impl Drive {
 }
 
 /// Moves the axis in the mode "velocity" (CiA 402-2 19). Without the bit "enable ramp", the axis stops. Without "unlock
-/// ramp", it keeps its velocity. Without "reference ramp", the ramp leads to velocity 0.
+/// ramp", the axis keeps its velocity. Without "reference ramp", the axis ramps to velocity 0.
 fn velocity(motion: &mut Motion, control: u16, objects: &Objects<'_>) {
     let profile = Profile::read(objects);
     let is_enabled = control & ENABLE_RAMP != 0;
@@ -133,7 +133,7 @@ fn velocity(motion: &mut Motion, control: u16, objects: &Objects<'_>) {
     motion.run(wanted, objects.ramp(0x6048, profile.acceleration), objects.ramp(0x6049, profile.deceleration));
 }
 
-/// Returns the target velocity (0x6042) with an amount between the limits (0x6046).
+/// Returns the target velocity (0x6042). Its magnitude is limited to the range in 0x6046 and to the maximum velocity.
 fn vl_target(motion: &mut Motion, objects: &Objects<'_>) -> f64 {
     let target = objects.real(0x6042);
     let low = objects.sub_number(0x6046, 1).unwrap_or(0) as f64;
@@ -147,13 +147,13 @@ fn profile_velocity(motion: &mut Motion, objects: &Objects<'_>) {
     motion.run(velocity, profile.acceleration, profile.deceleration);
 }
 
-/// Moves the axis to a position at the end of the interpolation period.
+/// Moves the axis toward a position that it reaches at the end of the interpolation period.
 fn interpolate(wanted: f64, motion: &mut Motion, objects: &Objects<'_>) {
     let target = objects.position_limits().map_or(wanted, |(low, high)| motion.limited(wanted, low, high));
     motion.follow(target, period(objects), objects.max_velocity());
 }
 
-/// Moves the axis to the position in the interpolation data record (0x60C1:01).
+/// Moves the axis toward the position in the interpolation data record (0x60C1:01).
 fn interpolated_position(motion: &mut Motion, objects: &Objects<'_>) {
     interpolate(data_record(objects), motion, objects);
 }
@@ -178,14 +178,14 @@ fn cyclic_torque(motion: &mut Motion, objects: &Objects<'_>) {
     drive_with(torque, motion, objects);
 }
 
-/// Returns a torque that is limited by the maximum torque (0x6072).
+/// Returns `torque`, limited by the maximum torque (0x6072).
 fn limited_torque(torque: f64, motion: &mut Motion, objects: &Objects<'_>) -> f64 {
     let most = objects.positive(0x6072).unwrap_or(f64::INFINITY);
     motion.limited(torque, -most, most)
 }
 
-/// Returns the torque after one step on the ramp of the torque slope (0x6087) to the target torque (0x6071). Without a
-/// slope, the torque changes at once.
+/// Returns the torque after one step toward the target torque (0x6071), limited by the torque slope (0x6087). Without a
+/// slope, the torque changes immediately.
 fn ramped_torque(torque: f64, motion: &mut Motion, objects: &Objects<'_>) -> f64 {
     let target = limited_torque(objects.real(0x6071), motion, objects);
     let most = objects.positive(0x6087).map_or(f64::INFINITY, |slope| slope * STEP.as_secs_f64());

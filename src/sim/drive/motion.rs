@@ -12,11 +12,11 @@ pub(super) struct Motion {
     pub velocity: f64,
     /// Acceleration in the last step.
     pub acceleration: f64,
-    /// Position that the set-points demand.
+    /// Position demand.
     pub demand: f64,
     /// True if a limit changed the set-point in the last step.
     pub is_limited: bool,
-    /// Last cyclic target position, and the number of steps until the demand reaches it.
+    /// Last cyclic target position, and the number of steps until the demand reaches this position.
     cyclic: Option<(f64, u32)>,
 }
 
@@ -25,7 +25,7 @@ fn step_time() -> f64 {
 }
 
 impl Motion {
-    /// Moves the axis to a position at once.
+    /// Sets the position of the axis without a motion.
     pub fn place(&mut self, position: f64) {
         *self = Self { position, demand: position, cyclic: None, ..*self };
     }

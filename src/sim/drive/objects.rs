@@ -106,8 +106,8 @@ impl Objects<'_> {
         self.positive(0x6085).unwrap_or_else(|| 10.0 * Profile::read(self).deceleration)
     }
 
-    /// Returns an acceleration of the mode "velocity": the change of the speed (sub-index 1) in a time in seconds
-    /// (sub-index 2), or `default` if the axis doesn't have the object.
+    /// Returns an acceleration of the mode "velocity": the speed change (sub-index 1) divided by the time in seconds
+    /// (sub-index 2). Returns `default` if the axis doesn't have the object.
     pub fn ramp(&self, index: u16, default: f64) -> f64 {
         match (self.sub_number(index, 1), self.sub_number(index, 2)) {
             // A time of 0 is an infinite acceleration.

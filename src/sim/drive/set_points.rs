@@ -7,7 +7,7 @@ use super::objects::{Objects, Profile};
 const IMMEDIATELY: u16 = 1 << 5;
 const RELATIVE: u16 = 1 << 6;
 
-/// A set-point as the controller has sent it.
+/// A set-point that the controller has sent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SetPoint {
     position: f64,
@@ -15,7 +15,7 @@ struct SetPoint {
     profile: Profile,
 }
 
-/// The active set-point and the set-point that waits for its end.
+/// The active set-point, and the set-point that becomes active next.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SetPoints {
     active: Option<(f64, Profile)>,

@@ -3,9 +3,9 @@
 pub(super) use crate::cia402::State;
 
 impl State {
-    /// Returns the state that a controlword commands, or `None` if the state doesn't change. `may_resume` allows the
-    /// transition from "Quick stop active" to "Operation enabled". The fault reset isn't included, because it needs a
-    /// rising edge.
+    /// Returns the state that the controlword `word` commands, or `None` if the state doesn't change. `may_resume`
+    /// allows the transition from "Quick stop active" to "Operation enabled". The fault reset isn't included, because
+    /// it needs a rising edge.
     pub(super) fn after(self, word: u16, may_resume: bool) -> Option<Self> {
         let is = |mask: u16, value: u16| word & mask == value;
         let (shutdown, switch_on, enable) = (is(0x87, 0x06), is(0x8F, 0x07), is(0x8F, 0x0F));
@@ -45,11 +45,11 @@ impl State {
 /// Ramp on which an axis stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stop {
-    /// The power stage is disabled. The axis loses its speed with a quarter of the profile deceleration.
+    /// The power stage is disabled. The axis decelerates with a quarter of the profile deceleration.
     Coast,
-    /// The profile deceleration (0x6084), in the mode "velocity" the deceleration of this mode (0x6049).
+    /// The profile deceleration (0x6084), or the deceleration 0x6049 in the mode "velocity".
     Ramp,
-    /// The quick-stop deceleration (0x6085), in the mode "velocity" that of this mode (0x604A).
+    /// The quick-stop deceleration (0x6085), or the quick-stop deceleration 0x604A in the mode "velocity".
     QuickRamp,
 }
 

@@ -10,10 +10,10 @@ use crate::clients::canopen::nmt::NmtState;
 use crate::configuration::ApplyError;
 use crate::error::Error;
 
-/// Longest version text in bytes.
+/// Maximum length of a version text in bytes.
 pub(super) const LONGEST_VERSION: usize = 64;
 
-/// Version of the hardware or software of a node, a text of at most 64 bytes.
+/// Hardware or software version of a node: a text of at most 64 bytes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct VersionText {
     bytes: [u8; LONGEST_VERSION],
@@ -50,11 +50,13 @@ impl fmt::Display for VersionText {
 /// Reason why the boot of a node failed. `E` is the error type of the CAN interface. The letters are the error statuses
 /// of CiA 302-2.
 ///
-/// The letter L is no error: [`Booted::status`](super::Booted::status) returns it. Three letters don't occur:
+/// The letter L is not an error: [`Booted::status`](super::Booted::status) returns this letter. Three letters don't
+/// occur:
 ///
-/// - A (the node isn't in the network list 0x1F81): the program has no such list, because it boots the nodes one by one.
-/// - G and I (program download not configured, or failed): the master doesn't download programs. H means that a node
-///   needs another program.
+/// - A (the node isn't in the network list 0x1F81): Lexibus has no such list, because the program boots the nodes one
+///   by one.
+/// - G and I (program download not configured, or failed): the master doesn't download programs. H only means that the
+///   software version differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BootError<E> {
@@ -64,7 +66,8 @@ pub enum BootError<E> {
     NoBootUp,
     /// E: a node that is to be [kept running](super::Boot::keep_running) sent no heartbeat, and no restart is requested.
     NoHeartbeat,
-    /// An object could not be read: B (0x1000), D, M, N or O (0x1018), H (0x100A), J (0x1020).
+    /// An object could not be read. The letter depends on the object: B (0x1000), D, M, N or O (0x1018), H (0x100A), J
+    /// (0x1020).
     Access {
         /// The object.
         object: Object,
@@ -134,7 +137,8 @@ pub enum BootError<E> {
         /// The state in the last heartbeat or guarding answer, or `None` if none arrived.
         actual: Option<NmtState>,
     },
-    /// F: node guarding failed after the start of the node, or of a node that is to be kept running.
+    /// F: node guarding failed, either after the start of the node, or before the boot of a node that is to be kept
+    /// running.
     Guarding(GuardError<E>),
 }
 

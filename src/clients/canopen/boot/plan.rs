@@ -14,12 +14,12 @@ pub enum ErrorControl {
     /// A heartbeat that reports Operational must arrive within this time. The configuration has to set the heartbeat
     /// producer time (0x1017) of the node.
     Heartbeat(Duration),
-    /// The node must answer node guarding and report Operational, within one more cycle than the life time factor, and
-    /// within at least three cycles. Use the values of the objects 0x100C and 0x100D of the node. To continue, create a
-    /// [`Guarding`](crate::clients::canopen::Guarding) with the same values, and run its first cycle within the life time
-    /// after the boot. Otherwise, the node detects that the master has failed.
+    /// The node must answer node guarding and report Operational within `life_time_factor + 1` cycles, or within 3
+    /// cycles if the factor is less than 2. Use the values of objects 0x100C and 0x100D of the node. To continue node
+    /// guarding after the boot, create a [`Guarding`](crate::clients::canopen::Guarding) with the same values, and run
+    /// its first cycle within the node life time. Otherwise, the node assumes that the master has failed.
     Guarding {
-        /// Time between two cycles, and longest time of a cycle.
+        /// Time between two cycles, and maximum duration of a cycle.
         guard_time: Duration,
         /// Number of consecutive cycles without an answer after which the node is lost.
         life_time_factor: u8,
@@ -28,9 +28,10 @@ pub enum ErrorControl {
     None,
 }
 
-/// Steps of the boot of a node, for [`Node::boot`](crate::clients::canopen::Node::boot): the expected device, its configuration, and its error control.
+/// Steps of the boot of a node, for [`Node::boot`](crate::clients::canopen::Node::boot): the expected device, its
+/// configuration, and its error control.
 ///
-/// Each expected value is optional. As in the objects 0x1F84 to 0x1F88 of a CANopen manager, the expected number 0 means
+/// Each expected value is optional. As in objects 0x1F84 to 0x1F88 of a CANopen manager, the expected number 0 means
 /// that the value is not checked.
 ///
 /// ```
@@ -67,7 +68,7 @@ pub(super) struct Checks {
 }
 
 impl Boot {
-    /// Creates the boot of a node that starts the node without checks and configuration.
+    /// Creates a boot that only starts the node, without checks and without a configuration.
     #[must_use]
     pub const fn new(error_control: ErrorControl) -> Self {
         let checks = Checks { device_type: 0, identity: [0; 4], hardware_version: None, software_version: None };
@@ -82,16 +83,17 @@ impl Boot {
         self
     }
 
-    /// Keeps a node running that is already in Operational, as bit 4 of the object 0x1F81 of a CANopen manager does (CiA
-    /// 302-2): the master first waits for a heartbeat, or asks with node guarding. If the node is in Operational, the
-    /// master checks the device type, the identity and the versions. It neither restarts nor configures the node, and
-    /// doesn't compare the configuration. [`Booted::was_operational`](super::Booted::was_operational) is true. A node in
-    /// another state is booted as without this option.
+    /// Keeps a node running that is already in Operational, as bit 4 of object 0x1F81 of a CANopen manager does (CiA
+    /// 302-2). To determine the state, the master first waits for a heartbeat or uses node guarding. If the node is in
+    /// Operational, the master only checks the device type, the identity and the versions. The master neither restarts
+    /// nor configures such a node, and doesn't compare the configuration. In this case,
+    /// [`Booted::was_operational`](super::Booted::was_operational) is true. A node in another state is booted as
+    /// without this option.
     ///
-    /// A node that doesn't report its state is restarted if a [restart](Self::reset) is requested. Otherwise, the boot fails
-    /// with [`BootError::NoHeartbeat`](super::BootError::NoHeartbeat) or
-    /// [`BootError::Guarding`](super::BootError::Guarding). Without a restart, the heartbeat producer time (0x1017) must
-    /// therefore be stored in the node, because a node without it sends no heartbeat before its configuration.
+    /// A node that doesn't report its state is restarted if a [restart](Self::reset) is requested. Otherwise, the boot
+    /// fails with [`BootError::NoHeartbeat`](super::BootError::NoHeartbeat) or
+    /// [`BootError::Guarding`](super::BootError::Guarding). If no restart is requested, the node must therefore have
+    /// stored its heartbeat producer time (0x1017): otherwise, the node sends no heartbeat before it is configured.
     ///
     /// Without [error control](ErrorControl::None), the state of the node is unknown, and the option has no effect.
     #[must_use]
@@ -169,30 +171,31 @@ impl Boot {
         self
     }
 
-    /// Sets the configuration of the node, for example the generated constant `CONFIGURATION`. It is written unless the
-    /// object 0x1020 of the node contains the date of the configuration.
+    /// Sets the configuration of the node, for example the generated constant `CONFIGURATION`. The configuration is
+    /// written unless object 0x1020 of the node contains the date of the configuration.
     ///
-    /// The date of the configuration is the value that it contains for 0x1020, or the
-    /// [`configuration_date`](Self::configuration_date). A configuration without a date is written at each boot.
+    /// The date of the configuration is the [`configuration_date`](Self::configuration_date) if it is set, and
+    /// otherwise the value of 0x1020 in the configuration. A configuration without a date is written at each boot.
     #[must_use]
     pub const fn configuration(mut self, configuration: Configuration) -> Self {
         self.configuration = Some(configuration);
         self
     }
 
-    /// Sets the date of the configuration. It takes precedence over a date that the configuration contains. The date
-    /// January 1, 1984, 0:00 represents a missing date.
+    /// Sets the date of the configuration. This date takes precedence over a date in the configuration itself. The date
+    /// January 1, 1984, 0:00 means that there is no date.
     #[must_use]
     pub const fn configuration_date(mut self, date: TimeOfDay) -> Self {
         self.date = Some(date);
         self
     }
 
-    /// Stores the configuration in the node after it was written (0x1010:01). If the node confirms that, the date of the
-    /// configuration is written to 0x1020 and stored, too. Without this option, 0x1020 is never written, because the node
-    /// loses the configuration in a restart.
+    /// Stores the configuration in the node after it was written (0x1010:01). If the node confirms the command, the
+    /// date of the configuration is written to 0x1020 and stored, too. Without this option, 0x1020 is never written,
+    /// because the node loses the configuration when it restarts.
     ///
-    /// The node must confirm the command within its timeout ([`Node::with_timeout`](crate::clients::canopen::Node::with_timeout)).
+    /// The node must confirm the store command within its timeout
+    /// ([`Node::with_timeout`](crate::clients::canopen::Node::with_timeout)).
     #[must_use]
     pub const fn store(mut self) -> Self {
         self.is_stored = true;

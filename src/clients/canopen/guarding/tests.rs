@@ -15,7 +15,7 @@ struct Script {
     answers: Vec<Reaction>,
     waiting: Vec<(Duration, u8)>,
     requests: Vec<Duration>,
-    /// PDOs of other nodes arrive.
+    /// True if an async call that waits for a frame never ends, so that a test can drop it.
     is_pending: bool,
 }
 

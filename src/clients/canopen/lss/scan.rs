@@ -28,21 +28,21 @@ macro_rules! scan {
                 }
             }
 
-            /// Finds a slave that has no node-ID, returns its address, and leaves it in the state Configuration. Returns
-            /// `None` if all slaves have a node-ID: none has answered two requests within the timeout. Switches all slaves to
-            /// Waiting first.
+            /// Switches all slaves to Waiting, finds a slave that has no node-ID, and returns its address. This slave
+            /// is then in Configuration. Returns `None` if all slaves have a node-ID, which means that no slave has
+            /// answered two requests within the timeout.
             ///
-            /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master compares the address
-            /// with the answers to inquiries, so an answer that is lost or late doesn't lead to a wrong address. To
-            /// find all slaves, give each one a node-ID, switch it to Waiting, and repeat the scan.
+            /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master then inquires the
+            /// address of the slave and compares the two addresses, so a lost or late answer doesn't lead to a wrong
+            /// address. To find all slaves, give each one a node-ID, switch it to Waiting, and repeat the scan.
             ///
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
             /// - [`LssError::Timeout`] if the slave doesn't answer the inquiries.
             /// - [`LssError::SeveralAnswers`] if several slaves have the same address.
-            /// - [`LssError::Inconclusive`] if an answer was lost, or later than the window. If this error persists, use a
-            ///   longer [window](Self::with_window).
+            /// - [`LssError::Inconclusive`] if an answer was lost, or arrived after the window. If this error persists,
+            ///   use a longer [window](Self::with_window).
             pub $($async)? fn $fast_scan(&mut self) -> Result<Option<LssAddress>, LssError<P::Error>> {
                 self.$switch_global(LssState::Waiting)$(.$await)??;
                 // Answers can also arrive after an error, and after a future was dropped.
@@ -84,7 +84,8 @@ macro_rules! scan {
                 self.$collect(self.window, &|message| is_identified(message), &mut |message| scan.handle(message))$(.$await)?
             }
 
-            /// Waits for an answer to the start of a scan that is later than the window, for the rest of the timeout.
+            /// Waits for the rest of the timeout. Returns an error if an answer to the first request of a scan arrives
+            /// in this time.
             $($async)? fn $await_start(&mut self) -> Result<(), LssError<P::Error>> {
                 let rest = self.timeout.saturating_sub(self.window);
                 let late = self.$receive(rest, &|message| is_identified(message))$(.$await)??;

@@ -9,10 +9,11 @@ use super::super::port::{AsyncCanPort, CanPort, MOST_WAITING};
 use super::{Network, NetworkPort};
 use crate::clock::elapsed;
 
-/// Longest time for which an async handle uses the interface before the other handles get the interface.
+/// Maximum time for which an async handle uses the interface before the other handles can use it.
 const SLICE: Duration = Duration::from_millis(1);
 
-/// The interface while a handle uses it. It returns to the network even if the future that uses it is dropped.
+/// The interface while a handle uses it. When this value is dropped, the network gets the interface back, even if the
+/// future of the handle was dropped.
 struct Used<'n, P, const N: usize> {
     network: &'n Network<P, N>,
     port: Option<P>,
@@ -25,7 +26,7 @@ impl<P, const N: usize> Drop for Used<'_, P, N> {
 }
 
 impl<P, const N: usize> Used<'_, P, N> {
-    /// Returns the interface to the network. Returns whether other handles wait for it.
+    /// Gives the interface back to the network, and returns whether other handles wait for it.
     fn release(mut self) -> bool {
         self.put_back()
     }
@@ -46,7 +47,7 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
         Some(Used { network: self.network, port: Some(port) })
     }
 
-    /// Returns the time of the interface, or its latest time if another handle uses the interface.
+    /// Returns the time of the interface, or its last known time if another handle uses the interface.
     fn time(&self, now: impl FnOnce(&mut P) -> Option<Duration>) -> Option<Duration> {
         if let Some(mut port) = self.network.port.take() {
             self.network.time.set(now(&mut port));
@@ -66,7 +67,7 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
     }
 }
 
-/// Is pending at the first poll, at which `first` decides when the waker is called.
+/// Is pending at the first poll, which passes the waker to `first`, and ready at the second poll.
 async fn once_pending(first: impl Fn(&Waker)) {
     let mut was_polled = false;
     let once = poll_fn(|context| {
@@ -111,10 +112,11 @@ impl<P: CanPort, const N: usize> CanPort for NetworkPort<'_, P, N> {
     }
 }
 
-/// Without patience, a handle waits until the handle that uses the interface returns it, at most 1 ms. Therefore, don't keep
-/// a future of another handle that is no longer polled; drop it.
+/// Even if `patience` is zero, a handle waits until the handle that uses the interface gives it back, which takes at
+/// most 1 ms. A future that uses the interface but is no longer polled never gives it back: drop such a future.
 ///
-/// While another handle uses the interface, [`now`](AsyncCanPort::now) returns the time at which it took the interface.
+/// While another handle uses the interface, [`now`](AsyncCanPort::now) returns the time at which that handle took the
+/// interface.
 impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
     type Error = P::Error;
 
@@ -183,9 +185,9 @@ impl<P: AsyncCanPort, const N: usize> AsyncCanPort for NetworkPort<'_, P, N> {
 macro_rules! clear {
     ($Port:ident $clear:ident $($async:ident $await:ident)?) => {
         impl<P: $Port, const N: usize> NetworkPort<'_, P, N> {
-            /// Discards all frames of the node that have already arrived: those that the network has kept and those in the
-            /// receive queue of the interface. All frames that are received afterwards arrived after this call. Frames of
-            /// other handles are kept.
+            /// Discards all frames of the node that have already arrived: those that the network has kept and those in
+            /// the receive queue of the interface. Any frame that is received later has therefore arrived after this
+            /// call. Frames of other handles are kept.
             ///
             /// # Errors
             ///

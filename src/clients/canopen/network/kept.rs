@@ -22,7 +22,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Returns whether a newer frame replaces the frame.
+    /// Returns whether only the newest frame of this kind is kept.
     const fn is_newest_only(self) -> bool {
         matches!(self, Self::ProcessData | Self::Heartbeat | Self::BootUp)
     }
@@ -36,7 +36,7 @@ struct Waiting {
     frame: CanFrame,
 }
 
-/// Frames in the order of arrival, and COB-IDs of nodes that are not default COB-IDs.
+/// Kept frames in the order of arrival, and the added COB-IDs of nodes.
 #[derive(Debug)]
 pub(super) struct Kept<const N: usize> {
     frames: [Option<Waiting>; N],
@@ -91,7 +91,7 @@ impl<const N: usize> Kept<N> {
         while self.take(owner, &mut |_| true).is_some() {}
     }
 
-    /// Discards the frames and the COB-IDs of a node.
+    /// Discards the frames and the added COB-IDs of a node.
     pub fn purge(&mut self, owner: Owner) {
         self.clear(owner);
         for place in &mut self.cob_ids {
@@ -133,7 +133,7 @@ impl<const N: usize> Kept<N> {
         }
     }
 
-    /// Returns the position of the frame that is discarded for a new frame if there is no room.
+    /// Returns the position of the frame that is discarded to make room for a new frame.
     ///
     /// Emergency messages and replies displace the other frames. If they fill more than half of the room, because the
     /// program doesn't receive them, the other frames displace the oldest of them.
