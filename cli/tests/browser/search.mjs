@@ -133,12 +133,15 @@ async function beforeTheIndex(window, typed, test) {
   await page.keyboard.press("/");
   await page.keyboard.type(typed);
   await page.waitForFunction(() => pages.length);
-  await test(page, async () => {
-    release();
-    await page.waitForFunction(() => isLoaded);
-  });
+  await test(page, release);
   release();
   await window.context.unroute(/search\.js$/);
+}
+
+// Loads the whole index. The page must stay.
+async function load(page, release) {
+  release();
+  await page.waitForFunction(() => isLoaded);
 }
 
 // Checks what Enter does before the whole index is loaded.
@@ -160,7 +163,7 @@ async function enterBeforeTheIndex(window) {
       await page.keyboard.press("Enter");
       await page.keyboard.press(key);
       if (key === "Escape") await page.keyboard.press("/");
-      await release();
+      await load(page, release);
       if (key === "Tab") await page.keyboard.press("/");
       assert.ok(await isAtList(page), `${key} does not cancel Enter`);
     });
@@ -169,21 +172,22 @@ async function enterBeforeTheIndex(window) {
   await beforeTheIndex(window, "vector step", async (page, release) => {
     const first = await page.locator("#found a").first().evaluate((link) => link.href);
     await page.keyboard.press("Enter");
-    await release();
+    // The page may be left as soon as the index is loaded.
+    release();
     await page.waitForURL(first);
   });
   // Enter is dropped if the first result changes. The test changes the result of the first part.
   await beforeTheIndex(window, "target", async (page, release) => {
     await page.evaluate(() => { found.querySelector("a").href = "another.html"; });
     await page.keyboard.press("Enter");
-    await release();
+    await load(page, release);
     assert.ok(await isAtList(page), "Enter opens another result");
     assert.ok(await page.locator("#found li").first().isVisible());
   });
   // The first part has no similar words, because the whole index may have the word.
   await beforeTheIndex(window, "targat", async (page, release) => {
     assert.equal(await page.locator("#found li").count(), 0);
-    await release();
+    await load(page, release);
     assert.ok(await page.locator("#found li").count() > 0, "the whole index has similar words");
   });
 }
@@ -192,7 +196,7 @@ async function enterBeforeTheIndex(window) {
 async function focusAfterTheIndex(window) {
   await beforeTheIndex(window, "KP_VEL", async (page, release) => {
     await page.keyboard.press("Escape");
-    await release();
+    await load(page, release);
     assert.ok(await page.locator("#found").isHidden());
     await page.keyboard.press("/");
     assert.ok(await page.locator("#found").isVisible(), "no search after the focus");
