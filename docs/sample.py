@@ -58,16 +58,19 @@ def markdown(path):
 
 
 def comments(path, mark):
-    """Yields the sentences of comments whose lines begin with `mark`."""
-    block, start = [], 0
+    """Yields the sentences of comments whose lines begin with `mark`. Code blocks are left out."""
+    block, start, in_code = [], 0, False
     for number, line in enumerate([*read(path).splitlines(), ""], 1):
         found = re.match(rf"\s*({mark})(?: (.*))?$", line)
         text = (found[2] or "") if found else ""
-        if (not found or not text) and block:
-            joined = re.sub(r"```.*?(```|$)", "", " ".join(block))
-            yield from ((path, start, sentence) for sentence in sentences(joined))
+        is_fence = text.lstrip().startswith("```")
+        in_code = bool(found) and in_code != is_fence
+        if in_code or is_fence:
+            text = ""
+        if not text and block:
+            yield from ((path, start, sentence) for sentence in sentences(" ".join(block)))
             block = []
-        if found and text and not text.startswith(("|", "    ", "#")):
+        if text and not text.startswith(("|", "    ", "#")):
             start = start if block else number
             block.append(text)
 
