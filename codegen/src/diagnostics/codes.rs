@@ -357,13 +357,17 @@ codes! {
         "Lexibus follows references only to files in the folder of the description and in folders below it. The \
         content of the referenced file is missing. Put the file into one of these folders, under the name in the \
         reference."
+    XML006 MISSPELLED_NAME Lint Warn "an unknown name is similar to a name that Lexibus reads"
+        "The standard does not define the element or attribute at this position. Its name differs in one letter from a \
+        name that Lexibus reads, or in two letters if it has more than eight. Lexibus keeps the value as an extension \
+        attribute and does not use it. Correct the name if it is misspelled."
     ESI001 ESI_VALUE Repair Warn "the value of an element or attribute has an unknown form"
         "ETG.2000 fixes the form of the value, such as a decimal number, `#x` with hexadecimal digits, or one of a few \
         words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold it. \
         Correct the value."
     ESI002 ESI_UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in ETG.2000"
         "Lexibus keeps the element or attribute as an extension attribute. Tools add elements outside of \
-        VendorSpecific, so this lint is off by default. Turn the lint on to find misspelled names."
+        VendorSpecific, so this lint is off by default. XML006 reports likely misspellings."
     ESI003 BARE_HEX Repair Warn "a hexadecimal number has no `#x`"
         "A number is decimal unless it starts with `#x`. This number has hexadecimal letters, so Lexibus reads it as \
         hexadecimal. Lexibus reads numbers without letters as decimal, although the author may have meant them as \
@@ -478,7 +482,7 @@ codes! {
         reference, so the content of the target is missing. Correct the uniqueID, or add the element."
     XDD005 UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in CiA 311"
         "Lexibus keeps the element or attribute as an extension attribute if it has a value. Many tools add \
-        attributes to objects, so this lint is off by default. Turn the lint on to find misspelled names."
+        attributes to objects, so this lint is off by default. XML006 reports likely misspellings."
     XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
         "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
         a prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if \
@@ -502,7 +506,7 @@ codes! {
         off by default. Rename the file if you use it in such a tool."
     GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute is not defined in GSDML V2.35"
         "Lexibus keeps the element or attribute as an extension attribute. Files of later versions can have new elements, \
-        so this lint is off by default. Turn the lint on to find misspelled names."
+        so this lint is off by default. XML006 reports likely misspellings."
     GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
         "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
         Lexibus reads the value if it is unambiguous. Otherwise, it leaves the value out. Correct the value."

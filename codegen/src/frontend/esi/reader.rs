@@ -22,6 +22,17 @@ pub(super) struct Esi<'a, 'd> {
 impl xml::Format for Esi<'_, '_> {
     const STANDARD: &'static str = "ETG.2000";
     const UNKNOWN: &'static Code = &codes::ESI_UNKNOWN_ELEMENT;
+    #[rustfmt::skip]
+    const ELEMENTS: &'static [&'static str] = &[
+        "Access", "ArrayInfo", "AssignActivate", "Backup", "BaseType", "BitLen", "BitOffs", "BitSize", "BootStrap", "Category",
+        "Comment", "CompleteAccess", "ConfigData", "CycleTimeSync0", "CycleTimeSync1", "DataType", "DataTypes", "DefaultData",
+        "DefaultSize", "DefaultString", "DefaultValue", "Descriptions", "Device", "Devices", "Dictionary", "DisplayName",
+        "Elements", "Entry", "EnumInfo", "Exclude", "Fixed", "Flags", "Group", "GroupType", "Groups", "Index", "InitCmd", "LBound",
+        "Mailbox", "Mandatory", "MaxData", "MaxSize", "MaxValue", "MinData", "MinSize", "MinValue", "Module", "ModuleIdent",
+        "Modules", "Object", "Objects", "OpMode", "PdoMapping", "Profile", "ProfileNo", "Properties", "Property",
+        "ReadRestrictions", "RxPdo", "SafetyMapping", "Setting", "ShiftTimeSync0", "ShiftTimeSync1", "Slot", "Slots",
+        "StartAddress", "SubIdx", "SubIndex", "SubItem", "Transition", "TxPdo", "Value", "Vendor", "WriteRestrictions",
+    ];
     const KEPT: &'static [(&'static str, &'static str)] = &[
         ("Device", "Crc32"),
         ("Module", "Crc32"),

@@ -27,6 +27,18 @@ pub(super) struct Gsdml<'a> {
 impl xml::Format for Gsdml<'_> {
     const STANDARD: &'static str = "GSDML V2.35";
     const UNKNOWN: &'static Code = &codes::UNKNOWN_GSDML_ELEMENT;
+    #[rustfmt::skip]
+    const ELEMENTS: &'static [&'static str] = &[
+        "ApplicationProcess", "Assign", "Assignments", "BitDataItem", "CategoryItem", "CategoryList", "ChannelDiagItem",
+        "ChannelDiagList", "Const", "DataItem", "DeviceAccessPointItem", "DeviceAccessPointList", "DeviceFunction",
+        "DeviceIdentity", "ErrorCode2Item", "ErrorCode2List", "ExtChannelAddValue", "ExtChannelDiagItem", "ExtChannelDiagList",
+        "ExternalTextList", "F_ParameterRecordDataItem", "IOConfigData", "IOData", "Input", "InterfaceSubmoduleItem", "ModuleInfo",
+        "ModuleItem", "ModuleItemRef", "ModuleList", "Output", "ParameterRecordDataItem", "ParameterRef", "PortSubmoduleItem",
+        "PrimaryLanguage", "ProfileBody", "ProfileHeader", "RecordDataList", "SlotItem", "SlotList", "SubmoduleItem",
+        "SubmoduleItemRef", "SubmoduleList", "SubslotItem", "SubslotList", "SystemDefinedSubmoduleList", "TimingProperties",
+        "UnitDiagTypeItem", "UnitDiagTypeList", "UseableModules", "UseableSubmodules", "ValueItem", "ValueList",
+        "VirtualSubmoduleItem", "VirtualSubmoduleList",
+    ];
     const VALUE: &'static Code = &codes::GSDML_VALUE;
     const CASE: Option<&'static Code> = Some(&codes::ATTRIBUTE_CASE);
     const EMPTY_IS_MISSING: bool = false;

@@ -18,6 +18,15 @@ pub(super) struct Xdd<'d> {
 impl xml::Format for Xdd<'_> {
     const STANDARD: &'static str = "CiA 311";
     const UNKNOWN: &'static Code = &codes::UNKNOWN_ELEMENT;
+    #[rustfmt::skip]
+    const ELEMENTS: &'static [&'static str] = &[
+        "ApplicationLayers", "ApplicationProcess", "CANopenGeneralFeatures", "CANopenMasterFeatures", "CANopenObject",
+        "CANopenObjectList", "CANopenSubObject", "DeviceFunction", "DeviceIdentity", "DeviceManager", "NetworkManagement",
+        "ProfileBody", "ProfileHeader", "actualValue", "allowedValues", "allowedValuesTemplate", "dataTypeList", "defaultValue",
+        "deviceCommissioning", "dummyUsage", "dynamicChannel", "dynamicChannels", "enumValue", "parameter", "parameterGroup",
+        "parameterGroupList", "parameterList", "parameterTemplate", "productID", "productName", "range", "struct", "subrange",
+        "substituteValue", "templateList", "varDeclaration", "vendorID", "vendorName",
+    ];
     const VALUE: &'static Code = &codes::XDD_VALUE;
     const ENGLISH: (&'static str, &'static str) = ("lang", "en");
 }

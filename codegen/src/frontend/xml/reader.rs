@@ -1,6 +1,7 @@
 //! Reader of an XML file, and functions that read attributes and children of elements.
 
 use compact_str::CompactString;
+use smallvec::SmallVec;
 
 use super::Given;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -24,6 +25,8 @@ pub trait Format {
     /// Attributes with their elements that the standard defines, and for which the IR has no field. They become extensions, and are not
     /// reported as unknown.
     const KEPT: &'static [(&'static str, &'static str)] = &[];
+    /// Elements whose contents the front end reads. A similar unknown name is reported as misspelled.
+    const ELEMENTS: &'static [&'static str];
     /// Diagnostic code for a value in a form that the standard does not allow.
     const VALUE: &'static Code;
     /// Diagnostic code for an attribute name in the wrong case; `None` if case is ignored.
@@ -108,13 +111,28 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
 
     /// Returns the values of the attributes `names`, in this order. All other attributes become extensions.
     pub fn attributes<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
-        self.select(tag, names, Self::given, |reader, attribute| reader.unknown_attribute(tag, attribute))
+        self.attributes_with(tag, names, Self::given)
     }
 
     /// Returns the values of the attributes `names` with surrounding blanks. All other attributes become extensions.
     pub fn attributes_with_blanks<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
-        let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
-        self.select(tag, names, given, |reader, attribute| reader.unknown_attribute(tag, attribute))
+        self.attributes_with(tag, names, |reader, attribute| Given::of_attribute(attribute, reader.diagnostics))
+    }
+
+    fn attributes_with<const N: usize>(
+        &mut self,
+        tag: &Tag<'a>,
+        names: [&str; N],
+        given: impl Fn(&mut Self, &Attribute<'a>) -> Given<'a>,
+    ) -> Read<[Given<'a>; N]> {
+        let mut unknown = Vec::new();
+        let found = self.select(tag, names, given, |_, attribute| unknown.push(*attribute))?;
+        if !unknown.is_empty() {
+            let missing = names.iter().zip(&found).filter(|(_, given)| given.is_missing()).map(|(name, _)| *name);
+            let missing: SmallVec<[&str; 8]> = missing.collect();
+            unknown.iter().for_each(|attribute| self.unknown_attribute(tag, attribute, &missing));
+        }
+        Ok(found)
     }
 
     /// Returns the value of an attribute with surrounding blanks. The other attributes of the element must have been

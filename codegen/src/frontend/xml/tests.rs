@@ -10,6 +10,7 @@ struct Plain<const EMPTY_IS_MISSING: bool>;
 impl<const EMPTY: bool> Format for Plain<EMPTY> {
     const STANDARD: &'static str = "no standard";
     const UNKNOWN: &'static Code = &codes::ESI_UNKNOWN_ELEMENT;
+    const ELEMENTS: &'static [&'static str] = &["Object", "PdoMapping"];
     const VALUE: &'static Code = &codes::ESI_VALUE;
     const CASE: Option<&'static Code> = Some(&codes::ATTRIBUTE_CASE);
     const EMPTY_IS_MISSING: bool = EMPTY;

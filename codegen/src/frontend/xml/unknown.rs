@@ -4,24 +4,28 @@
 use compact_str::{format_compact, CompactString};
 
 use super::reader::{Attributes, Format, Read, Reader};
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Extension;
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Event, Tag};
-use crate::text::brief;
+use crate::text::{brief, edit_distance};
 
 impl<'a, F: Format> Reader<'a, '_, F> {
     /// Reports an element that the standard does not define in this position, and stores its contents as extensions.
     pub fn unknown(&mut self, tag: &Tag<'a>) -> Read<()> {
-        if self.diagnostics.wants(F::UNKNOWN) {
+        let is_misspelled = !F::ELEMENTS.contains(&tag.name) && self.misspelled(tag.name, tag.name_span(), F::ELEMENTS);
+        if !is_misspelled && self.diagnostics.wants(F::UNKNOWN) {
             let message = format!("{} does not allow the element <{}> at this position", F::STANDARD, brief(tag.name));
             self.report(F::UNKNOWN, tag.name_span(), message, "kept as extension attributes");
         }
         self.keep(tag)
     }
 
-    /// Reports an attribute that the standard does not define for this element, and stores it as an extension.
-    pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>) {
-        if self.diagnostics.wants(F::UNKNOWN) && !F::KEPT.contains(&(tag.name, attribute.name)) {
+    /// Reports an attribute that the standard does not define for this element, and stores it as an extension. `missing` contains the
+    /// attributes that the element lacks.
+    pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>, missing: &[&str]) {
+        let is_misspelled = self.misspelled(attribute.name, attribute.name_span, missing);
+        if !is_misspelled && self.diagnostics.wants(F::UNKNOWN) && !F::KEPT.contains(&(tag.name, attribute.name)) {
             let (element, name) = (brief(tag.name), brief(attribute.name));
             let message = format!("{} does not define the attribute `{name}` of <{element}>", F::STANDARD);
             self.report(F::UNKNOWN, attribute.name_span, message, "kept as an extension attribute");
@@ -32,6 +36,26 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         };
         let value = attribute.value(self.diagnostics).into();
         self.extensions.push(Extension { key, value, span: attribute.span });
+    }
+
+    /// Reports an unknown name that differs in one letter from one of `names`, or in two letters if it has more than eight.
+    /// Returns whether the name is similar.
+    pub(super) fn misspelled(&mut self, name: &str, span: Span, names: &[&str]) -> bool {
+        let limit = match name.len() {
+            0..=4 => return false,
+            5..=8 => 1,
+            _ => 2,
+        };
+        let is_near = |other: &&&str| other.len().abs_diff(name.len()) <= limit && edit_distance(name, other) <= limit;
+        let Some(similar) = names.iter().find(is_near) else { return false };
+        let message = format!("{} does not define `{}` here, but `{similar}`", F::STANDARD, brief(name));
+        let found = Diagnostic::new(&codes::MISSPELLED_NAME, span, message);
+        self.diagnostics.push(
+            found
+                .label("kept as an extension")
+                .help("correct the name if it is misspelled, because its value is not used"),
+        );
+        true
     }
 
     /// Stores the attributes and texts of an element and its descendants as extensions, with keys such as
