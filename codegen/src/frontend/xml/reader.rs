@@ -21,8 +21,8 @@ pub trait Format {
     const STANDARD: &'static str;
     /// Diagnostic code for an element or attribute that the standard does not define.
     const UNKNOWN: &'static Code;
-    /// Attributes with their elements that the standard defines, and for which the IR has no field. They become extensions, and are not
-    /// reported as unknown.
+    /// Pairs of an element and an attribute that the standard defines, but for which the IR has no field. Such an
+    /// attribute becomes an extension, and is not reported as unknown.
     const KEPT: &'static [(&'static str, &'static str)] = &[];
     /// Diagnostic code for a value in a form that the standard does not allow.
     const VALUE: &'static Code;
@@ -111,14 +111,15 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.select(tag, names, Self::given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// Returns the values of the attributes `names` with surrounding blanks. All other attributes become extensions.
+    /// Returns the values of the attributes `names` with surrounding white space. All other attributes become
+    /// extensions.
     pub fn attributes_with_blanks<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
         let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
         self.select(tag, names, given, |reader, attribute| reader.unknown_attribute(tag, attribute))
     }
 
-    /// Returns the value of an attribute with surrounding blanks. The other attributes of the element must have been
-    /// read before.
+    /// Returns the value of an attribute with surrounding white space. The other attributes of the element must have
+    /// been read before.
     pub fn attribute_with_blanks(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
         let [given] = self.select(tag, [name], given, |_, _| {})?;
