@@ -44,7 +44,7 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# Measures the build time of the compiler with the features $2 and no others. The output contains the label $1.
+# Measures the build time of the compiler with the features $2 and no others. Prints the time next to the label $1.
 lexibus-with() {
     crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"

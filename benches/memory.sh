@@ -20,8 +20,8 @@ peak() {
     tail -1 "$work/peak"
 }
 
-# Writes the smallest description in the format of $1 and prints its path. Compiling this description needs only the
-# memory that does not depend on the input, for example for profiles.
+# Writes the smallest description in the format of $1 and prints its path. The memory for compiling this description
+# does not depend on the input: it contains, for example, the profiles.
 empty() {
     case $1 in
     *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;

@@ -136,7 +136,7 @@ def main():
     head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True)
     seed = arguments.seed or head.stdout.strip()
     for area in arguments.areas or AREAS:
-        # A sentence that occurs in many places is judged once.
+        # A sentence that occurs in many places is sampled at most once.
         unique = sorted({sentence: (path, line) for path, line, sentence in reversed(AREAS[area]())}.items())
         print(f"# {area}: {min(arguments.count, len(unique))} of {len(unique)} sentences")
         for sentence, (path, line) in random.Random(f"{seed} {area}").sample(unique, min(arguments.count, len(unique))):

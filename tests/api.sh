@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Compares the public API of the runtime, with all features, with the snapshot tests/api/lexibus.txt. Needs `cargo-public-api` and the
-# nightly toolchain, which writes rustdoc JSON. Skipped with a message if one of them is missing:
+# nightly toolchain, which writes rustdoc JSON. Without them, the check is skipped with a message. To install them:
 #
 #     cargo install --locked cargo-public-api
 #     rustup toolchain install nightly --profile minimal

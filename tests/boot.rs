@@ -77,7 +77,7 @@ const IDENTITY: Identity = Identity {
     order_code: "",
 };
 
-/// Checks everything, and stores the configuration.
+/// A boot that checks all properties of the node and stores the configuration.
 const BOOT: Boot = Boot::new(ErrorControl::Heartbeat(SECOND))
     .reset(SECOND)
     .device_type(0x0002_0192)
@@ -99,7 +99,7 @@ fn device(entries: &'static [Entry]) -> Device {
     };
     set(0x1000, 0, &0x0002_0192_u32.to_le_bytes());
     set(0x1009, 0, b"rev B");
-    // A text of a fixed length.
+    // A text that is padded with zeros to a fixed length.
     set(0x100A, 0, b"1.4.2\0\0\0");
     for (sub_index, value) in [(1, 0x1234_u32), (2, 7), (3, 0x0001_0002), (4, 99)] {
         set(0x1018, sub_index, &value.to_le_bytes());
@@ -125,7 +125,7 @@ where
     }
 }
 
-/// Runs the boot of two new nodes, blocking and asynchronous, and returns the error.
+/// Boots two new nodes, one blocking and one asynchronously, and returns the error.
 fn failed(new: impl Fn() -> Node<CanNode>, plan: &Boot) -> BootError<Infallible> {
     let [blocking, other] = [false, true].map(|is_async| {
         let mut node = new();
@@ -162,7 +162,7 @@ fn a_node_is_configured_once() {
         assert_eq!(boot(&mut node, &BOOT, is_async), Ok(again));
         assert_eq!(bytes(&mut node, SPEED), [0xDC, 5]);
 
-        // Another date is another configuration. A date in the configuration has the same effect.
+        // The node is configured again if the date differs. In this case, the date is one of the configured parameters.
         let date =
             [Setting::fixed(SdoWrite::new_u32(0x1020, 1, 15_001)), Setting::fixed(SdoWrite::new_u32(0x1020, 2, 0))];
         let parameters = Box::leak(Box::new([CONFIGURATION.parameters[0], date[0], date[1]]));
@@ -186,7 +186,7 @@ fn without_store_the_date_is_not_written() {
             assert_eq!(boot(&mut node, &plan, is_async), Ok(configured));
             assert_eq!(date(&mut node), [[0; 4]; 2]);
         }
-        // A node without 0x1020 is configured at each boot. So is one whose configuration has no date.
+        // A node without 0x1020, and a node whose configuration has no date, are configured at each boot.
         assert_eq!(boot(&mut simple(), &plan, is_async), Ok(configured));
         let without_date = plan.configuration_date(TimeOfDay::new(0, 0));
         assert_eq!(boot(&mut node, &without_date, is_async), Ok(configured));
@@ -242,7 +242,7 @@ fn wrong_devices() {
     }
     let hardware = r#"the hardware version (0x1009) is "rev B" instead of "rev A""#;
     assert_eq!(text(&BOOT.hardware_version("rev A")), (None, hardware.to_string()));
-    // The expected number 0 is not compared.
+    // An expected value of 0 disables the comparison.
     assert!(node().boot(&BOOT.device_type(0).vendor_id(0).product_code(0).revision_number(0).serial_number(0)).is_ok());
 }
 
@@ -370,7 +370,7 @@ fn stubborn(node: CanNode) -> Deaf<impl FnMut(&CanFrame) -> bool> {
     Deaf(node, |frame: &CanFrame| matches!(NmtCommand::of(frame), Some((NmtCommand::Start, _))))
 }
 
-/// The heartbeats before the start don't count, not even those in the buffer of the interface.
+/// Heartbeats from before the start don't confirm the start, even if they are still in the buffer of the interface.
 #[test]
 fn a_node_that_does_not_start() {
     let guarding = ErrorControl::Guarding { guard_time: Duration::from_millis(100), life_time_factor: 1 };
@@ -417,7 +417,7 @@ fn a_running_node_keeps_running() {
             Booted { device_type: 0x0002_0192, is_configured: false, is_stored: false, was_operational: true };
         assert_eq!((again, again.status()), (expected, Some('L')));
         assert_eq!((bytes(&mut node, SPEED), node.port().state()), (vec![77, 0], NmtState::Operational));
-        // Another device is an error, and isn't stopped.
+        // A wrong device is reported as an error, but isn't stopped.
         let other = boot(&mut node, &plan.serial_number(1), is_async);
         assert_eq!(other, Err(BootError::SerialNumber { expected: 1, actual: 99 }));
         assert_eq!(node.port().state(), NmtState::Operational);
@@ -461,7 +461,7 @@ fn a_lost_guarding_request() {
         let mut node = Node::new(Deaf(running, is_lost), NODE);
         let booted = boot(&mut node, &plan.keep_running(), is_async).expect("a running node");
         assert!(booted.was_operational);
-        // A node that never answers is lost, or restarted.
+        // If a node never answers, the boot fails with `NodeLost`, or restarts the node if the plan has a reset.
         lost.set(1000);
         let failed = boot(&mut node, &plan.keep_running(), is_async);
         assert_eq!(failed, Err(BootError::Guarding(GuardError::NodeLost)));
@@ -481,7 +481,7 @@ fn a_running_node_with_guarding() {
         let first = boot(&mut node, &plan, is_async).expect("a node");
         let again = boot(&mut node, &plan, is_async).expect("a node");
         assert_eq!((first.was_operational, again.was_operational), (false, true));
-        // Without error control, the node is booted again.
+        // Without error control, the state of the node is unknown, so the node is booted again.
         let blind = boot(&mut node, &Boot::new(ErrorControl::None).keep_running(), is_async).expect("a node");
         assert!(!blind.was_operational);
     }

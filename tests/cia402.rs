@@ -96,7 +96,7 @@ const ENTRIES: [Entry; 18] = [
     entry(0x6502, DataType::Unsigned32),
 ];
 
-/// What happens to the drive at a moment of a test.
+/// An action on the drive at a certain time of a test.
 type Event = Box<dyn FnMut(&mut Rig)>;
 
 /// A client of a drive. Events can happen while the driver waits, and statuswords can differ from those of the drive.
@@ -109,9 +109,9 @@ struct Rig {
     /// Bits of the statusword that are always 1 and always 0.
     set: u16,
     cleared: u16,
-    /// Number of the next reads of the statusword that fail.
+    /// Number of upcoming reads of the statusword that will fail.
     broken: u32,
-    /// Controlword that the drive shows instead of the written one.
+    /// Controlword that the drive returns instead of the written one.
     shown: Option<u16>,
     has_clock: bool,
     /// All written values.
@@ -262,7 +262,7 @@ fn a_new_mode_starts_nothing() {
     rig.write(0x6040, &0x887F_u16.to_le_bytes());
     rig.motion().set_mode(Mode::Homing, DEADLINE).unwrap();
     assert_eq!(rig.control(), 0x880F);
-    // Neither does a drive that is enabled later.
+    // Bit 4 is also cleared if the drive is not enabled yet, so that the drive starts nothing when it is enabled later.
     rig.write(0x6040, &0x0017_u16.to_le_bytes());
     rig.drive.device().step(ms(2));
     rig.writes.clear();
@@ -284,12 +284,12 @@ fn homing() {
     assert_eq!(rig.motion().home(DEADLINE), Ok(()));
     assert_eq!(rig.writes, [(0x6060, 6), (0x6040, 0x081F), (0x6040, 0x080F)]);
     assert_eq!(rig.position(), 10);
-    // The bit "homing attained" of the first procedure isn't the result of the second one.
+    // The bit "homing attained" of the first procedure must not be taken as the result of the second one.
     let begin = rig.time;
     assert_eq!(rig.motion().home_with(35, DEADLINE), Ok(()));
     assert!((100..=110).contains(&(rig.time - begin)), "{}", rig.time);
     assert_eq!(rig.drive.device().get(HOMING_METHOD), Ok(35));
-    // A method that doesn't fit the type is not sent.
+    // A homing method outside the range of its type is not sent.
     let refused = rig.motion().home_with(200, DEADLINE);
     assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
 }
@@ -297,7 +297,7 @@ fn homing() {
 #[test]
 fn a_start_bit_that_is_already_set() {
     let mut rig = Rig::enabled(6);
-    // The mode 6 is active, and the drive has executed this bit.
+    // Mode 6 is active, and the drive has already executed the procedure that this start bit started.
     rig.write(0x6040, &0x001F_u16.to_le_bytes());
     rig.drive.device().step(ms(200));
     rig.writes.clear();
@@ -313,11 +313,11 @@ fn results_of_an_earlier_homing_procedure() {
     rig.set = 1 << 12 | 1 << 10;
     assert_eq!(rig.motion().home(DEADLINE), Ok(()));
     assert!(rig.time > 100, "{}", rig.time);
-    // An earlier error isn't the result either.
+    // The error bit of an earlier procedure must not be taken as the result either.
     let mut rig = Rig::enabled(6).at(40, late);
     rig.set = 1 << 13;
     assert_eq!(rig.motion().home(DEADLINE), Ok(()));
-    // If the bits never change, the drive has ended the new procedure.
+    // If the bits do not change in time, they are taken as the result of the new procedure.
     let mut rig = Rig::enabled(6);
     rig.set = 1 << 13;
     assert_eq!(rig.motion().home(DEADLINE), Err(MotionError::Homing));
@@ -426,8 +426,8 @@ fn set_points_wait_or_replace() {
     assert!((350..=450).contains(&(rig.time - begin)), "{}", rig.time);
     rig.motion().wait_reached(DEADLINE).unwrap();
     assert_eq!(rig.position(), 100);
-    // A set-point that replaces all others is sent although a set-point waits. Its start bit stays 1 for 100 ms, because
-    // bit 12 doesn't show the edge.
+    // A set-point that replaces all others is sent even if another set-point is waiting. Its start bit stays 1 for 100 ms, because
+    // bit 12 is already 1 and therefore doesn't acknowledge the edge.
     rig.motion().move_to(Target::absolute(5000), DEADLINE).unwrap();
     rig.motion().move_to(Target::absolute(6000), DEADLINE).unwrap();
     let begin = rig.time;
@@ -443,7 +443,7 @@ fn set_points_that_the_drive_does_not_acknowledge() {
     rig.cleared = 1 << 12;
     assert!(matches!(rig.motion().move_to(Target::absolute(500), ms(50)), Err(MotionError::Deadline { .. })));
     assert_eq!(rig.controls(), [0x1F, 0x0F], "the bit is cleared");
-    // Without a free place, the set-point isn't sent.
+    // If the drive cannot store another set-point, no set-point is sent.
     let mut rig = Rig::enabled(1);
     rig.set = 1 << 12;
     assert!(matches!(rig.motion().move_to(Target::absolute(500), ms(50)), Err(MotionError::Deadline { .. })));
@@ -459,11 +459,11 @@ fn following_errors_of_a_move() {
     let mut rig = Rig::enabled(1).at(100, |rig| rig.set = 1 << 13);
     rig.motion().move_to(Target::absolute(500), DEADLINE).unwrap();
     assert_eq!(rig.motion().wait_reached(DEADLINE), Err(MotionError::FollowingError { error: Some(0) }));
-    // A drive with a following error gets no set-point.
+    // No set-point is sent to a drive with a following error.
     rig.writes.clear();
     let refused = rig.motion().move_to(Target::absolute(7), DEADLINE);
     assert_eq!((refused, rig.writes.as_slice()), (Err(MotionError::FollowingError { error: Some(0) }), [].as_slice()));
-    // A following error during the handshake: the bit is cleared.
+    // After a following error during the handshake, the start bit is cleared.
     let mut rig = Rig::enabled(1).at(20, |rig| rig.set = 1 << 13);
     rig.cleared = 1 << 12;
     let failed = rig.motion().move_to(Target::absolute(500), DEADLINE);
@@ -504,7 +504,7 @@ fn operations_never_enable_a_drive() {
         assert!(refused(rig.motion().set_velocity(1)));
         assert_eq!(rig.writes, []);
     }
-    // The controlword still contains "enable operation". It isn't written after a local quick stop.
+    // After a local quick stop, the controlword still contains "enable operation", but must not be written.
     let mut rig = Rig::enabled(6).at(20, |rig| {
         (rig.set, rig.cleared) = (0, 1 << 5);
     });
@@ -531,7 +531,7 @@ fn velocities() {
 
 const VELOCITY: Item<i32, Ro, OnCanOpen> = Item::object(0x606C, 0, "");
 
-/// Returns a drive that moves at 700 units per second, which it loses in 70 ms.
+/// Returns a drive that moves at 700 units per second and needs 70 ms to stop.
 fn moving() -> Rig {
     let mut rig = Rig::enabled(3);
     rig.motion().set_velocity(700).unwrap();
@@ -574,20 +574,20 @@ fn a_quick_stop_of_a_drive_with_a_fault() {
 
 #[test]
 fn an_old_bit_10_does_not_end_a_quick_stop() {
-    // The bit still shows that the axis has reached its target velocity. With the option 5, the axis needs 70 ms.
+    // The bit still shows that the axis has reached its target velocity. With option 5, the axis needs 70 ms to stop.
     let mut rig = moving();
     rig.drive.device().set(QUICK_STOP_OPTION, 5).unwrap();
     rig.set = 1 << 10;
     assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::QuickStopActive));
     assert_eq!(rig.drive.device().get(VELOCITY), Ok(0));
     assert!(rig.time >= 95, "{}", rig.time);
-    // On an axis that stands still, a shorter deadline passes.
+    // Even if the axis already stands still, a quick stop fails with a shorter deadline.
     assert!(matches!(rig.motion().quick_stop(ms(50)), Err(MotionError::Deadline { .. })));
 }
 
 #[test]
 fn a_quick_stop_is_written_before_any_read() {
-    // Homing is in progress. A bit 4 that stays set would start it again when the drive is enabled.
+    // Homing is in progress. If bit 4 stayed set, homing would start again when the drive is enabled.
     let mut rig = Rig::enabled(6);
     rig.write(0x6040, &0x001F_u16.to_le_bytes());
     rig.writes.clear();
@@ -607,7 +607,7 @@ fn halt_and_resume() {
     assert_eq!(rig.motion().resume(), Ok(()));
     assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
     assert_eq!(rig.drive.device().get(VELOCITY), Ok(700));
-    // Halt isn't possible if the operation isn't enabled, and the bit stays set after the deadline.
+    // If halt misses its deadline, its bit stays set. Halt isn't possible if the operation isn't enabled.
     rig.cleared = 1 << 10;
     assert!(matches!(rig.motion().halt(ms(100)), Err(MotionError::Deadline { .. })));
     assert_eq!(rig.control(), 0x010F);
@@ -676,7 +676,7 @@ async fn without_blocking() {
     assert_eq!(moves.await, Err(MotionError::Homing));
 }
 
-/// Runs a cycle of 2 ms with a set-point, and returns the result of the watch.
+/// Runs a cycle of 2 ms with a set-point. Returns whether the drive follows the set-point, or the error.
 fn cycle(rig: &mut Rig, cyclic: &mut Cyclic, target: i32) -> Result<bool, CycleError> {
     let device = rig.drive.device();
     device.step(ms(2));
@@ -707,16 +707,16 @@ fn cyclic_positions() {
     for target in 1..=100 {
         assert_eq!(cycle(&mut rig, &mut cyclic, target), Ok(true));
     }
-    // 5 units in 2 ms are more than the axis can move.
+    // The axis cannot move 5 units in 2 ms.
     let error = (1..100).find_map(|step| cycle(&mut rig, &mut cyclic, 100 + 5 * step).err());
     let Some(CycleError::LimitExceeded { error, limit: 50 }) = error else { panic!("{error:?}") };
     assert!((51..=56).contains(&error), "{error}");
-    // The window of the drive.
+    // The drive reports a following error outside its own window (0x6065).
     rig.write(0x6065, &40_u32.to_le_bytes());
     let failed = cycle(&mut rig, &mut Cyclic::position(), 500);
     assert!(matches!(failed, Err(CycleError::FollowingError { error: Some(error) }) if error > 40), "{failed:?}");
     rig.fail(0x8611);
-    // The watch has already reported that the drive no longer follows.
+    // `cyclic` has already reported an error, so it returns no further error.
     assert_eq!(cycle(&mut rig, &mut cyclic, 0), Ok(false));
 }
 
@@ -786,7 +786,7 @@ fn states_and_commands_have_names_and_paths() {
     use demo_drive::types::{Command, State};
     assert_eq!(State::SwitchOnDisabled.to_string(), "switch on disabled");
     assert_eq!(format!("{:>17}", Command::FaultReset), "      fault reset");
-    // The drive isn't energized on the path out of a quick stop.
+    // The path out of a quick stop must not energize the motor.
     assert_eq!(State::QuickStopActive.toward(State::SwitchedOn), lexibus::Step::Command(Command::DisableVoltage));
     for (state, name) in State::NAMES {
         assert_eq!((name.parse(), state.to_string().as_str()), (Ok(*state), *name));

@@ -6,7 +6,7 @@ use lexibus::sim::{CanNode, Device, Fault};
 use lexibus::{AbortCode, CanOpen, Configuration, Error, NodeId, RawInitial, SdoWrite};
 
 lexibus::dictionary! {
-    /// The conveyor of a case of the compiler.
+    /// The conveyor from a UI case of the compiler.
     pub mod conveyor = "tests/ui/configuration/order-of-a-dcf/input.dcf" { table: true, allow: "warnings" };
 }
 

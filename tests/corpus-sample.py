@@ -39,7 +39,7 @@ MINIMUM = {"eds": 12, "esi": 8, "gsdml": 8}
 # Maximum size in bytes of a file in the sample. Only the full lane reads larger files, because a debug build needs longer for one
 # large file than for ten small ones.
 SIZE_LIMIT = 250_000
-# Number of bytes that is added to the size of each file, so that the script prefers a medium-sized file to many tiny ones.
+# Number of bytes that are added to the size of each file, so that the script prefers a medium-sized file to many tiny ones.
 FILE_COST = 50_000
 
 # Family of each format. The formats of a family share a front end or a part of the intermediate representation.

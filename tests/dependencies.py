@@ -19,7 +19,7 @@ ALLOWED = {
     "Unicode-3.0", "Unlicense", "Zlib",
 }
 
-# Dependencies with other licenses, and who uses them. The README names those of published crates.
+# Dependencies with other licenses, and what uses them. The README names those that published crates use.
 EXCEPTIONS = {
     "serialport": ("MPL-2.0", "tokio-modbus, in the feature `modbus`"),
     "mio-serial": ("MPL-2.0", "tokio-modbus, in the feature `modbus`"),

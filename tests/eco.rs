@@ -1,4 +1,4 @@
-//! Tests the Eco's bindings on CANopen and EtherCAT against the manual: requests, scales and PDOs of its examples.
+//! Tests the Eco's bindings on CANopen and EtherCAT with the examples in the manual: requests, scales and PDOs.
 //! Quotation marks enclose titles of the manual's sections. The test program `frames` contains the tests for Modbus.
 
 #[path = "support/can_script.rs"]

@@ -1,6 +1,6 @@
 //! Tests the second Modbus address map of the Eco drive, which is intended for Siemens controllers. An option of the
-//! register table selects it. The manual prints the fields of the requests ("Esempi di utilizzo dei codici funzione"),
-//! but not their bytes.
+//! register table selects this map. The manual prints the fields of the requests ("Esempi di utilizzo dei codici
+//! funzione"), but not their bytes.
 
 use std::convert::Infallible;
 

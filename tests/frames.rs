@@ -105,7 +105,7 @@ fn modbus_writes_of_two_registers() {
 #[test]
 fn modbus_of_registers_with_an_address_each() {
     // Section "Codice 0x03: lettura dei parametri e dei registri". The text of the section contradicts its tables. The
-    // test uses the bytes of the tables. Each register address contains 32 bits.
+    // test uses the bytes of the tables. The register at each address has 32 bits.
     let request = [0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D];
     let reply = [[5, 3, 8].as_slice(), &[0, 0, 0, 0x23, 0xFF, 0xFF, 0xFF, 0xFE]].concat();
     let reply = [reply.as_slice(), &check(&reply)].concat();

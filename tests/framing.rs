@@ -51,8 +51,8 @@ fn byte_by_byte() {
     assert_eq!(decoded(&DRIVE, &stream), all);
 }
 
-/// Returns framings with all kinds of checksums, with and without a start byte. Their escapes allow all bytes in the
-/// data.
+/// Returns framings with all kinds of checksums, with and without a start byte. They escape special bytes, so the data
+/// can contain any byte.
 fn framings() -> Vec<Delimited> {
     let mut all = Vec::new();
     for check in [Check::None, Check::Xor(0), Check::Sum(7), Check::Lrc(0), Check::Crc16(0xFFFF)] {

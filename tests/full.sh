@@ -79,9 +79,9 @@ part_outside() {
 part_packages() { CARGO_TARGET_DIR=$(realpath "$target") tests/packages.sh; }
 # Compares the public API of the runtime with its snapshot. `tests/api.sh --bless` writes the snapshot.
 part_api() { CARGO_TARGET_DIR=$(realpath "$target") tests/api.sh; }
-# Checks the minimum Rust versions of the runtime, as far as their toolchains are installed.
+# Checks the minimum Rust versions of the runtime whose toolchains are installed.
 part_msrv() { CARGO_TARGET_DIR=$(realpath "$target") tests/msrv.sh; }
-# Checks the licenses of all dependencies, and which are compiled in several versions.
+# Checks the licenses of all dependencies, and that tests/duplicates.txt lists those that are compiled in several versions.
 part_dependencies() { tests/dependencies.py; }
 part_rustdoc() {
     RUSTDOCFLAGS='-D warnings' cargo doc --quiet --workspace --all-features --no-deps --lib --bins --examples

@@ -18,12 +18,12 @@ const TOLERATED: [(&str, &str, f64); 4] = [
     // larger loaded word instead of loading the field.
     ("several_pdos", "pack", 1.0),
     // The buffer for values has 8 bytes for all types. Values and errors are returned in the same location, which costs
-    // a jump instruction. Another register for the error is saved and restored.
+    // a jump instruction. In addition, a CPU register for the error is saved and restored.
     ("objects", "read", 4.0),
     // The error of an item names the item, so generated code checks the result of the client. Handwritten code passes
     // the result to the caller.
     ("objects", "write", 5.0),
-    // As for "write". In addition, the value is converted to an enumeration that names most of its values.
+    // The reason for "write" also applies. In addition, the value is converted to an enumeration that names most of its values.
     ("objects", "write_mode", 9.0),
 ];
 

@@ -213,7 +213,7 @@ fn what_is_repeated_and_what_goes_on_to_the_end() {
     assert_eq!(hoist.play(List::from(&too_high)).send(), Err(Error::OutOfRange(OutOfRange).into()));
 }
 
-/// A reply with a changed byte must be rejected. The byte with the status is an exception.
+/// A reply with a changed byte must be rejected, unless this byte is the status.
 #[test]
 fn every_byte_of_a_reply_counts() {
     let request = [5, 0x02, 0x02, 0x34, 0x00, 0x01, 0x25, 0x8E];

@@ -209,7 +209,7 @@ fn frames_of_rtu_without_blocking() {
     });
 }
 
-/// Items for the registers R00, R01 and R06 of the Eco drive. Each of their addresses contains 32 bits.
+/// Items for the registers R00, R01 and R06 of the Eco drive. The register at each address has 32 bits.
 type Wide<V> = Item<V, Rw, OnModbus>;
 const R00: Wide<u32> = Wide::register(Register::high_first(0x8000, 2).words_per_address(2), "R00", Flags::NONE);
 const R01: Wide<i32> = Wide::register(Register::high_first(0x8001, 2).words_per_address(2), "R01", Flags::NONE);

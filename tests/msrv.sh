@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that the runtime compiles with its minimum Rust versions, with each feature alone, and that the crate `generated` compiles with
-# the minimum version of the runtime. A version whose toolchain is not
-# installed is skipped with a message. Install a toolchain with `rustup toolchain install 1.81.0 --profile minimal`.
+# the minimum version of the runtime. Skips a version with a message if its toolchain is not installed. Install a
+# toolchain with `rustup toolchain install 1.81.0 --profile minimal`.
 #
 #     tests/msrv.sh
 #
@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${CARGO_TARGET_DIR:-$PWD/target}/msrv
 
-# Minimum version, and the features that need it. The feature `macros` compiles the compiler, whose version is 1.88.
+# Minimum version, and the features that need it. The feature `macros` compiles the compiler, whose minimum version is 1.88.
 requirements=(
     "1.81.0 none std canopen socketcan socketcan-tokio serial serde defmt"
     "1.85.0 ethercat modbus"
@@ -52,7 +52,7 @@ def section(name, table):
 
 
 dependencies = {name: value for name, value in manifest["dependencies"].items() if name != "lexibus-macros"}
-# The feature `macros` stays without its crate, which needs the compiler.
+# Keep the feature `macros`, but drop the crate that it enables, because this crate needs the compiler.
 features = {**manifest["features"], "macros": []}
 text = section("package", {"name": "lexibus", "version": "0.1.0", "edition": "2021", "rust-version": version.removesuffix(".0")})
 text += "[workspace]\n" + section("features", features) + section("dependencies", dependencies)

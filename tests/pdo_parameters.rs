@@ -135,7 +135,7 @@ fn a_pdo_that_is_enabled_again_starts_anew() {
         let sent: [bool; 5] = after_syncs(&mut drive, |drive, _| drive.sync().expect("sent"));
         assert_eq!(sent, [false, false, true, false, false]);
     }
-    // An RPDO that waits for SYNC is lost if it is disabled.
+    // If an RPDO is disabled while received data wait for SYNC, the data are lost.
     configure(&mut drive, cyclic, pdo::RxPdo1::configuration(NODE));
     let mut data = [0; pdo::RxPdo1::LEN];
     data[0] = 6;
@@ -182,7 +182,7 @@ fn parameters_of_an_enabled_pdo_are_refused() {
     configure(&mut drive, NEW.transmission(TransmissionType::ProfileEvent), Feedback::configuration(NODE));
     let refused = SdoWrite::new_u16(0x1800, 3, 10).send(&mut drive);
     assert_eq!(refused, Err(Error::Abort(AbortCode::INVALID_VALUE)));
-    // The drive has no SYNC start value. The PDO stays disabled.
+    // The drive has no sub-index for the SYNC start value, so it refuses the configuration, and the PDO stays disabled.
     let parameters = NEW.transmission(TransmissionType::EverySync(1)).sync_start(1);
     let refused = parameters.configure(Feedback::configuration(NODE)).expect("valid").send(&mut drive);
     assert_eq!(refused, Err(Error::Abort(AbortCode::NO_SUB_INDEX)));

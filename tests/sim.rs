@@ -92,7 +92,8 @@ fn a_driver_enables_the_drive_and_moves_it() {
     assert_eq!(drive.client().device().get(objects::TARGET_POSITION), Ok(-4711));
 }
 
-/// Returns a drive in the state "Fault". Only a rising edge of bit 7 resets the fault (CiA 402-2 6.3). The bit is already set.
+/// Returns a drive in the state "Fault". Only a rising edge of bit 7 resets the fault (CiA 402-2 6.3). In the returned drive, this
+/// bit is already set.
 fn faulty_drive() -> Device {
     let mut device = demo();
     device.set_initial(objects::STATUSWORD, status(State::Fault)).unwrap();
@@ -118,7 +119,7 @@ fn one_call_leads_a_faulty_drive_to_a_state() {
     let mut drive = DemoDrive::new(faulty_drive().into_client::<CanOpen>());
     assert_eq!(drive.walk(State::OperationEnabled, DEADLINE), Ok(()));
     assert_eq!(drive.statusword().read().map(Statusword::state), Ok(Some(State::OperationEnabled)));
-    // Bit 8 belongs to no command.
+    // Bit 8 keeps its value, because it belongs to no command.
     assert_eq!(drive.controlword().read(), Ok(Controlword::from_raw(0x010F)));
     assert_eq!(drive.walk(State::SwitchOnDisabled, DEADLINE), Ok(()));
     assert_eq!(drive.statusword().read().map(Statusword::state), Ok(Some(State::SwitchOnDisabled)));
@@ -525,7 +526,7 @@ fn process_images_of_ethercat() {
     assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 0x56]));
     assert_eq!(device.receive_image(0x1C12, &[0; 3]), Err(AbortCode::TOO_SHORT));
     assert_eq!(device.transmit_image(0x1C14), Err(AbortCode::NO_OBJECT));
-    // The device must keep the value whose write it refuses, and must store the other value.
+    // The device refuses the write of one value. It must keep the old value, and must store the other new value.
     device.on_any_write(|_, entry| match entry.object {
         Some(Object { index: 0x2000, .. }) => Err(AbortCode::INVALID_VALUE),
         _ => Ok(()),
@@ -675,7 +676,7 @@ fn a_device_that_is_only_on_modbus() {
         entry(LIMIT, DataType::Boolean, AccessRights::ReadOnly),
     ];
     let mut device = Device::new(&entries);
-    // Items with the same bits must have consistent values.
+    // Items that share bits must have consistent values.
     device.set_bytes(STATUS, &[0x0B, 0x80]).unwrap();
     assert_eq!((device.bytes(FAULT), device.bytes(READY)), (Ok([1].as_slice()), Ok([3].as_slice())));
     device.set_bytes(READY, &[1]).unwrap();

@@ -25,7 +25,7 @@ const fn ms(time: u64) -> Duration {
     Duration::from_millis(time)
 }
 
-/// Objects that the demo drive lacks.
+/// Additional objects for these tests, which the demo drive lacks.
 const MORE: [Entry; 33] = [
     entry(0x603F, DataType::Unsigned16),
     entry(0x6042, DataType::Integer16),
@@ -95,7 +95,7 @@ fn write_sub(device: &mut Device, (index, sub_index): (u16, u8), value: i64) {
     device.client::<CanOpen>().write(object, &value.to_le_bytes()[..length]).unwrap();
 }
 
-/// Returns the value of an object. All values of 32 bits are signed.
+/// Returns the value of an object. Treats all values as signed.
 fn number(device: &Device, index: u16) -> i64 {
     match *device.bytes(Object::new(index, 0)).unwrap() {
         [low] => i64::from(low as i8),
@@ -175,7 +175,7 @@ fn every_command() {
         write(&mut device, 0x6040, control);
         assert_eq!(state(&device), expected, "0x{control:02X}");
     }
-    // "Enable operation" in "Ready to switch on" passes "Switched on" in one step.
+    // In "Ready to switch on", the command "Enable operation" passes through "Switched on" within one step.
     device.step(ms(1));
     assert_eq!(state(&device), State::OperationEnabled);
     write(&mut device, 0x6040, 0x06);
@@ -227,7 +227,7 @@ fn a_profile_position_move() {
     assert_eq!((bits(&device), number(&device, 0x606C)), ([false, true, false], 1000));
     write(&mut device, 0x6040, 0x0F);
     assert_eq!(bits(&device), [false; 3]);
-    // 1000 units/s with ramps of 10000 units/s²: 0.6 s.
+    // A move of 500 units at 1000 units/s with ramps of 10000 units/s² takes 0.6 s.
     let time = 200 + until(&mut device, |device| bit(device, 10));
     assert!((590..=610).contains(&time), "{time}");
     assert_eq!((number(&device, 0x6064), number(&device, 0x606C)), (500, 0));
@@ -248,13 +248,13 @@ fn set_points_wait_or_replace() {
     // The waiting set-point is relative to the last target.
     until(&mut device, |device| bit(device, 10));
     assert_eq!(number(&device, 0x6064), 200);
-    // "Change set immediately" replaces the active set-point. The axis returns.
+    // "Change set immediately" replaces the active set-point, so the axis moves back.
     set_point(&mut device, 900, 0);
     device.step(ms(300));
     set_point(&mut device, 250, 0x20);
     until(&mut device, |device| bit(device, 10));
     assert_eq!(number(&device, 0x6064), 250);
-    // Relative to the actual position (0x60F2 = 2), during a move.
+    // If 0x60F2 is 2, a set-point during a move is relative to the actual position.
     write(&mut device, 0x60F2, 2);
     set_point(&mut device, 900, 0);
     device.step(ms(300));
@@ -343,7 +343,7 @@ fn halt_and_resume() {
     device.step(ms(300));
     write(&mut device, 0x6040, 0x10F);
     assert!(!bit(&device, 10));
-    // The profile acceleration is also the profile deceleration (0x6084 is 0).
+    // The profile acceleration is also the profile deceleration, because 0x6084 is 0.
     assert_eq!(until(&mut device, |device| bit(device, 10)), 100);
     let position = number(&device, 0x6064);
     device.step(ms(100));
@@ -364,7 +364,7 @@ fn quick_stop() {
     assert_eq!(state(&device), State::QuickStopActive);
     assert_eq!(until(&mut device, |device| state(device) != State::QuickStopActive), 50);
     assert_eq!((state(&device), number(&device, 0x606C)), (State::SwitchOnDisabled, 0));
-    // Option 6 stays in "Quick stop active", and "Enable operation" resumes.
+    // With option 6, the drive stays in "Quick stop active", and "Enable operation" resumes the motion.
     write(&mut device, 0x605A, 6);
     DemoDrive::new(device.client::<CanOpen>()).walk(State::OperationEnabled, DEADLINE).unwrap();
     device.step(ms(200));
@@ -374,7 +374,7 @@ fn quick_stop() {
     write(&mut device, 0x6040, 0x0F);
     device.step(ms(200));
     assert_eq!((state(&device), number(&device, 0x606C)), (State::OperationEnabled, 1000));
-    // Without power, the axis coasts with a quarter of the deceleration.
+    // Without power, the axis coasts with a quarter of the profile deceleration.
     write(&mut device, 0x6040, 0);
     assert_eq!(state(&device), State::SwitchOnDisabled);
     assert_eq!(until(&mut device, |device| number(device, 0x606C) == 0), 400);
@@ -415,7 +415,7 @@ fn cyclic_position_over_pdos() {
     assert_eq!(number(&device, 0x606C), 3000);
     device.step(ms(1));
     assert_eq!((number(&device, 0x6064), number(&device, 0x606C)), (300, 0));
-    // The maximum velocity causes a following error.
+    // A low maximum velocity (0x607F) causes a following error.
     write(&mut device, 0x607F, 1000);
     write(&mut device, 0x6065, 50);
     write(&mut device, 0x607A, 400);
@@ -440,7 +440,7 @@ fn cyclic_velocity_and_torque() {
     device.step(ms(10));
     let (velocity, torque) = (number(&device, 0x606C), number(&device, 0x6077));
     assert!((45..=50).contains(&velocity) && (495..=505).contains(&torque), "{velocity} {torque}");
-    // The friction limits the velocity to a half of ten times the profile velocity.
+    // At half of the rated torque, friction limits the velocity to half of ten times the profile velocity.
     device.step(Duration::from_secs(60));
     assert_eq!((number(&device, 0x606C), number(&device, 0x6077)), (5000, 500));
 }
@@ -452,13 +452,13 @@ fn velocity_of_frequency_converters() {
     device.step(ms(100));
     // Without the ramp bits of the controlword, the axis stands still.
     assert_eq!((number(&device, 0x6044), number(&device, 0x6064)), (0, 0));
-    // Accelerations of 5,000 and decelerations of 10,000 units per second squared.
+    // Set the acceleration to 5,000 and the deceleration to 10,000 units per second squared.
     for (object, value) in [((0x6048, 1), 5000), ((0x6048, 2), 1), ((0x6049, 1), 20_000), ((0x6049, 2), 2)] {
         write_sub(&mut device, object, value);
     }
     write(&mut device, 0x6040, 0x7F);
     assert_eq!(until(&mut device, |device| number(device, 0x6044) == 1000), 200);
-    // The bits of the mode are reserved.
+    // The mode-specific bits of the statusword are reserved in this mode.
     assert_eq!(bits(&device), [false; 3]);
     write(&mut device, 0x6042, -300);
     assert_eq!(until(&mut device, |device| number(device, 0x6044) == -300), 160);
@@ -467,13 +467,13 @@ fn velocity_of_frequency_converters() {
     write(&mut device, 0x6040, 0x5F);
     device.step(ms(100));
     assert_eq!((number(&device, 0x6044), number(&device, 0x6043)), (-300, -300));
-    // Without "reference ramp", the axis stops. Halt also stops it.
+    // Without "reference ramp", the axis stops. Halt also stops the axis.
     write(&mut device, 0x6042, 400);
     write(&mut device, 0x6040, 0x3F);
     assert_eq!(until(&mut device, |device| number(device, 0x6044) == 0), 30);
     write(&mut device, 0x6040, 0x7F);
     device.step(ms(200));
-    // The limits of the amount.
+    // Set the limits of the absolute value of the velocity (0x6046).
     write_sub(&mut device, (0x6046, 1), 100);
     write_sub(&mut device, (0x6046, 2), 350);
     device.step(ms(100));
@@ -489,7 +489,7 @@ fn velocity_of_frequency_converters() {
 #[test]
 fn stops_of_frequency_converters() {
     let mut device = enabled(2);
-    // Decelerations of 5,000 units per second squared, and of 2,500 for the quick stop.
+    // Set the deceleration to 5,000 units per second squared, and to 2,500 for the quick stop.
     for (object, value) in [((0x6049, 1), 5000), ((0x6049, 2), 1), ((0x604A, 1), 5000), ((0x604A, 2), 2)] {
         write_sub(&mut device, object, value);
     }
@@ -531,7 +531,7 @@ fn profile_torque() {
     assert!((195..=205).contains(&torque) && !bit(&device, 10), "{torque}");
     assert_eq!(until(&mut device, |device| bit(device, 10)), 150);
     assert!(number(&device, 0x606C) > 100);
-    // The friction limits the velocity, as in the mode "cyclic synchronous torque".
+    // Friction limits the velocity, as in the mode "cyclic synchronous torque".
     device.step(Duration::from_secs(60));
     assert_eq!((number(&device, 0x606C), number(&device, 0x6077)), (5000, 500));
     write(&mut device, 0x6072, 300);
@@ -549,7 +549,7 @@ fn profile_torque() {
 #[test]
 fn interpolated_position() {
     let mut device = enabled(7);
-    // A period of 10 ms.
+    // Set the interpolation period to 10 ms.
     write_sub(&mut device, (0x60C2, 1), 10);
     write_sub(&mut device, (0x60C2, 2), -3);
     write_sub(&mut device, (0x60C1, 1), 50);
@@ -573,7 +573,7 @@ fn interpolated_position() {
 
 #[test]
 fn interpolation_starts_with_a_full_period() {
-    // Halt, and a cleared bit 4.
+    // The axis is stopped by halt, or by clearing bit 4.
     for stop in [0x11F, 0x0F] {
         let mut device = enabled(7);
         write(&mut device, 0x6084, 1_000_000);
@@ -642,7 +642,7 @@ fn a_mode_needs_its_target() {
                 supported.push(mode);
             }
         }
-        // Homing needs no target.
+        // The drive also supports homing (mode 6), because homing needs no target object.
         let mut expected = [modes, &[6]].concat();
         expected.sort_unstable();
         expected.dedup();
@@ -721,7 +721,7 @@ mod frames {
         drive.client().nmt(NmtCommand::Start).unwrap();
         drive.target_position().write(100).unwrap();
         drive.controlword().write(Controlword::from_raw(0x1F)).unwrap();
-        // While the driver waits for a frame, the axis moves. The event-driven TPDO 1 reports the end.
+        // While the driver waits for a frame, the axis moves. The event-driven TPDO 1 reports the end of the move.
         let is_reached = |drive: &mut DemoDrive<Node<CanNode>>| {
             let frame = drive.client().receive_pdo(pdo::TxPdo1::COB_ID, DEADLINE).unwrap();
             pdo::TxPdo1::unpack(frame.data()).unwrap().statusword.target_reached()

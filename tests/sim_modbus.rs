@@ -45,7 +45,7 @@ fn device() -> Device {
 fn mask_writes() {
     let mut device = device();
     device.set(CONTROL, 0x0012).unwrap();
-    // The example of the specification.
+    // The example for function 22 in the Modbus specification.
     assert_eq!(device.mask_word(10, 0x00F2, 0x0025), Ok(()));
     assert_eq!(device.get(CONTROL), Ok(0x0017));
     assert_eq!(device.mask_word(20, 0, 1), Err(Exception::IllegalDataAddress));
@@ -65,7 +65,7 @@ async fn exchanges() {
     assert_eq!(client.exchange((CONTROL, TARGET), (3, -4), (TARGET, CONTROL)), Ok((-4, 3)));
     assert_eq!(client.exchange_async((CONTROL,), (5,), (TARGET, CONTROL)).await, Ok((-4, 5)));
     assert_eq!(client.write_block((CONTROL, TARGET), (6, 7)), Ok(()));
-    // The device refuses the value, and the control word, which is in the same request, isn't written either.
+    // The device refuses the value. The control word in the same request isn't written either.
     let refused = client.exchange((CONTROL, TARGET), (8, 1001), (CONTROL,));
     assert_eq!(refused, Err(Error::Client(Fault::Exception(Exception::IllegalDataValue))));
     assert_eq!((device.get(CONTROL), device.get(TARGET)), (Ok(6), Ok(7)));

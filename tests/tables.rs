@@ -160,7 +160,7 @@ fn texts_in_registers() {
     press.title().write("Äb", &mut buffer).unwrap();
     assert_eq!((press.client().words[&(HOLDING, 129)], press.client().words[&(HOLDING, 130)]), (0xC4, 0x62));
     assert_eq!(press.title().read_into(&mut buffer).unwrap(), "Äb");
-    // The type has no length. The register addresses determine the length.
+    // The type has no length, so the register addresses determine the length of the text.
     press.note().write("ABCDEFG").unwrap();
     assert_eq!(press.client().words[&(HOLDING, 141)], 0x4546);
     assert_eq!(press.note().read_into(&mut buffer), Ok("ABCDEFG"));

@@ -29,7 +29,7 @@ struct Key {
     code: String,
     /// Message of the diagnostic; `None` for diagnostics that are only counted.
     message: Option<String>,
-    /// Marked line without surrounding whitespace; `None` for a diagnostic about a whole file.
+    /// Marked line without surrounding whitespace; `None` if the diagnostic concerns a whole file.
     line: Option<String>,
 }
 
@@ -46,7 +46,8 @@ struct Entry {
 struct Count {
     /// Number in the baseline.
     known: usize,
-    /// Number in this run. An overlay occurs in several compilations with the same diagnostics, which are counted once.
+    /// Number in this run. Diagnostics of an overlay are counted once, although each compilation with the overlay
+    /// repeats them.
     found: usize,
 }
 
@@ -92,8 +93,8 @@ impl Baseline {
         Ok(baseline)
     }
 
-    /// Returns the diagnostics of a compilation that the baseline does not contain. If the file contains an entry more often than
-    /// the baseline, returns the last ones.
+    /// Returns the diagnostics of a compilation that the baseline does not contain. If a diagnostic occurs more often
+    /// in this run than in the baseline, returns the last occurrences.
     pub(super) fn without_known<'c>(&mut self, compilation: &'c Compilation) -> Vec<Cow<'c, Diagnostic>> {
         let names: Vec<String> = compilation.sources.iter().map(|source| self.name(source)).collect();
         let mut found: BTreeMap<Key, usize> = BTreeMap::new();
@@ -204,7 +205,7 @@ mod tests {
         Compilation::of_diagnostics(Source::new(name, lines.into()), diagnostics)
     }
 
-    /// Returns the baseline of a file as if it were read again.
+    /// Returns a baseline that contains the diagnostics of `file`.
     fn known(file: &Compilation) -> Baseline {
         let mut baseline = Baseline::new(Path::new("a/known")).ok().expect("a baseline");
         assert_eq!(baseline.without_known(file).len(), file.diagnostics.list().len());

@@ -25,7 +25,7 @@ pub(super) fn run(check: &Check) -> Result<bool, Failure> {
 fn write(check: &Check, options: &Options, mut baseline: Baseline) -> Result<bool, Failure> {
     let mut reporter = Reporter::new(&check.inputs, false)?;
     inputs::each(&check.inputs, options, |_, compilation| {
-        // A baseline never hides that a file cannot be read.
+        // Report unreadable files, because a baseline never hides that a file cannot be read.
         let is_unreadable = |diagnostic: &Diagnostic| diagnostic.code == &codes::UNREADABLE_FILE;
         if compilation.diagnostics.list().iter().any(is_unreadable) {
             return reporter.report(&compilation);

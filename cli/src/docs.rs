@@ -26,7 +26,8 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let mut site = Site::new(format);
     let files = inputs::sorted(&docs.inputs)?;
     let names = Names::new(&files);
-    // The addresses of a single file need no other file. Reading several files twice costs less than keeping all of them in memory.
+    // A single input needs no first pass, because its folder names do not depend on other files. Several inputs are
+    // compiled twice, because keeping all of them in memory would cost more.
     if files.len() > 1 {
         inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
             compilation.usable().into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
@@ -64,7 +65,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         put(&[site.compare((old_name, old), (new_name, new))], &mut reporter);
     }
     put(&site.finish(), &mut reporter);
-    // After an error, the pages of an earlier run stay: this run may only have failed to write them.
+    // After an error, keep the pages of earlier runs: they may be missing from this run only because of the error.
     let stale = if reporter.has_errors() { Vec::new() } else { stale(&docs.out, &written) };
     for path in stale {
         let error = match docs.check {
@@ -111,11 +112,11 @@ impl Names {
     }
 }
 
-/// Files that only the folder of a site contains.
+/// Files that exist only in the main folder of a site.
 const FILES_OF_SITES: [&str; 2] = ["site.js", "SUMMARY.md"];
 
-/// Returns the pages in the folder that an earlier run wrote, but not this run. Hidden folders, and folders with another site, are
-/// left out.
+/// Returns the pages in `folder` that an earlier run wrote and this run did not write. Hidden folders, and folders with
+/// another site, are left out.
 fn stale(folder: &Path, written: &HashSet<PathBuf>) -> Vec<PathBuf> {
     let mut stale = Vec::new();
     let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
@@ -142,7 +143,7 @@ fn was_written(path: &Path) -> bool {
     std::fs::read(path).is_ok_and(|bytes| page.replaces(&String::from_utf8_lossy(&bytes)))
 }
 
-/// Removes a page, and the folders that are empty without it.
+/// Removes a page, and then its folders if they are empty.
 fn remove(root: &Path, path: &Path) -> Result<(), String> {
     std::fs::remove_file(path).map_err(|error| format!("cannot remove {}: {error}", path.display()))?;
     for folder in path.ancestors().skip(1).take_while(|folder| *folder != root) {

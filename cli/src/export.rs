@@ -79,7 +79,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     }
     let format = Format::new(export)?;
     let mut options = export.inputs.options()?;
-    // Profiles are public documents, so the export does not repeat the facts that they add.
+    // Leave out the facts that profiles add, because profiles are public documents.
     options.no_profiles = true;
     let mut reporter = Reporter::new(&export.inputs, false)?;
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;

@@ -60,7 +60,7 @@ fn distinct(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     files
 }
 
-/// A description after all fixes.
+/// A description after all fixes were applied.
 struct Fixed {
     compilation: Compilation,
     /// Number of applied fixes.
@@ -68,7 +68,8 @@ struct Fixed {
 }
 
 impl Fixed {
-    /// Applies the fixes of a compilation until none is left. Fixes that overlap are applied in several rounds.
+    /// Applies the fixes of a compilation, and those of the compilations that follow, until none is left. Fixes that
+    /// overlap are applied in several rounds.
     ///
     /// # Errors
     ///
@@ -136,7 +137,7 @@ fn show(old: &Source, fixed: &Fixed) -> io::Result<()> {
     out.flush()
 }
 
-/// Writes a changed file. Keeps its old content in a backup if `keep` is set.
+/// Writes a changed file. If `keep` is set, first saves the old content in a backup.
 fn write(path: &Path, old: &Source, fixed: &Fixed, keep: bool) -> io::Result<()> {
     if fixed.count == 0 {
         return Ok(());
@@ -147,18 +148,18 @@ fn write(path: &Path, old: &Source, fixed: &Fixed, keep: bool) -> io::Result<()>
     let backup = if keep { Some(back_up(path)?) } else { None };
     let written = write_if_changed(path, fixed.compilation.sources[0].bytes());
     if let (Err(_), Some(backup)) = (&written, &backup) {
-        // The file still has its old content.
+        // Remove the backup, because the file could not be written and still has its old content.
         let _ = fs::remove_file(backup);
     }
     written
 }
 
-/// Keeps the content of a file in `FILE.bak`, with the same permissions. Does not replace an existing backup.
+/// Saves the content of a file in `FILE.bak`, with the same permissions. Does not replace an existing backup.
 fn back_up(path: &Path) -> io::Result<PathBuf> {
     let mut name = path.as_os_str().to_owned();
     name.push(".bak");
     let backup = PathBuf::from(name);
-    // Replacing the file later gives it a new inode, so that a link to the old inode keeps the old content.
+    // Use a link: the file is later replaced by a new file, so the link keeps the old content.
     let linked = fs::canonicalize(path).and_then(|target| fs::hard_link(target, &backup));
     let made = match linked {
         Err(error) if error.kind() != io::ErrorKind::AlreadyExists => copy(path, &backup),
@@ -174,7 +175,7 @@ fn back_up(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Copies a file to a new file, on file systems without links.
+/// Copies a file to a new file, for file systems without links.
 fn copy(path: &Path, backup: &Path) -> io::Result<()> {
     let _writing = writing();
     let mut file = fs::File::options().write(true).create_new(true).open(backup)?;
@@ -241,7 +242,7 @@ mod tests {
     use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
     use lexibus_codegen::source::{FileId, Span};
 
-    /// A program that ends on a signal holds the guard `settled`.
+    /// The test holds the guard `settled`, which a program acquires before it ends on a signal.
     #[test]
     fn a_backup_is_complete_when_the_program_ends() {
         let folder = std::env::temp_dir().join(format!("lexibus-fix-copy-{}", std::process::id()));

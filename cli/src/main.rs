@@ -51,11 +51,11 @@ use report::Reporter;
 const FAILED: u8 = 1;
 /// Exit code for invalid arguments.
 const USAGE: u8 = 2;
-/// Exit code after Ctrl-C, as in shells: 128 and the number of the signal. All files are complete or untouched.
+/// Exit code after Ctrl-C, as in shells: 128 and the number of the signal. Each file is then complete or unchanged.
 const INTERRUPTED: i32 = 130;
 
 fn main() -> ExitCode {
-    // Ignore a failure to install the handler. The signal then ends the process at once.
+    // Ignore a failure to install the handler. Without the handler, the signal ends the process at once.
     let _ = ctrlc::set_handler(|| {
         let _settled = settled();
         std::process::exit(INTERRUPTED)

@@ -77,8 +77,8 @@ impl<'g> Target<'g> {
         Ok(())
     }
 
-    /// Returns whether a single input is written to a single file. For such outputs, commands also report details about
-    /// the content of the file.
+    /// Returns whether a single input is written to a single file. In this case, commands print a message with details
+    /// about the file.
     pub(super) fn is_one_file(&self) -> bool {
         self.out.is_some() && !self.check && !self.many
     }

@@ -14,7 +14,7 @@ use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::source::Source;
 use table_support::whole;
 
-/// Programs that the test does not run, because they take too long or are not always installed.
+/// Programs in the book that the test does not run, because they take too long or may not be installed.
 const OTHERS: [&str; 5] = ["cargo", "cd", "cp", "mdbook", "xdg-open"];
 
 /// Returns the file names of the book's chapters.
@@ -152,7 +152,8 @@ fn commands_run_and_print_what_stands_there() {
     assert!(count > 30, "{count} commands");
 }
 
-/// Checks the register tables of the book. Tables that are saved to files are checked by commands of the book.
+/// Checks the register tables of the book. Tables that the book saves to files are skipped, because commands in the
+/// book check them.
 #[test]
 fn tables_are_tables() {
     let mut count = 0;

@@ -1,6 +1,7 @@
-//! Tests `lexibus fix` on files of the corpus: no fix is left, and only the bytes of the fixes change.
+//! Tests `lexibus fix` on files of the corpus: afterward, no fix is left, and only the bytes that the fixes replace
+//! have changed.
 
-// The whole support module is needed to read the sample.
+// Reading the sample of corpus files requires the whole support module.
 #[path = "../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
 
@@ -94,8 +95,8 @@ fn no_fix_is_left_in_the_sample() {
     }
 }
 
-/// Checks that the backup of a fixed file has the original bytes. The fix must not change the byte order mark, the numbers of CR and
-/// LF, or bytes that are not ASCII. An unchanged file must have no backup.
+/// Checks that the backup of a fixed file has the original bytes. Checks that the fixes have not changed the byte order
+/// mark, the numbers of CR and LF, or bytes that are not ASCII. An unchanged file must have no backup.
 fn compare(folder: &Folder, name: &str, old: &[u8]) {
     let new = std::fs::read(folder.0.join(name)).expect("a file");
     let backup = std::fs::read(folder.0.join(format!("{name}.bak")));
@@ -109,7 +110,7 @@ fn compare(folder: &Folder, name: &str, old: &[u8]) {
     }
     let is_mark = |bytes: &[u8]| bytes.starts_with(b"\xef\xbb\xbf");
     assert_eq!(is_mark(&new), is_mark(old), "{name}: byte order mark");
-    // Fixes are in ASCII, so that all other bytes must stay the same.
+    // Fixes contain only ASCII, so the bytes that are not ASCII must stay the same.
     let others = |bytes: &[u8]| bytes.iter().copied().filter(|byte| !byte.is_ascii()).collect::<Vec<u8>>();
     let is_ascii = others(&new) == others(old);
     assert!(is_ascii, "{name}: bytes that are not ASCII");
@@ -119,7 +120,7 @@ const QUIRKY: &str =
     "[DeviceInfo]\r\nProductName=Ger\u{e4}t\r\n[ManufacturerObjects]\r\nSupportedObjects=1\r\n1=0x2000\r\n\
                       [2000]\r\nParameterName=Gain\r\nDataType=0x0006\r\nAccessType=rw\r\nDefaultValue=012\r\n";
 
-/// The quirky description in Windows-1252.
+/// Returns the quirky description in Windows-1252, with `value` in place of `012`.
 fn latin(value: &str) -> Vec<u8> {
     QUIRKY.replace("012", value).chars().map(|letter| letter as u8).collect()
 }
@@ -158,7 +159,7 @@ fn permissions_and_links_stay() {
     std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o600)).expect("permissions");
     let link = folder.0.join("link.eds");
     symlink("a.eds", &link).expect("a link");
-    // The folder contains the file twice. It is fixed once.
+    // The folder contains the file and a link to it, and the file must be fixed only once.
     let fixed = lexibus(&["fix"], &folder.0);
     assert!(fixed.status.success(), "{}", String::from_utf8_lossy(&fixed.stderr));
     assert!(link.is_symlink() && std::fs::read(&path).expect("a file") == latin("10"));
@@ -172,7 +173,7 @@ fn permissions_and_links_stay() {
 fn a_folder_that_cannot_be_written_leaves_the_file_complete() {
     let folder = Folder::new("fix-failure");
     let path = folder.file("a.eds", &latin("012"));
-    // A folder with the name of the backup prevents the backup, so that the file must stay.
+    // A folder with the name of the backup makes the backup fail, so the file must not change.
     std::fs::create_dir(folder.0.join("a.eds.bak")).expect("a folder");
     assert_eq!(lexibus(&["fix"], &path).status.code(), Some(1));
     assert!(std::fs::read(&path).expect("a file") == latin("012"));

@@ -1,4 +1,5 @@
-//! Ctrl-C while `docs`, `generate`, `export` and `new` write files: each file is complete or absent, and no temporary file remains.
+//! Tests Ctrl-C while `docs`, `generate`, `export` and `new` write files: each file must be complete or absent, and no
+//! temporary file may remain.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -6,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// Number of input files. The commands run long enough for an interruption between two files.
+/// Number of input files. With this number, the commands run long enough to be interrupted between two files.
 const INPUTS: usize = 60;
 
-/// Commands that write a folder, without the inputs and the output.
+/// Commands that write to a folder, without the arguments for inputs and output.
 const COMMANDS: [&[&str]; 3] = [&["docs"], &["generate"], &["export", "--format", "eds"]];
 
 fn folder(name: &str) -> PathBuf {
@@ -96,7 +97,7 @@ fn an_interruption_leaves_no_part_of_a_crate() {
     assert!(start(&whole).wait().expect("lexibus ends").success());
     let time = begin.elapsed();
     let expected = files(&whole);
-    // The signals arrive at different moments of the whole run.
+    // Send the signals at different moments, distributed over the whole run.
     const ROUNDS: u32 = 24;
     for round in 0..ROUNDS {
         let out = folder("interrupted-crate");

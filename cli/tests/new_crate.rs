@@ -1,5 +1,5 @@
-//! Creates drive crates with `lexibus new --crate`, outside of the workspace. Each crate must be formatted, its tests must pass,
-//! and its example must run.
+//! Tests drive crates that `lexibus new --crate` creates outside of the workspace. Each crate must be formatted, its
+//! tests must pass, and its example must run.
 
 #[path = "../../tests/support/lane.rs"]
 mod lane;
@@ -63,8 +63,8 @@ to = "off"
 command = "stop"
 "#;
 
-/// A press with an alarm, which is the last state. The press enters the alarm without a command. The command that tests the alarm is
-/// on the shortest path from `off` to `ready`.
+/// A press whose last state is an alarm. The press enters the alarm without a command. The command that tests the alarm
+/// is on the shortest path from `off` to `ready`.
 const PRESS: &str = r#"lexibus = 1
 
 [device]
@@ -155,7 +155,7 @@ fn text(output: &Output) -> String {
     format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
 }
 
-/// Runs Cargo offline in `folder`, with the build folder of the other tests that build crates outside of the workspace.
+/// Runs Cargo in `folder`, and shares the build folder with other tests that build crates outside of the workspace.
 fn cargo(folder: &Path, arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO"))
         .args(arguments)
@@ -189,13 +189,13 @@ fn create(name: &str, description: &Path, options: &[&str]) -> PathBuf {
     own = own.replace(&format!("lexibus = {git}"), &format!("lexibus = {{ path = {:?} }}", root()));
     assert!(!own.contains("git ="), "{own}");
     std::fs::write(folder.join("Cargo.toml"), own).expect("a manifest");
-    // The crate is formatted with the default settings, and not with those of this workspace.
+    // An empty `rustfmt.toml` selects the default settings instead of those of this workspace.
     std::fs::write(folder.join("rustfmt.toml"), "").expect("settings");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
     folder
 }
 
-/// Tests a crate. Its example must print all `lines`, and `tests` tests must pass.
+/// Tests a crate. Exactly `tests` tests must pass, and the example of the crate must print all `lines`.
 fn try_out(folder: &Path, tests: usize, lines: &[&str]) {
     cargo(folder, &["fmt", "--check"]);
     let tested = cargo(folder, &["test", "--offline", "--quiet", "--test", "simulated"]);
@@ -310,8 +310,9 @@ fn without_an_operating_state_there_is_no_enable() {
     }
 }
 
-/// Returns a GSDML file with two access points. "Coupler A" has a fixed module in slot 1. The first modules with data do not fit: one
-/// belongs in slot 1, and one has too much data. The submodules with the data of "Drive" must be plugged.
+/// Returns a GSDML file with two access points. "Coupler A" has a fixed module in slot 1. The first two modules with
+/// data do not fit: one is allowed only in slot 1, and one has too much data. "Drive" is the first module that fits,
+/// and its submodules with data must be plugged.
 fn couplers() -> String {
     let names = ["Coupler A", "Coupler B", "Power", "Late", "Big", "Drive", "Settings", "Telegram", "Small", "Value"];
     let info = |name: &str| format!("<ModuleInfo><Name TextId=\"{name}\"/><InfoText TextId=\"{name}\"/></ModuleInfo>");
@@ -396,7 +397,7 @@ fn modules_and_submodules_are_plugged_only_where_they_fit() {
     }
 }
 
-/// A table whose names have `length` letters.
+/// Returns a table whose names have `length` letters.
 fn with_names_of(length: usize) -> String {
     let name = |start: &str, word: &str| format!("{start}_{}", word.repeat(length))[..length].to_owned();
     [
@@ -426,7 +427,7 @@ fn with_names_of(length: usize) -> String {
     })
 }
 
-/// Checks the format of the files only, because compiling each crate would take long.
+/// Checks only the format of the files, because compiling each crate would take too long.
 #[test]
 fn crates_with_long_names_are_formatted() {
     let table = temporary().join("long-names.toml");
@@ -452,7 +453,7 @@ fn crates_with_long_names_are_formatted() {
     }
 }
 
-/// A dictionary in a subfolder must be found by the crate.
+/// The build of the crate must find a dictionary that the description names in a subfolder.
 #[test]
 fn a_crate_contains_the_files_to_which_its_description_refers() {
     let folder = temporary().join("new-references");
@@ -471,7 +472,7 @@ fn a_crate_contains_the_files_to_which_its_description_refers() {
     assert_eq!(std::fs::read_to_string(made.join("Dicts/dict.xml")).expect("the copy"), dictionary);
     let library = std::fs::read_to_string(made.join("src/lib.rs")).expect("the library");
     assert!(library.contains("pub fn speed(&mut self)"), "{library}");
-    // The copies describe the same device as the originals.
+    // Check that the copied files describe the same device as the originals.
     let info = |folder: &Path| {
         let info = Command::new(env!("CARGO_BIN_EXE_lexibus")).args(["info", "main.xml"]).current_dir(folder).output();
         text(&info.expect("lexibus runs"))

@@ -1,5 +1,5 @@
-//! Tests how output files are written. Regular files must be complete or unchanged, pipes and devices must be supported, and
-//! folders with other files must not change.
+//! Tests how output files are written. Regular files must be complete or unchanged. Pipes and devices must be valid
+//! outputs. Folders with files of other programs must not change.
 #![cfg(unix)]
 
 use std::path::{Path, PathBuf};
@@ -77,7 +77,7 @@ fn a_pipe_is_no_input() {
     let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
     assert_eq!(checked.status.code(), Some(1));
     assert!(error(&checked).contains("cannot read the file: it is not a regular file"), "{}", error(&checked));
-    // When a folder is searched, only regular files are read, so the pipe is skipped.
+    // A search of a folder must skip the pipe, because it reads only regular files.
     let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
     assert!(error(&searched).contains("1 file"), "{}", error(&searched));
 }
@@ -106,7 +106,7 @@ fn pages_are_not_written_to_a_foreign_folder() {
         assert!(error(&output).contains(message), "{}", error(&output));
         assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1);
     }
-    // A folder with hidden files is accepted. A second call replaces the pages of the first call.
+    // The output folder may contain hidden files. A second call must replace the pages of the first call.
     let script = "mkdir site; touch site/.gitkeep; $LEXIBUS docs $DEMO --out site && $LEXIBUS docs $DEMO --out site";
     let output = shell(&folder, script);
     assert!(output.status.success(), "{}", error(&output));

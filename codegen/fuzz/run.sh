@@ -40,7 +40,8 @@ named() { # CORPUS PATTERN...
     done
 }
 
-# The length of an overlay selects one of three descriptions. Each overlay is therefore added with zero, one and two line feeds.
+# The length of an overlay selects one of three descriptions. Each overlay is therefore added to the seeds three times:
+# with zero, one and two additional line feeds.
 overlays() {
     local file lines name
     mkdir -p corpus/overlays

@@ -52,7 +52,8 @@ impl Builder {
         self
     }
 
-    /// Doesn't report a diagnostic code, named by identifier (`EDS020`) or name (`octal-number`), or none of the `warnings`.
+    /// Suppresses the diagnostics with a code, named by identifier (`EDS020`) or name (`octal-number`). The name
+    /// `warnings` means all codes that are warnings by default.
     pub fn allow(self, code: impl Into<String>) -> Self {
         self.level(code, Level::Allow)
     }
@@ -274,7 +275,8 @@ fn errors(compilation: &Compilation) -> String {
 
 /// The reason why no code was generated.
 ///
-/// `Debug` prints the same text as `Display`, because the `main` function of a build script shows it.
+/// `Debug` prints the same text as `Display`, because Rust shows the `Debug` text if the `main` function of a build
+/// script returns the error.
 pub enum BuildError {
     /// The input cannot be read.
     Read {

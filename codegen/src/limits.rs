@@ -1,7 +1,7 @@
 //! Limits for the time and memory that a description can use.
 //!
-//! Time and memory are proportional to the length of the input. These limits apply to short lines that declare many elements.
-//! Descriptions of real devices stay far below these limits.
+//! A short line can declare many elements. The limits therefore keep time and memory proportional to the length of the input.
+//! Descriptions of real devices stay far below the limits.
 
 pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 
@@ -38,12 +38,12 @@ pub const MAX_MACHINE_ROWS: usize = 2_048;
 /// items.
 pub const MAX_FREE_ROW_BYTES: usize = 4096;
 
-/// Number of copied bytes beyond [`MAX_FREE_ROW_BYTES`] that count as one more of [`MAX_DERIVED_ITEMS`]. In state
-/// machines, the number of copied bytes that count as one more of [`MAX_MACHINE_ROWS`].
+/// Number of copied bytes that count as one additional item toward [`MAX_DERIVED_ITEMS`], not counting the first
+/// [`MAX_FREE_ROW_BYTES`] bytes. In state machines, this number of copied bytes counts as one additional row toward
+/// [`MAX_MACHINE_ROWS`].
 pub const ROW_BYTES_PER_ITEM: usize = 1024;
 
-/// Maximum number of copied bytes for each byte of the file. In usual files, only one object uses each type, so little
-/// is copied.
+/// Maximum number of copied bytes for each byte of the file. In most files, only one object uses each type, so little is copied.
 ///
 /// The copied elements are data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and
 /// section names (EDS).
@@ -67,16 +67,17 @@ pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 /// Number of bytes that references to the text list of a GSDML file may copy, even if the file is small.
 pub const MIN_TEXT_COPIES: usize = 1 << 20;
 
-/// Maximum number of values of a range that a register table uses as a list of single values.
+/// Maximum number of single values in a list of values and ranges, for keys of a register table that need single values.
 pub const MAX_LISTED_VALUES: i128 = 1024;
 
 /// Maximum depth of folders in the search for descriptions.
 pub const MAX_FOLDER_DEPTH: usize = 32;
 
-/// Maximum number of names in a register table for which the lint for misspelled names in texts searches.
+/// Maximum number of item names and group names in a register table that the lint for misspelled names compares with words in
+/// texts.
 pub const MAX_SEARCHED_NAMES: usize = 5_000;
 
-/// Maximum number of words in texts that the lint for misspelled names compares with names.
+/// Maximum number of different words in texts that the lint for misspelled names compares with names.
 pub const MAX_SEARCHED_WORDS: usize = 50_000;
 
 /// Maximum length in bits of a PDO entry that becomes a field of a struct.

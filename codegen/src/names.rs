@@ -89,7 +89,7 @@ pub fn distinct<'s>(
     let mut used: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
-    // For each name that remains ambiguous with its suffix, the last number that was appended.
+    // Last number that was appended to each name that is still ambiguous with its suffix.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
@@ -122,7 +122,7 @@ pub fn distinct<'s>(
 
 fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     let words = words(name_request.name);
-    // Parts of an address are not split into words. A fallback name without words is used only for elements that need no name.
+    // Parts of an address are not split into words. Only elements that need no name have a fallback name without words.
     let parts = name_request.fallback.split(' ').filter(|part| !part.is_empty());
     let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
@@ -158,7 +158,7 @@ fn join(name: &str, suffix: &str, case: Case) -> String {
         Case::Snake => format!("{}_{}", name.trim_end_matches('_'), suffix.to_ascii_lowercase()),
         Case::Pascal => {
             let is_digit = |letter: char| letter.is_ascii_digit();
-            // In camel case, a separator is needed only between two digits.
+            // In Pascal case, a separator is needed only between two digits.
             let separator = if name.ends_with(is_digit) && suffix.starts_with(is_digit) { "_" } else { "" };
             format!("{name}{separator}{suffix}")
         }

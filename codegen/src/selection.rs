@@ -109,7 +109,7 @@ impl fmt::Display for DeviceFilter {
     }
 }
 
-/// A filter for objects by index: `0x6040`, or a range including both ends, `0x6000..0x67FF`.
+/// A filter for objects by index: `0x6040`, or a range that includes both limits, `0x6000..0x67FF`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ObjectFilter {
     first: u16,

@@ -60,7 +60,7 @@ fn texts(source: Source) -> [String; 3] {
 fn diagnostics(compilation: &Compilation) -> String {
     let mut text = String::new();
     for entry in compilation.diagnostics.list() {
-        // The message contains the number `more`.
+        // Leave `more` out, because the message already contains this number.
         let Diagnostic { code, severity, span, message, label, notes, help, fix, more: _ } = entry;
         let _ = writeln!(text, "{} {severity:?} {}..{} {message} | {label:?}", code.id, span.start, span.end);
         for note in notes {

@@ -27,7 +27,7 @@ fn node() -> Node<Faulty> {
     Node::new(faulty(bus), id)
 }
 
-/// Boots the node, which is the right one. The result must be that, or an error of the bus.
+/// Boots the node, whose identity is the expected one. Panics if the boot fails with an error that a bus fault cannot cause.
 fn boot(node: &mut Node<Faulty>, is_async: bool) -> Result<Booted, BootError<CanError>> {
     let result = match is_async {
         true => now(node.boot_async(&BOOT)),

@@ -22,7 +22,7 @@ pub use self::bus::poll_once;
 /// Each reply arrives just before the timeout.
 const SLOW: CanFault = CanFault::Late(TIMEOUT.saturating_sub(FRAME));
 
-/// Returns replies about another object, which arrive instead of the reply.
+/// Returns a fault: replies about another object arrive instead of the right reply.
 fn other_object() -> CanFault {
     foreign(CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame"))
 }
@@ -114,7 +114,7 @@ fn a_repeated_segment_isnt_data() {
 }
 
 /// Length of a value that has 100 segments. Its transfer may take one timeout, plus one tenth of the timeout for each
-/// segment. The last request and the abort take one frame each.
+/// segment. The last request and the abort additionally take the time of one frame each.
 const LONG: usize = 700;
 const LIMIT: Duration = Duration::from_millis(11 * 500);
 
@@ -199,7 +199,7 @@ fn faults_in_block_transfers() {
         set(node.port(), fault);
         assert_eq!(Client::read(&mut node, TEXT, &mut buffer), expected, "{fault:?}");
         assert!(expected.is_err() || buffer == block(1), "{fault:?}");
-        // Each acknowledgment of the node arrives twice. The client may notice it only at the end of the transfer.
+        // If each acknowledgment of the node arrives twice, the client may notice this only at the end of the transfer.
         match Client::write(&mut node, SETPOINT, &block(2)) {
             Ok(()) => assert_eq!(node.port().bus().objects.0[&SETPOINT], block(2)),
             result => assert!(expected.is_err() || fault == Some(CanFault::Duplicated), "{fault:?} {result:?}"),
@@ -211,7 +211,7 @@ fn faults_in_block_transfers() {
     }
 }
 
-/// The segments of a block that was given up must not be taken for replies to the next request.
+/// The segments of a dropped block transfer must not be taken for replies to the next request.
 #[test]
 fn late_segments_are_discarded() {
     let reply = [0x4B, 0x00, 0x20, 0, 9, 9, 0, 0];

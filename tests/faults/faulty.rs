@@ -8,7 +8,7 @@ use lexibus::sim::{CanBus, CanFault, FaultyCan, SimulatedCan};
 /// Timeout of the clients under test.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
 
-/// A frame that arrives again and again, for longer than any client waits.
+/// Returns a fault: `frame` arrives repeatedly, for longer than any client waits.
 pub const fn foreign(frame: CanFrame) -> CanFault {
     CanFault::Foreign { frame, count: 300, period: Duration::from_millis(200) }
 }
@@ -37,7 +37,7 @@ pub fn faulty(bus: CanBus) -> Faulty {
     faulty
 }
 
-/// Gives all frames that arrive from now on this fault, or none. A restart happens only once.
+/// Applies this fault, or none, to all frames that arrive from now on. A restart happens only once.
 pub fn set<B: SimulatedCan>(port: &mut FaultyCan<B>, fault: impl Into<Option<CanFault>>) {
     port.clear_faults();
     port.recover();

@@ -2,7 +2,7 @@
 
 use lexibus::sim::{FaultyStream, StreamFault};
 
-/// Gives the next message that the device sends this fault, or none.
+/// Applies this fault, or none, to the next message of the device.
 pub fn set<S, W>(stream: &mut FaultyStream<S, W>, fault: impl Into<Option<StreamFault>>) {
     stream.clear_faults();
     if let Some(fault) = fault.into() {

@@ -77,7 +77,7 @@ pub fn rows() -> Vec<Row> {
             let result = name(guard(&mut node, &mut guarding, is_async));
             assert_eq!(result == "`BootUp`", fault == CanFault::Restart);
             let middle = node.port().bus().now();
-            // A node that doesn't toggle the bit once has all later bits inverted.
+            // After a node has once failed to toggle the bit, all its later toggle bits are inverted.
             set(node.port(), (fault == CanFault::WrongToggle).then_some(fault));
             node.nmt(NmtCommand::Start).expect("a bus");
             guard(&mut node, &mut guarding, is_async).expect("the next cycle is right");

@@ -66,7 +66,7 @@ fn book_result(row: &Row) -> Option<&'static str> {
 /// Checks that the book contains the result of a row.
 fn check_book(row: &Row) -> bool {
     let is_right = book_result(row).map(|cell| match (cell, row.result) {
-        // The right reply either follows or does not.
+        // If the book contains "ignored", the right reply may follow or not.
         ("ignored", result) => ["right value", "`Timeout`"].contains(&result),
         // A blocking stream reports its timeout as an error.
         (cell, "`Client`") if cell.contains("timeout of the stream") => true,
@@ -103,9 +103,9 @@ fn matrix() {
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
     let in_book = rows.iter().filter(|row| check_book(row)).count();
-    // The table has rows for each client with each fault, blocking and asynchronous: LSS and boot with nine faults, SDO and
-    // node guarding with the wrong toggle bit as well, and serial with six. The client for EtherCAT is only asynchronous,
-    // and has seven faults.
+    // The table has rows for each client with each fault, both blocking and asynchronous. LSS and boot have nine faults, SDO and
+    // node guarding also have the wrong toggle bit, and serial has six faults. The client for EtherCAT is only asynchronous, and
+    // has seven faults.
     let ethercat = if cfg!(all(feature = "ethercat", feature = "macros")) { 7 } else { 0 };
     assert_eq!(rows.len(), (2 * 9 + 2 * 10 + 6) * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
     // SDO has ten faults in the tables of the book, Modbus RTU, Modbus TCP and serial have six, LSS and boot three, and

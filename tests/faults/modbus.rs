@@ -88,7 +88,7 @@ async fn receive(line: &mut (impl AsyncRead + Unpin), is_rtu: bool) -> std::io::
     let mut head = vec![0; if is_rtu { 2 } else { 8 }];
     line.read_exact(&mut head).await?;
     let (unit, function) = (head[head.len() - 2], head[head.len() - 1]);
-    // The client writes one register with function 23.
+    // With function 23, the client writes exactly one register, so the length is fixed.
     let length = match function {
         22 => 6,
         23 => 11,

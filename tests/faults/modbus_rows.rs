@@ -179,7 +179,7 @@ async fn a_broadcast_takes_the_turnaround_delay() {
 
     let mut device = client(link(true, &world).with_turnaround(DELAY));
     device.context().set_slave(Slave::broadcast());
-    // After a call that was dropped during the delay, the next request waits for the rest of the delay.
+    // If a call is dropped during the delay, the next request waits for the rest of the delay.
     let start = Instant::now();
     let dropped = tokio::time::timeout(DELAY / 2, request(&mut device, &world, 3, Kind::Write)).await;
     assert!(dropped.is_err() && world.lock().unwrap().setpoint == 3);
@@ -214,7 +214,7 @@ async fn a_broadcast_cannot_read() {
 #[tokio::test(start_paused = true)]
 async fn unit_0_on_tcp() {
     let world = world();
-    // Unit 0 is a device that replies, but this device does not.
+    // Without a turnaround delay, unit 0 is a single device that must reply. This device does not reply.
     let mut device = client(link(false, &world));
     device.context().set_slave(Slave::broadcast());
     assert!(matches!(request(&mut device, &world, 1, Kind::Write).await, Err(Error::Timeout)));

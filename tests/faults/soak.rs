@@ -14,7 +14,7 @@ use crate::lane;
 use crate::modbus;
 use crate::random::Random;
 
-/// Time that a frame takes.
+/// Simulated time that the transmission of a frame takes.
 const FRAME: Duration = Duration::from_millis(1);
 const HOUR: Duration = Duration::from_secs(3600);
 

@@ -103,7 +103,7 @@ fn override_version_and_status() {
     assert!(reply.is_some_and(|reply| reply.status == types::BitStato::new().with_command_complete(true)));
 }
 
-/// A motor that returns the value of the last write for all parameters.
+/// A motor that returns the last written value for any parameter.
 struct Last(Vec<u8>);
 
 impl Client for Last {

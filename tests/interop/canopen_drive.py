@@ -32,7 +32,7 @@ class Drive:
     def setup(self):
         """Starts the node. Returns whether the library uses PDOs for the controlword and the statusword."""
         self.node.nmt.state = "PRE-OPERATIONAL"
-        # The library waits for a periodic PDO with the statusword and the mode.
+        # The library waits for a PDO with the statusword and the mode, so the drive must send this PDO periodically.
         self.node.sdo[0x1800][5].raw = 10
         self.node.setup_402_state_machine()
         self.node.nmt.state = "OPERATIONAL"

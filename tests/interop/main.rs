@@ -15,7 +15,7 @@ mod slcan;
 use std::future::Future;
 use std::time::Duration;
 
-/// Runs `work` to its end. Fails after a minute.
+/// Runs `work`. Fails if `work` takes longer than a minute.
 fn block_on<T>(work: impl Future<Output = T>) -> T {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
     runtime.block_on(async { tokio::time::timeout(Duration::from_secs(60), work).await.expect("in time") })

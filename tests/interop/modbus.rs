@@ -254,7 +254,7 @@ macro_rules! blocks {
     };
 }
 
-/// Checks the functions 22 and 23, which the limits of the client contain.
+/// Checks the functions 22 and 23, which the client's limits allow.
 macro_rules! optional_functions {
     ($way:ident, $script:ident, $device:ident) => {
         $script.put("word_300", json!(0x1234));

@@ -56,7 +56,7 @@ fn rtu_not_blocking() -> Result<(), Error> {
     })
 }
 
-/// The server is like a gateway, which doesn't reply to a broadcast either.
+/// The server doesn't reply to a broadcast, like a gateway.
 #[test]
 fn tcp_blocking() -> Result<(), Error> {
     let Some((mut script, address)) = over_tcp() else { return Ok(()) };

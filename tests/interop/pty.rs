@@ -15,7 +15,7 @@ use nix::unistd::ttyname;
 /// The master end of a pseudo-terminal. Another process can open the slave end by its path.
 pub struct Pty {
     near: File,
-    /// The slave end. The slave end is kept open, because the line breaks if no process has the slave end open.
+    /// The slave end. It is kept open, because the line is closed if no process has the slave end open.
     far: OwnedFd,
     path: PathBuf,
 }

@@ -15,7 +15,7 @@ use tokio::sync::oneshot;
 use tokio_modbus::server::{rtu_over_tcp, tcp, Service};
 use tokio_modbus::{ExceptionCode, Request, Response};
 
-/// The registers of a device. A bit is a word with the value 0 or 1.
+/// The registers of a device. A bit is represented by a word with the value 0 or 1.
 pub trait Registers: Send + 'static {
     /// Reads words or bits, starting at an address.
     ///

@@ -1,4 +1,5 @@
-//! Generates the object dictionaries of the nodes. Each node has its own statics, so each test has its own node.
+//! Generates the object dictionaries of the nodes. The statics of a dictionary belong to a single node, so each test has a separate
+//! dictionary.
 
 fn main() {
     println!("cargo::rerun-if-changed=node.toml");

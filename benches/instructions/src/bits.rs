@@ -1,4 +1,4 @@
-//! Pairs of functions for bits of a word and for named values.
+//! Generated functions for the bits of a word and for enumerations, each paired with a handwritten function.
 
 use lexibus_drives::demo_drive::types::{Controlword, ModesOfOperation, Statusword};
 

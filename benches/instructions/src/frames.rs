@@ -1,14 +1,14 @@
-//! Pairs of functions that pack structs to the bytes of a frame and unpack them.
+//! Generated functions that pack and unpack the structs of frames, each paired with a handwritten function.
 
 use lexibus::LengthError;
 use lexibus_drives::{demo_drive as demo, vector_step};
 use lexibus_instructions::{axis, hand, station};
 
-/// Declares pairs of functions `pack` and `unpack` for structs with the same name. Each struct has a module. `same`
-/// compares the structs.
+/// For each pair of a generated and a handwritten struct, declares a module with the function pairs `pack` and
+/// `unpack`. The expression after `same` compares the two structs.
 macro_rules! frames {
     ($($name:ident: $length:literal, $ours:ty, $hand:ty, same |$left:ident, $right:ident| $same:expr;)*) => {$(
-        /// Pairs of functions that pack and unpack the struct.
+        /// Function pairs that pack and unpack the struct.
         mod $name {
             #[allow(unused_imports)]
             use super::*;

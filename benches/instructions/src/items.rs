@@ -1,4 +1,4 @@
-//! Pairs of functions that write values to objects of the dictionary, or read them.
+//! Generated functions that read and write objects of the dictionary, each paired with a handwritten function.
 
 use core::hint::black_box;
 
@@ -7,7 +7,7 @@ use lexibus_drives::demo_drive::types::ModesOfOperation;
 use lexibus_drives::demo_drive::DemoDrive;
 use lexibus_instructions::hand::part;
 
-/// Pairs for a value that is encoded and decoded without a client.
+/// Function pairs that encode and decode a value without a client.
 mod integer {
     use super::*;
 
@@ -35,7 +35,7 @@ mod integer {
         same (left, right) left == right);
 }
 
-/// Pairs for an integer with a width that Rust does not have.
+/// Function pairs for a 24-bit integer, a width for which Rust has no integer type.
 mod integer_24 {
     use super::*;
 
@@ -66,7 +66,8 @@ mod integer_24 {
         same (left, right) left == right);
 }
 
-/// A simulated drive on a bus. The methods of this struct are not inlined, like the methods of a bus library.
+/// A simulated drive on a bus. The client methods are not inlined, because a bus library's methods are not inlined
+/// either.
 pub struct Wire {
     data: [u8; 8],
     object: Object,
@@ -102,10 +103,10 @@ impl Client for Wire {
     }
 }
 
-/// Arguments of a function that writes an object: the drive and the value.
+/// The drive or client, and the value to write, as one argument for a function that writes an object.
 struct Writing<D>(D, i32);
 
-/// Pairs that access objects of the dictionary through a client.
+/// Function pairs that access objects of the dictionary through a client.
 mod objects {
     use super::*;
 
@@ -153,7 +154,7 @@ mod objects {
         same (left, right) left == right);
 }
 
-/// Returns a number from a frame. The number can be an invalid value.
+/// Returns a number from a frame. The number can be outside the limits of the object.
 fn value(frame: &[u8]) -> i32 {
     i32::from_le_bytes(part(frame, 0)) >> 10
 }

@@ -6,7 +6,7 @@
 
 pub mod hand;
 
-/// A slave whose process data contain fields of all kinds (`axis.esi.xml`).
+/// An EtherCAT slave whose process data contain fields of all kinds (`axis.esi.xml`).
 #[rustfmt::skip]
 pub mod axis;
 

@@ -10,7 +10,7 @@ mod views;
 
 use twins::Frame;
 
-/// Number of calls of each function. Each call gets different bytes.
+/// Number of calls of each function. Each call gets a different input frame.
 const CALLS: u64 = 100;
 
 /// Returns pseudo-random bytes. All runs use the same bytes.

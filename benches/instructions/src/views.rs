@@ -1,4 +1,4 @@
-//! Pairs of functions that read and write single fields within a process image.
+//! Generated functions that read and write single fields of a process image, each paired with a handwritten function.
 
 use lexibus::LengthError;
 use lexibus_instructions::hand::{self, frame_mut, part};
@@ -7,7 +7,7 @@ use lexibus_instructions::{axis, station};
 use axis::image;
 use station::submodules::standard_telegram_3 as telegram;
 
-/// Pairs for a byte-aligned number.
+/// Function pairs for a byte-aligned number.
 mod whole_bytes {
     use super::*;
 
@@ -33,7 +33,7 @@ mod whole_bytes {
         same (left, right) left == right);
 }
 
-/// Pairs for a number that is not byte-aligned, in the second PDO of an image.
+/// Function pairs for a number that is not byte-aligned, in the second PDO of an image.
 mod odd_bits {
     use super::*;
 
@@ -61,7 +61,7 @@ mod odd_bits {
         same (left, right) left == right);
 }
 
-/// Pairs for a single bit.
+/// Function pairs for a single bit.
 mod one_bit {
     use super::*;
 
@@ -87,7 +87,7 @@ mod one_bit {
         same (left, right) left == right);
 }
 
-/// Pairs for big-endian fields of a submodule.
+/// Function pairs for big-endian fields of a submodule.
 mod profinet {
     use super::*;
 

@@ -58,7 +58,7 @@ macro_rules! both {
     };
 }
 
-/// Returns a frame with the bytes that `deku` writes.
+/// Returns the frame that `deku` writes for the struct `value`.
 fn deku_bytes(value: &impl DekuContainerWrite) -> Frame {
     let mut frame = [0; 6];
     value.to_slice(&mut frame).unwrap();
@@ -82,8 +82,7 @@ mod whole_bytes {
         ethercrab_wire: |frame| EtherCrab::unpack_from_slice(frame).unwrap(), |value| value.pack();
         deku: |frame| Deku::from_bytes((frame, 0)).unwrap().1, deku_bytes;
         packed_struct: |frame| Packed::unpack(frame).unwrap(), |value| value.pack().unwrap();
-        // The `bilge` struct only stores the word. Read all fields of the struct, because the other libraries also
-        // decode all fields.
+        // `Bilge::from` only stores the word. Read all fields, because the other libraries also decode all fields.
         bilge: |frame| {
             let bits = Bilge::from(word(frame));
             WordAndLong { word: bits.word(), long: bits.long() as i32 }

@@ -1,6 +1,6 @@
-//! Two frames, each declared with several libraries. Most libraries do not support the second frame. `ethercrab-wire` requires
-//! byte-aligned fields if they are longer than a byte. `deku` (with `bit_order = "lsb"`) does not read back a 24-bit number that
-//! it has written at bit 5.
+//! Two frames, each declared with several libraries. Most libraries do not support the second frame: `ethercrab-wire`
+//! requires that fields of more than eight bits are byte-aligned, and `deku` (with `bit_order = "lsb"`) does not read
+//! back a 24-bit number that it has written at bit 5.
 
 /// A frame with a word and a 32-bit number.
 pub mod whole_bytes {
@@ -40,7 +40,7 @@ pub mod whole_bytes {
     }
 
     impl Bilge {
-        /// Creates the struct. `bilge` generates a private constructor, so other crates cannot call it.
+        /// Creates the struct. The constructor that `bilge` generates is private, so other crates cannot call it.
         #[inline]
         pub fn of(word: u16, long: u32) -> Self {
             Self::new(word, long)
@@ -78,7 +78,7 @@ pub mod odd_bits {
     }
 
     impl Bilge {
-        /// Creates the struct. `bilge` generates a private constructor, so other crates cannot call it.
+        /// Creates the struct. The constructor that `bilge` generates is private, so other crates cannot call it.
         #[inline]
         pub fn of(
             ready: bool,

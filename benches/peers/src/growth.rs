@@ -14,7 +14,7 @@ use crate::read::check;
 
 const SIZES: [usize; 4] = [1, 10, 100, 1_000];
 
-/// A kind of growing input: its title, its file name, and the function that creates it.
+/// A kind of input that is measured in several sizes: its title, its file name, and the function that creates it.
 type Way = (&'static str, &'static str, fn(usize) -> Vec<u8>);
 
 const WAYS: [Way; 5] = [
@@ -105,8 +105,8 @@ fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
 
 const ROUNDS: usize = 4;
 
-/// Returns the number of repetitions for an input size: 1 to 50. Short inputs are repeated more often, because their
-/// total time should be similar to that of long inputs.
+/// Returns the number of repetitions for an input size: 1 to 50. Short inputs are repeated more often, so that their
+/// total time is similar to that of long inputs.
 fn repetitions(bytes: usize) -> usize {
     (2_000_000 / bytes).clamp(1, 50)
 }
@@ -133,7 +133,7 @@ fn time(bytes: &[u8], work: impl Fn(Vec<u8>) -> Compilation) -> Duration {
     elapsed
 }
 
-/// Measures the time from IR to Rust, as the minimum of three runs. Returns `None` if there are errors.
+/// Returns the time for generating Rust from IR: the minimum of three runs. Returns `None` if there are errors.
 fn emit(compilation: &Compilation) -> Option<Duration> {
     let once = || {
         let start = Instant::now();

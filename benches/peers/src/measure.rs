@@ -9,7 +9,7 @@ pub struct Contestant<'a> {
     run: Box<dyn FnMut(u32) -> Result<Duration, String> + 'a>,
 }
 
-/// Times of a program for one repetition. Each time is the mean of a round.
+/// Times that a program needs for one repetition. The times are calculated from the mean of each round.
 #[derive(Clone, Debug)]
 pub struct Sample {
     pub least: Duration,
@@ -17,13 +17,13 @@ pub struct Sample {
     pub rounds: usize,
 }
 
-/// Number of rounds if the time limit is not reached.
+/// Number of rounds that are run unless the time limit ends them earlier.
 const ROUNDS: usize = 15;
 
 /// Minimum number of rounds.
 const FEWEST: usize = 3;
 
-/// Time limit for a program with one input. The limit applies after the minimum number of rounds.
+/// Time limit for a program with one input. The minimum number of rounds is run even if it exceeds this limit.
 const PATIENCE: Duration = Duration::from_secs(4);
 
 /// Minimum duration of a round. Work that takes less time is repeated until a round takes this long.
@@ -64,7 +64,7 @@ struct Progress {
     spent: Duration,
 }
 
-/// Runs the programs in turn, so that other load on the machine affects all of them.
+/// Runs the programs in turn, so that other load on the machine affects all of them equally.
 pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String>> {
     let mut progress: Vec<_> = contestants.iter_mut().map(first_run).collect();
     for round in 0..ROUNDS {

@@ -3,7 +3,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering::Relaxed};
 
-/// The system allocator, which also counts the allocated bytes while counting is enabled.
+/// An allocator that uses the system allocator and counts the allocated bytes while counting is enabled.
 pub struct Counting;
 
 #[global_allocator]

@@ -12,7 +12,7 @@ pub struct Line {
     pub target: Option<f64>,
 }
 
-/// Results of all programs for one input. The first line contains the result of Lexibus.
+/// Results of all programs for one input. The first element of `lines` is the result of Lexibus.
 pub struct Table {
     pub title: String,
     /// Number of input bytes, used to print the speed. `None` means that the table shows only times.

@@ -10,11 +10,11 @@ use lexibus_codegen::source::Source;
 
 use crate::Failure;
 
-/// Heading in the help of options about the content of the input.
+/// Heading, in the help text, of the options about the content of the input.
 const INPUT: &str = "Input";
-/// Heading in the help of options about the diagnostics that are reported.
+/// Heading, in the help text, of the options about the diagnostics that are reported.
 pub(super) const DIAGNOSTICS: &str = "Diagnostics";
-/// Heading in the help of options about the form of printed diagnostics.
+/// Heading, in the help text, of the options about the form of printed diagnostics.
 const OUTPUT: &str = "Output";
 
 /// Input files, and options for reading them.

@@ -7,7 +7,7 @@ use lexibus_codegen::backend::rust::{Presence, RustOptions};
 
 use super::Inputs;
 
-/// Heading in the help of options about the generated code.
+/// Heading, in the help text, of the options about the generated code.
 const RUST: &str = "Rust";
 
 #[derive(Debug, Args)]

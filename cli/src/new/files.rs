@@ -6,7 +6,8 @@ use lexibus_codegen::output::{temporary_path, writing};
 
 use crate::Failure;
 
-/// Names in the folder of a crate that have a meaning for Cargo, in lower case. A description must not have such a name.
+/// Names of files and folders in a crate that have a meaning for Cargo, in lower case. A description file must not have
+/// one of these names.
 const OWN_NAMES: [&str; 11] = [
     ".cargo",
     "benches",
@@ -35,11 +36,12 @@ impl Files {
         self.texts.push((path, text.trim_end().to_owned() + "\n"));
     }
 
-    /// Adds a copy of a description file. `path` is relative to the folder of the crate, with `/`.
+    /// Adds a copy of a description file. `path` is relative to the folder of the crate, with `/` as separator.
     ///
     /// # Errors
     ///
-    /// Returns an error if the path belongs to another file of the crate. File systems may ignore the case of names.
+    /// Returns an error if another file of the crate has the same path. The comparison ignores case, because some file
+    /// systems do.
     pub(super) fn copy(&mut self, path: String, bytes: Vec<u8>) -> Result<(), Failure> {
         let lower = path.to_lowercase();
         let first = lower.split('/').next().unwrap_or_default();
@@ -70,7 +72,8 @@ impl Files {
         }
     }
 
-    /// Creates `folder` with all files. If `folder` exists, or after an error or a signal, nothing has changed.
+    /// Creates `folder` with all files. Changes nothing if `folder` exists, if an error occurs, or if a signal ends the
+    /// program.
     pub(super) fn create(&self, folder: &Path) -> Result<(), Failure> {
         let failed = |error| Failure::Usage(format!("cannot create the folder {}: {error}", folder.display()));
         let _writing = writing();
@@ -81,7 +84,7 @@ impl Files {
             .and_then(|()| Self::check(folder))
             .and_then(|()| std::fs::rename(&temporary, folder).map_err(failed));
         if written.is_err() {
-            // The folder is incomplete, or was not renamed.
+            // Remove the temporary folder, because it is incomplete or could not be renamed.
             let _ = std::fs::remove_dir_all(&temporary);
         }
         written

@@ -1,9 +1,10 @@
-//! Breaks lines like `rustfmt` with its default settings. The length of a line depends on the names in a description.
+//! Breaks the lines of generated code like `rustfmt` with its default settings. Templates cannot contain these line
+//! breaks, because the length of a line depends on the names in a description.
 
 /// Maximum width of a line.
 const LINE: usize = 100;
 
-/// Maximum width of several arguments or of a chain on one line.
+/// Maximum width of a list of arguments, or of a chain of calls, that is written on one line.
 const SHORT: usize = 60;
 
 /// A position in the code: the indentation, and the text of the line up to the expression.
@@ -15,7 +16,7 @@ impl At<'_> {
         self.0 + width(self.1) + width(text) <= LINE
     }
 
-    /// Returns a line break with `levels` more indentation than the line.
+    /// Returns a line break and an indentation that is `levels` levels deeper than that of the line.
     fn newline(self, levels: usize) -> String {
         format!("\n{}", " ".repeat(self.0 + 4 * levels))
     }
@@ -25,7 +26,7 @@ fn width(text: &str) -> usize {
     text.chars().count()
 }
 
-/// Returns a call, a macro or a tuple: `head`, the arguments in parentheses, and `end`.
+/// Returns the code of a call, a macro or a tuple: `head`, the arguments in parentheses, and `end`.
 pub(super) fn call(at: At<'_>, head: &str, arguments: &[&str], end: &str) -> String {
     let joined = arguments.join(", ");
     let one = format!("{head}({joined}){end}");
@@ -37,20 +38,20 @@ pub(super) fn call(at: At<'_>, head: &str, arguments: &[&str], end: &str) -> Str
     format!("{}{head}({}{lines}{comma}{}){end}", at.1, at.newline(1), at.newline(0))
 }
 
-/// Returns a chain of fields and calls, and `end`.
+/// Returns the code of a chain of fields and calls that starts at `root`, followed by `end`.
 pub(super) fn chain(at: At<'_>, root: &str, calls: &[&str], end: &str) -> String {
     let one = format!("{root}.{}", calls.join("."));
     if at.fits(&format!("{one}{end}")) && (calls.len() == 1 || width(&one) + width(end.trim_end_matches(';')) <= SHORT)
     {
         return format!("{}{one}{end}", at.1);
     }
-    // The first part follows a root that is not longer than the indentation.
+    // The first field or call stays on the line of a root that is not longer than the indentation.
     let separator = |position: usize| if position == 0 && width(root) <= 4 { String::new() } else { at.newline(1) };
     let lines: String = calls.iter().enumerate().map(|(at, call)| format!("{}.{call}", separator(at))).collect();
     format!("{}{root}{lines}{end}", at.1)
 }
 
-/// Returns the first line of a method of the driver, at one level of indentation.
+/// Returns the first line of a method of the driver, broken to fit at an indentation of one level.
 pub(super) fn method(name: &str, value: Option<&str>, result: &str) -> String {
     let value = value.map(|ty| format!("value: {ty}"));
     let parameters: Vec<&str> = std::iter::once("&mut self").chain(value.as_deref()).collect();

@@ -25,7 +25,7 @@ struct Library<'l> {
     not_enabled: Option<String>,
     /// Method that returns the operations of CiA 402.
     motion: Option<&'l str>,
-    /// Expression that changes the mode of operation.
+    /// Expression that sets the mode of operation.
     set_mode: String,
     is_positioning: bool,
     items: &'l [Item],
@@ -39,7 +39,7 @@ struct Example<'e> {
     library: &'e str,
     bus: &'e BusNames,
     machine: Option<&'e Machine<'e>>,
-    /// Raw position to which the program moves the axis.
+    /// Position, as a raw value, to which the program moves the axis.
     target: Option<i128>,
     /// Statement that reads the actual position.
     position: Option<String>,
@@ -52,7 +52,7 @@ struct Support<'s> {
     library: &'s str,
     machine: Option<&'s Machine<'s>>,
     simulation: Option<&'s Simulation>,
-    /// The type of the commands, with the name `Command`.
+    /// Import of the type of the commands, under the name `Command`.
     commands_import: String,
 }
 
@@ -73,7 +73,7 @@ struct BusNames {
     type_name: &'static str,
     /// A client of the bus.
     client: &'static str,
-    /// Feature of the runtime with the client.
+    /// Cargo feature of the runtime that contains the client.
     feature: &'static str,
 }
 
@@ -92,12 +92,12 @@ const MODBUS: BusNames = BusNames {
     feature: "modbus",
 };
 
-/// A state machine.
+/// Rust identifiers of a state machine.
 struct Machine<'m> {
     walk: &'m str,
     target: &'m str,
     status: &'m str,
-    /// The type of the states, with the name `State`.
+    /// Import of the type of the states, under the name `State`.
     states_import: String,
 }
 
@@ -108,7 +108,7 @@ struct Item {
     title: String,
     /// Call that accesses the value.
     access: String,
-    /// Unit in parentheses, after a space.
+    /// A space and the unit in parentheses, or an empty text.
     unit: String,
     constant: String,
     native: &'static str,
@@ -187,7 +187,7 @@ fn no_program(bus: Option<ir::Bus>) -> Failure {
     })
 }
 
-/// Returns imports in the order of `rustfmt`.
+/// Returns the list of imported names in the order of `rustfmt`.
 fn imports(mut names: Vec<&str>) -> String {
     names.sort_unstable();
     match names.as_slice() {
@@ -202,7 +202,7 @@ fn chain(call: &str, last: &str) -> String {
     layout::chain(At(8, ""), "self", &calls, "")
 }
 
-/// Returns the import of a type from the bindings, under the name `name`.
+/// Returns the name of a type for an import from the bindings, renamed to `name` if necessary.
 fn import(ty: &str, name: &str) -> String {
     if ty == name {
         ty.to_owned()
@@ -217,13 +217,13 @@ impl<'m> Machine<'m> {
         Machine { walk, target, status, states_import: import(states, "State") }
     }
 
-    /// Returns the expression that leads the state machine to the target.
+    /// Returns the expression that brings the state machine to the target state.
     fn enable(&self) -> String {
         let walk = format!("{}(target, deadline)", self.walk);
         layout::chain(At(8, ""), "self", &["bindings", &walk], "")
     }
 
-    /// Returns the statement that compares the state with the target.
+    /// Returns the statement that checks that the state is the target state.
     fn check(&self) -> String {
         let target = format!("Some(State::{})", self.target);
         layout::call(At(4, ""), "assert_eq!", &["state", &target], ";")
@@ -255,7 +255,7 @@ impl Support<'_> {
 }
 
 impl Item {
-    /// Returns the first line of the driver's method.
+    /// Returns the first line of the driver's method for this item.
     fn signature(&self) -> String {
         let (value, result) = if self.is_write { (Some(self.native), "()") } else { (None, self.native) };
         layout::method(&self.method, value, &format!("Result<{result}, AccessError<C::Error>>"))
@@ -276,7 +276,7 @@ impl Item {
         layout::call(At(4, ""), "device.set", &[&self.constant, &self.value.to_string()], "?;")
     }
 
-    /// Returns the statement that compares the value in the simulated device.
+    /// Returns the statement that checks the value in the simulated device.
     fn check(&self) -> String {
         let get = format!("device.get({})?", self.constant);
         layout::call(At(4, ""), "assert_eq!", &[&get, &self.value.to_string()], ";")

@@ -17,7 +17,8 @@ use crate::args::{New, Printing};
 use crate::report::Reporter;
 use crate::{shell, Failure};
 
-/// Names that Cargo refuses, names of crates on which a drive crate depends, and names in its example and tests.
+/// Names that a crate must not have: names that Cargo rejects, and names that the crate, its example or its tests use
+/// for something else.
 const RESERVED: [&str; 13] = [
     "test",
     "core",
@@ -48,14 +49,14 @@ struct Manifest<'m> {
 struct BuildScript {
     file: String,
     device: Option<String>,
-    /// Whether the simulated device needs the table of all entries.
+    /// Whether to generate the table of all entries, which the simulated device needs.
     has_table: bool,
 }
 
 impl BuildScript {
     /// Returns the calls of the builder.
     fn builder(&self) -> String {
-        // A long name gets a variable, so that the calls are short.
+        // Assign a long name to a variable first, so that the calls fit on a line.
         let (start, file) = match self.file.chars().count() > 40 {
             true if self.file.chars().count() > 77 => {
                 (format!("let description =\n        {};\n    ", self.file), "description")
@@ -72,7 +73,7 @@ impl BuildScript {
     }
 }
 
-/// A device description, and what the files of a new crate have in common.
+/// A device description, and data that all files of a new crate use.
 pub(super) struct Package<'p> {
     /// Name of the library in Rust.
     pub library: String,
@@ -126,7 +127,7 @@ pub(super) fn render(template: &impl Template) -> Result<String, Failure> {
     template.render().map_err(|error| Failure::Usage(format!("cannot write a file of the crate: {error}")))
 }
 
-/// Returns an error if Cargo does not accept the name of a crate, or the crate would hide one on which it depends.
+/// Returns an error if Cargo does not accept the crate name, or if a dependency of the crate has the same name.
 fn check_name(name: &str) -> Result<(), Failure> {
     let is_word = name.starts_with(|first: char| first.is_ascii_alphabetic())
         && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_');
@@ -141,7 +142,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
     }
 }
 
-/// Returns the device of the catalog. Returns an error if there is none, or if there are several.
+/// Returns the device of the catalog. Returns an error unless the catalog has exactly one device.
 fn only_device<'c>(catalog: &'c Catalog, description: &Path) -> Result<&'c Device, Failure> {
     let file = description.display();
     match catalog.devices.as_slice() {

@@ -9,7 +9,7 @@ use super::package::{render, Package};
 use super::text::doc;
 use crate::Failure;
 
-/// Minimum number of submodules in a slot plan, so that a user can plug further modules.
+/// Minimum number of submodules that a slot plan can hold, so that a user can plug further modules.
 const MIN_PLACES: usize = 8;
 
 #[derive(Template)]
@@ -50,7 +50,7 @@ struct Data<'d> {
     submodule: &'d str,
     has_inputs: bool,
     has_outputs: bool,
-    /// Import of the structs.
+    /// Names of the structs to import.
     structs: &'static str,
 }
 

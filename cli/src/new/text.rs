@@ -1,8 +1,8 @@
-//! Texts of a description in the source code of a new crate.
+//! Escapes texts of a description for the source code of a new crate.
 
 use lexibus_codegen::text::printable;
 
-/// Returns a text for a doc comment. Markdown and HTML have no effect.
+/// Returns a text for a doc comment. Markdown and HTML in the text are escaped.
 pub(super) fn doc(text: &str) -> String {
     let mut escaped = String::new();
     for letter in printable(text).chars() {

@@ -8,7 +8,7 @@ use lexibus_codegen::diagnostics::{Diagnostic, Severity};
 /// Maximum number of printed diagnostics of a code in a file, unless the user wants all of them.
 const LIMIT: usize = 3;
 
-/// A part of the printed diagnostics.
+/// A part of the text output: a diagnostic, or the number of omitted diagnostics.
 pub(super) enum Shown<'d> {
     /// A diagnostic in full.
     Full(&'d Diagnostic),
@@ -22,14 +22,15 @@ pub(super) enum Shown<'d> {
 #[derive(Default)]
 struct Count {
     total: usize,
-    /// Number of parts that were shown.
+    /// Number of diagnostics that were printed.
     shown: usize,
-    /// Number of diagnostics that the shown parts represent.
+    /// Number of diagnostics that the printed ones represent, including repetitions.
     covered: usize,
 }
 
-/// Returns the diagnostics to print in their order. Only the first warning of a code in a file is printed in full. After the third
-/// diagnostic of the code, a line states the number of further ones. `all` returns every diagnostic in full.
+/// Selects the diagnostics to print, in their order. Only the first warning of a code in a file is printed in full.
+/// After the third diagnostic of a code, a line states the number of further diagnostics. If `all` is set, every
+/// diagnostic is printed in full.
 pub(super) fn limited<'d>(diagnostics: &'d [Cow<Diagnostic>], all: bool) -> impl Iterator<Item = Shown<'d>> {
     let mut counts: HashMap<_, Count> = HashMap::new();
     for diagnostic in diagnostics {

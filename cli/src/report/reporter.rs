@@ -41,7 +41,7 @@ pub(in super::super) struct Reporter {
     files: usize,
     /// Whether to print all diagnostics of a code in a file.
     all: bool,
-    /// Number of diagnostics by code, if they are printed instead of the diagnostics.
+    /// Numbers of diagnostics by code, if these numbers are printed instead of the diagnostics.
     statistics: Option<Statistics>,
     /// Diagnostics that are not reported.
     baseline: Option<Baseline>,

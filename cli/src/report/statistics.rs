@@ -113,7 +113,7 @@ impl Place {
         let place = MarkedSource::of(diagnostic.span, sources);
         let from = place.and_then(|place| place.mark).map(|mark| mark.from);
         Place {
-            // Paths contain no characters that control a terminal, in any output.
+            // In all output formats, replace control characters in paths, because a terminal would interpret them.
             file: place.map(|place| printable(place.source.name()).into_owned()),
             line: from.map(|from| from.line),
             column: from.map(|from| from.column),

@@ -1,4 +1,4 @@
-//! Generates random IR. Rust code that is generated from IR without errors must compile without warnings.
+//! Generates random catalogs of IR. If a catalog has no errors, its generated Rust code must compile without warnings.
 //!
 //! `LEXIBUS_ARBITRARY=5000` tests 5,000 random catalogs. `LEXIBUS_ARBITRARY=7..8` tests the catalog of seed 7 and prints its
 //! generated code.
@@ -104,8 +104,8 @@ fn what_passes_the_lints_compiles() {
     }
     let failures: Vec<String> = kept.chunks(BATCH).filter_map(|batch| compile_modules(batch).err()).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    // Require 80 % instead of 90 % of catalogs without errors if fewer than 100 catalogs are tested, because the share
-    // varies more.
+    // Require 80 % of catalogs without errors, instead of 90 %, if fewer than 100 catalogs are tested, because the
+    // share varies more in small samples.
     let tenths = if drawn < 100 { 8 } else { 9 };
     assert!(kept.len() as u64 * 10 >= drawn * tenths, "only {} of {drawn} catalogs have no errors", kept.len());
 }
@@ -123,7 +123,7 @@ fn traits_of_other_crates_are_derived_for_it() {
     assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
-/// Creates the outputs other than Rust for some catalogs. Returns the seed, the compilation and these outputs for each
+/// For some catalogs, creates all outputs except Rust. Returns the seed, the compilation and these outputs for each
 /// catalog.
 fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     some(OUTPUTS).map(|seed| {
@@ -157,7 +157,7 @@ fn indices(device: &Device) -> BTreeSet<u16> {
     device.groups.iter().filter_map(Group::index).collect()
 }
 
-/// Reads an exported text as a catalog.
+/// Reads an exported file as a catalog.
 fn again(name: &str, text: &str) -> Catalog {
     let read = check(Source::new(name, text.into()), &Options::default());
     let messages: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
@@ -174,7 +174,7 @@ fn exports_are_read_again() {
         for (at, text) in &made.eds {
             let (original, again) = (indices(&catalog.devices[*at]), again("again.eds", text));
             let exported = indices(&again.devices[0]);
-            // An export adds objects for registers and objects that describe PDOs.
+            // Objects that an export may add: objects for registers, and objects that describe PDOs.
             let has_registers = catalog.files[0].format == Format::Table;
             let is_made = |index: &&u16| has_registers || (0x1400..0x1C00).contains(*index);
             let more: Vec<&u16> = exported.difference(&original).filter(|index| !is_made(index)).collect();

@@ -11,7 +11,7 @@ pub struct Outputs {
     pub markdown: Vec<Page>,
     /// The catalog as JSON text.
     pub dump: String,
-    /// EDS and DCF files with the position of their device in the catalog.
+    /// EDS and DCF files, each with the position of its device in the catalog.
     pub eds: Vec<(usize, String)>,
     pub esi: Option<String>,
     pub gsdml: Option<String>,

@@ -25,7 +25,7 @@ pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     print!("{printed}");
 }
 
-/// Returns the reason as an error if no browser can be controlled.
+/// Returns an error with the reason if no browser can be controlled.
 fn ready() -> Result<(), &'static str> {
     static READY: OnceLock<Result<(), String>> = OnceLock::new();
     let ready = READY.get_or_init(|| match node("ready.mjs", &[]) {

@@ -81,7 +81,7 @@ pub fn terminals() -> PathBuf {
     site
 }
 
-/// Returns a site with 300 devices, whose list needs two pages because of their long names.
+/// Returns a site with 300 devices. Their names are so long that the list of devices needs two pages.
 pub fn many() -> PathBuf {
     let long = "x".repeat(1000);
     let device = |number: usize| {

@@ -19,7 +19,7 @@ fn a_site_of_documentation() {
     let coupler = coupler.filter(|path| path.is_dir() && !path.ends_with("lexibus")).collect::<Vec<_>>();
     assert_eq!(coupler.len(), 1, "{coupler:?}");
     std::fs::write(coupler[0].join("notes.html"), "<title>My notes</title>").expect("a file");
-    // A description with errors removes nothing.
+    // If a description has errors, no page is removed.
     let broken = file(&folder, "broken.eds", "");
     assert_eq!(code(&lexibus(&["docs", DEMO, &broken, "--out", &out.to_string_lossy()])), 1);
     assert!(std::fs::read_dir(&coupler[0]).expect("a folder").count() > 1);
@@ -48,7 +48,7 @@ fn pages_of_markdown() {
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(code(&call(&["--check"])), 0);
     let summary = std::fs::read_to_string(out.join("SUMMARY.md")).expect("a summary");
-    // Pages with the changes between two descriptions, which the list of devices leads to.
+    // `--compare` adds a page with the changes between two descriptions, and a link to it in the list of devices.
     assert_eq!(code(&call(&["--compare", DEMO, COUPLER])), 0);
     let page = out.join("_compare/demo-drive-to-coupler-esi.md");
     let changes = std::fs::read_to_string(&page).expect("a comparison");

@@ -248,7 +248,7 @@ fn control_characters_stay_out_of_what_is_printed() {
     let esi = esi.replace("CP-32 coupler", "Cou&#10;breaks api: pler\u{9b}");
     let modular = file(&folder, "c\u{1b}c.xml", &esi);
     let missing = folder.join("no\u{1b}[2J\nerror: file.eds").to_string_lossy().into_owned();
-    // Each command is followed by a part of the hostile text that its output must contain.
+    // Calls that print hostile text, each with the part of this text that its output must contain.
     let calls: [(&[&str], &str); 8] = [
         (&["diff", &old, &new], "ain"),
         (&["diff", &modular, &old], "pler"),

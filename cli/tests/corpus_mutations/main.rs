@@ -1,4 +1,5 @@
-//! Tests that the compiler does not panic on damaged corpus files, random combinations of EDS and XML words, or random text.
+//! Tests that the compiler does not panic on damaged corpus files, on random combinations of EDS and XML words, or on
+//! random text.
 //!
 //! Each input is read, checked, rendered, summarized and compiled to Rust. A fixed seed makes all runs test the same inputs.
 //! `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select other inputs:
@@ -28,8 +29,8 @@ use proptest::test_runner::{RngSeed, TestError, TestRunner};
 /// Minimum number of cases. With fewer cases, the share of inputs that reach the back end would vary too much.
 const FEWEST: u32 = 40;
 
-/// Returns a configuration with the given number of cases. A debug build runs a sixth of the cases, and the fast lane runs a
-/// quarter of this number.
+/// Returns a configuration with the given number of cases. A debug build runs a sixth of the cases. In the fast lane,
+/// the number is divided by four.
 fn config(cases: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, max_shrink_iters: 3000, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -44,8 +45,7 @@ fn config(cases: u32) -> ProptestConfig {
 
 /// Runs `exercise` on the inputs that `make` creates. Prints the smallest input that fails.
 ///
-/// At least `usable` percent of the inputs must reach the back end. Otherwise, the test would hardly exercise the back
-/// end.
+/// At least `usable` percent of the inputs must reach the back end, so that the test exercises it.
 fn hold<T: Debug + Clone>(
     cases: u32,
     usable: u32,
@@ -235,7 +235,7 @@ fn line_at(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     start..end
 }
 
-/// Returns the range of the value of the next entry or attribute after a position.
+/// Finds the next entry or attribute after a position, and returns the range of its value.
 fn value_after(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
     let Some(equals) = bytes[at..].iter().position(|&byte| byte == b'=') else { return at..at };
     let start = at + equals + 1;
@@ -326,7 +326,8 @@ fn damaged_xml_files() {
     });
 }
 
-/// Tests XML files with changed values. The XML stays well-formed, so the code after the parser is tested.
+/// Tests XML files with changed values. The XML stays well-formed, so that the test reaches the code after the XML
+/// parser.
 #[test]
 fn xml_files_with_other_values() {
     let Some(files) = of_kind(true) else { return };

@@ -37,7 +37,7 @@ pub fn exercise_with(name: &str, bytes: &[u8], overlays: Vec<Source>) -> bool {
     compilation.catalog.is_some()
 }
 
-/// Maximum size of inputs for which documentation is created, because this takes long.
+/// Maximum size of inputs for which documentation is written, because writing it takes long.
 const SHORT: usize = 4_000;
 
 /// Writes the documentation of a description and compares the description with itself.
@@ -64,7 +64,7 @@ fn rendered(compilation: &Compilation, found: &Diagnostic) {
     assert!(!compilation.one_line(found).contains('\n'));
 }
 
-/// Returns options that enable all lints. Most lints are disabled by default.
+/// Returns options that enable all lints. By default, most lints are disabled.
 fn everything_reported(overlays: Vec<Source>) -> Options {
     let mut options = Options { overlays, ..Options::default() };
     for code in codes::CODES {
@@ -75,7 +75,7 @@ fn everything_reported(overlays: Vec<Source>) -> Options {
 
 /// Generates the exports and the Rust code of all devices, even if there are errors.
 fn emitted(compilation: &Compilation) {
-    /// Maximum size of generated code to parse, because `syn` is slow.
+    /// Maximum size of generated code that is parsed to check it, because `syn` is slow.
     const PARSED: usize = 60_000;
     let Some(catalog) = &compilation.catalog else { return };
     exported(catalog);
@@ -87,7 +87,7 @@ fn emitted(compilation: &Compilation) {
     }
 }
 
-/// Runs all exports and ignores their notes and refusals. Only the first two devices are exported as DCF.
+/// Runs all exports. Ignores the notes, and exports that are refused. Exports only the first two devices as DCF.
 fn exported(catalog: &Catalog) {
     let _ = esi::export(catalog, &esi::Options::default());
     let _ = gsdml::export(catalog, &gsdml::Options::default());

@@ -38,7 +38,7 @@ pub struct Settings {
     /// Whether only the original form of the input is compiled. Other line ends, encodings and byte order marks are not
     /// tested.
     pub one_form: bool,
-    /// Parts of the outputs to compare. An empty list means the whole output. See `part.rs`.
+    /// For each output, the parts to compare; an empty list means the whole output. See `part.rs`.
     pub rust: Option<Vec<String>>,
     pub info: Option<Vec<String>>,
     pub dump: Option<Vec<String>>,
@@ -49,7 +49,8 @@ pub struct Settings {
     pub markdown: Option<Vec<String>>,
     /// Whether `lexibus diff` compares the two inputs.
     pub diff: bool,
-    /// Calls of `lexibus` whose output is compared. A line `cat FILE` shows a file. The calls replace all other outputs.
+    /// Calls of `lexibus` whose output is compared. A line `cat FILE` shows a file. If there are calls, all other
+    /// outputs are omitted.
     pub commands: Vec<String>,
     /// Columns of a register list in the form `field=column`, as for `--map`.
     pub map: Vec<String>,
@@ -107,7 +108,7 @@ impl Case {
         Source::new(name, bytes).in_folder(&self.folder)
     }
 
-    /// Returns a source with the name of an input and other bytes.
+    /// Returns a source with the name of an input, the given bytes, and the folder of the test case.
     pub fn source_of(&self, name: &str, bytes: Vec<u8>) -> Source {
         Source::new(name, bytes).in_folder(&self.folder)
     }
@@ -153,7 +154,7 @@ impl Case {
     ///
     /// # Errors
     ///
-    /// Returns the differences line by line, and the command that accepts the new output.
+    /// If they differ, returns the differences line by line, and the command that accepts the new output.
     pub fn compare(&self, actual: &Outputs) -> Result<(), String> {
         let mut message = String::new();
         for name in self.expected_names().iter().filter(|name| !actual.contains_key(*name)) {
@@ -216,7 +217,7 @@ fn is_expected(name: &str) -> bool {
     name == DIAGNOSTICS || name.starts_with("output.")
 }
 
-/// Adds the file of diagnostics unless there are no diagnostics.
+/// Adds the output file of diagnostics unless `text` is empty.
 pub fn put_diagnostics(outputs: &mut Outputs, text: String) {
     if !text.is_empty() {
         outputs.insert(DIAGNOSTICS.to_owned(), text);

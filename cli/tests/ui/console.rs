@@ -5,7 +5,7 @@ use std::process::Command;
 
 use crate::case::Case;
 
-/// Returns the calls, each followed by its output on standard output and standard error, and by its exit code unless it is 0.
+/// Returns the calls, each followed by its standard output, its standard error, and its exit code if the code is not 0.
 ///
 /// # Errors
 ///

@@ -7,11 +7,11 @@ use lexibus_codegen::source::Source;
 use crate::case::{ending, Case};
 use crate::corpus_support::{lane, round_trip::content};
 
-/// Compares the IR and the diagnostics of all forms of a test case's inputs.
+/// Checks that all forms of a test case's inputs give the same IR and diagnostics.
 ///
 /// # Errors
 ///
-/// Returns the name of the form whose results differ.
+/// Returns the name of the first form whose IR or diagnostics differ.
 pub fn all_say_the_same(case: &Case) -> Result<(), String> {
     if case.settings.one_form || !(lane::is_full() || case.name().starts_with("quirks-")) {
         return Ok(());
@@ -38,8 +38,8 @@ pub fn all_say_the_same(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the file with other line ends, byte order marks and encodings: the name and the bytes of each form. Register
-/// tables and register lists have no other forms.
+/// Returns the file in other forms, which differ in line ends, byte order mark and encoding: the name and the bytes of
+/// each form. The list is empty for register tables and register lists.
 fn forms(input: &Source) -> Vec<(String, Vec<u8>)> {
     let is_eds = match ending(input.name()) {
         "eds" | "dcf" => true,

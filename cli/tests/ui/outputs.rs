@@ -62,7 +62,7 @@ fn printed(compilation: &Compilation) -> String {
     format!("{text}{name}: {}\n", render::summary(counts.0, counts.1))
 }
 
-/// Adds the outputs of a file that the settings name. Notes of exports are added to the diagnostics.
+/// Adds the outputs of a file that the settings name. Appends the notes of exports to the diagnostics.
 fn made(
     case: &Case,
     compilation: &Compilation,
@@ -122,7 +122,7 @@ fn pointed(catalog: &serde_json::Value, pointers: &[String]) -> Result<String, S
     texts.collect::<Result<Vec<String>, String>>().map(|texts| texts.concat())
 }
 
-/// Returns all Markdown pages of a file. Each page follows its path.
+/// Returns all Markdown pages of a file. The path of each page precedes its text.
 fn pages(compilation: &Compilation) -> String {
     let mut site = Site::new(Format::Markdown);
     let mut pages = site.add_compilation("input", compilation);
@@ -130,7 +130,8 @@ fn pages(compilation: &Compilation) -> String {
     pages.iter().map(|Page { path, text, .. }| format!("== {path}\n\n{text}\n")).collect()
 }
 
-/// Exports a file. The outer error concerns the test case. The inner error is the refusal that a user would see.
+/// Exports a file. The outer error states that the test case is invalid. The inner error is the refusal that a user
+/// would see.
 fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<Export, Refusal>, String> {
     // Like `lexibus export`, leave out the facts that profiles add.
     let options = Options { no_profiles: true, ..case.options() };

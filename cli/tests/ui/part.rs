@@ -89,7 +89,7 @@ fn begins_item(line: &str, text: &str) -> bool {
     })
 }
 
-/// Returns the first line of the element that encloses the line `at` by `levels` levels.
+/// Goes outward from the line `at` by `levels` levels, and returns the first line of the enclosing element.
 fn outer(lines: &[&str], at: usize, levels: usize) -> usize {
     (0..levels).fold(at, |at, _| {
         let depth = indent(lines[at]);

@@ -14,7 +14,7 @@ use libtest_mimic::{Failed, Trial};
 use crate::case::{ending, Case};
 use crate::compile_support::compile_modules;
 
-/// Codes that no test case can cause. IO001 reports an unreadable file; a test of the command line covers it.
+/// Codes that no test case can cause. IO001 reports an unreadable file, and a test of the command line covers it.
 const WITHOUT_INPUT: [&str; 1] = ["IO001"];
 
 /// Each diagnostic code must have a test case that is named after the code and reports it.
@@ -92,7 +92,8 @@ fn none_missing(what: &str, missing: &[&str]) -> Result<(), Failed> {
 /// would need too deep a stack.
 const INPUTS: usize = 50;
 
-/// The Rust code of all inputs without errors must compile without warnings. Each crate is a separate trial.
+/// The Rust code of all inputs without errors must compile without warnings. Each crate with up to 50 inputs is a
+/// separate trial.
 pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
     let mut inputs = Vec::new();
     for case in cases {

@@ -11,12 +11,12 @@ use lexibus_codegen::source::Source;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::Reader;
 
-/// Counts all events of a file, up to its end or an error. Reads the end position of each event.
+/// Counts the XML events of a file, up to the end of the file or an error. For each event, reads its end position.
 fn events(bytes: &[u8]) -> usize {
     walk(bytes, |_| 0)
 }
 
-/// Counts all events in the same way as `events`. Also splits the attributes of each tag, without decoding them.
+/// Counts the XML events like `events`, and also splits the attributes of each tag without decoding them.
 fn attributes(bytes: &[u8]) -> usize {
     walk(bytes, |tag| tag.attributes().flatten().map(|attribute| attribute.value.len()).sum())
 }
@@ -39,12 +39,13 @@ pub fn measure(bencher: Bencher<'_, '_>, bytes: Vec<u8>) {
     bencher.counter(BytesCount::new(bytes.len())).bench(|| events(divan::black_box(&bytes)));
 }
 
-/// Prints the time from the bytes of all files to checked IR, and the times of both reference loops.
+/// Prints the time for compiling the bytes of all files to checked IR, and the times of both reference loops.
 pub fn report(name: &str, files: &[Vec<u8>]) {
     let length: usize = files.iter().map(Vec::len).sum();
     let repetitions = (200_000_000 / length.max(1)).clamp(5, 50);
     let [mut bare, mut apart, mut full] = [Duration::MAX; 3];
-    // Measure all functions in turn and use the minimum time of each, so that other system load affects all of them.
+    // Measure all functions in turn and use the minimum time of each, so that other load on the system affects all of
+    // them equally.
     for _ in 0..repetitions {
         bare = bare.min(time(|| files.iter().map(|file| events(file)).sum::<usize>()));
         apart = apart.min(time(|| files.iter().map(|file| attributes(file)).sum::<usize>()));
@@ -59,7 +60,7 @@ pub fn report(name: &str, files: &[Vec<u8>]) {
     println!("  the same, with split attributes          {:6.1} MB/s, ratio {:.2}", speed(apart), ratio(apart));
 }
 
-/// Measures the time of a function. Dropping its result is not included.
+/// Returns the time that a function takes, without the time for dropping its result.
 fn time<T>(work: impl FnOnce() -> T) -> Duration {
     let start = Instant::now();
     let result = divan::black_box(work());

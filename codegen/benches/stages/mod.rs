@@ -57,7 +57,7 @@ pub fn whole(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     });
 }
 
-/// Measures all stages for a format. `growing` creates the files, which have the given name.
+/// Measures all stages for a format. `growing` creates the files, and `$name` is their name.
 macro_rules! measure {
     ($name:literal) => {
         #[divan::bench(args = stages::SIZES, max_time = 2)]

@@ -102,14 +102,15 @@ kinds! {
     Behavior = "behavior", "storage, conditions or side effects left out";
     /// The models, versions or options in which an item exists.
     Availability = "availability", "models, versions or options of an item left out";
-    /// A reference to another item that contains the same value or a part of it, or a mark as reserved or optional.
-    Relation = "relation", "relation to other items, or mark as reserved or optional, left out";
+    /// A reference from an item to another item that contains the same value or a part of it, or the property of an
+    /// item to be reserved or optional.
+    Relation = "relation", "relation to other items, or property reserved or optional, left out";
     /// A description of an element.
     Documentation = "documentation", "description left out";
     /// A name or text in another language.
     Language = "language", "text in another language left out";
-    /// The name of a value that differs from the name of its object.
-    Name = "name", "name of a value left out: the file contains only the name of its object";
+    /// The name of an object's only entry, if the name differs from that of the object.
+    Name = "name", "name of an object's only entry left out: the file contains only the name of the object";
     /// An ambiguity in the manual.
     Doubt = "doubt", "ambiguity in the manual left out";
     /// The category of an object: mandatory, optional or conditional.

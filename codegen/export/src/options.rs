@@ -127,7 +127,7 @@ pub(super) fn unknown(key: &str, known: &[(&str, &str)]) -> String {
     format!("unknown option `{key}` of this format; {suggestion}the options are {}", keys.join(", "))
 }
 
-/// Declares options with their keys, and a type that records the options that an export reads.
+/// Declares options with their keys, and a type that records which options an export reads.
 macro_rules! options {
     ($(#[$attribute:meta])* pub struct $name:ident, $tracked:ident {
         $(#[doc = $doc:literal] $field:ident: $ty:ty = $key:literal,)+

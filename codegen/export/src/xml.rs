@@ -74,7 +74,7 @@ impl Xml {
         }
     }
 
-    /// Writes an attribute unless its value equals `usual`, which readers assume for a missing attribute.
+    /// Writes an attribute unless its value equals `usual`, the value that readers assume if the attribute is missing.
     pub(super) fn unless<T: Display + PartialEq>(&mut self, name: &str, value: T, usual: T) {
         self.optional(name, Some(value).filter(|value| *value != usual));
     }

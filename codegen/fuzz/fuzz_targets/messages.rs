@@ -7,8 +7,8 @@ use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
 /// Checks that `write` writes as many bytes as `data` has, and that the first `known` bytes are the same. `write` may
-/// fail for settings with a wrong length and for values outside of their limits, because such data are readable for bus
-/// diagnosis only.
+/// fail for settings with a wrong length and for values outside of their limits, because such data can be read, for bus
+/// diagnosis, but not written.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);
@@ -26,7 +26,7 @@ fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_
     }
 }
 
-/// Checks that a decoded request and a decoded reply to it encode to the same bytes.
+/// Checks that a decoded request and the decoded reply to it encode to the bytes from which they were decoded.
 fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
     let _ = M::Refusal::read(data, &mut Reader::new(answer));
     let reply = M::Reply::read(data, &mut Reader::new(answer));

@@ -77,7 +77,8 @@ pub(super) struct Address {
 pub(super) struct Style {
     /// True if digits without a prefix are hexadecimal.
     pub is_hex: bool,
-    /// True if addresses have the form `4x0001`. In the notation `4x0001`, the address `0x0001` is a coil.
+    /// True if addresses have the form `4x0001`. In this notation, `0x0001` is the address of a coil and not a
+    /// hexadecimal number.
     pub is_x: bool,
     /// True if all addresses end in `.0`, which some spreadsheets add.
     pub is_fraction: bool,
@@ -89,7 +90,7 @@ impl Style {
         let mut filled = cells.filter(|text| !cells::is_blank(text));
         let is_x = filled.clone().any(|text| x_notation(text).is_some_and(|(digit, _)| digit != '0'));
         let is_fraction = filled.clone().next().is_some() && filled.clone().all(|text| text.ends_with(".0"));
-        // A single address with letters and digits means that all addresses of the column are hexadecimal.
+        // If an address contains both hexadecimal letters and digits, all addresses of the column are hexadecimal.
         let letters = |text: &str| {
             let is_plain = !text.is_empty() && text.chars().all(|digit| digit.is_ascii_hexdigit());
             is_plain
@@ -320,7 +321,7 @@ mod tests {
             assert_eq!(read(text, plain), Some(Address { last: Some(64), ..number(63) }), "{text}");
         }
         assert_eq!(read("10099-100", plain), Some(Address { last: Some(10100), ..number(10099) }));
-        // The end of a range has no prefix and uses the notation of the start.
+        // If the end of a range has no prefix, it uses the notation of the start.
         let range = |first, last| Some(Address { last: Some(last), is_hex: true, ..number(first) });
         assert_eq!(read("0x0010-11", plain), range(0x10, 0x11));
         assert_eq!(read("0x0010-17", plain), range(0x10, 0x17));

@@ -21,8 +21,8 @@ pub(super) struct Definitions {
 }
 
 impl Definitions {
-    /// Returns the index of the definition with these entries. Adds a definition whose name is derived from `row` if
-    /// there is none.
+    /// Returns the index of the definition with these entries. If there is none, adds a definition whose name is
+    /// derived from `row`.
     pub fn add(&mut self, is_bits: bool, entries: Vec<(String, String)>, row: &str) -> usize {
         let key = (is_bits, entries);
         if let Some(&position) = self.positions.get(&key) {

@@ -136,8 +136,9 @@ fn table_of(row: &Row) -> Option<Table> {
     }
 }
 
-/// Returns whether the first digits of the printed addresses identify Modbus tables. At least one address must be that
-/// of a holding or input register. All other addresses must belong to Boolean rows.
+/// Returns whether the first digit of each printed address identifies a Modbus table. At least one address must be in
+/// the range of the holding or input registers. Each other address must be in the range of the coils or discrete inputs
+/// and belong to a Boolean row.
 fn is_classic(rows: &[Row]) -> bool {
     let mut any = false;
     for row in rows {
@@ -162,8 +163,8 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     };
     let mut bases =
         numbers().map(|number| Table::of_number(number).filter(|(found, _)| *found == table).map(|(_, base)| base));
-    // Ignore base 1: by convention, addresses that start at 1 belong to coils, but lists also use them for the other Modbus
-    // tables.
+    // Ignore base 1: by convention, it belongs to coils, but lists also count the addresses of other Modbus tables from
+    // 1.
     let base = bases.next().flatten().filter(|&base| base > 1 && bases.all(|other| other == Some(base)));
     let first = wire(in_table(), diagnostics).or(base.map(i64::from)).or(from_one.then_some(1));
     // Set `low_first` or `swap` for the whole Modbus table only if all rows state it. A row that states no order has the
@@ -230,7 +231,7 @@ fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns a text for each item of a row that identifies the first address of the item.
+/// For each item of a row, returns a text that identifies the first address of the item.
 fn addresses(row: &Row) -> Vec<String> {
     let count = row.count.unwrap_or(1);
     let stride = row.ty.size().unwrap_or(16).div_ceil(16).max(1);
@@ -325,7 +326,7 @@ fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut used: HashMap<String, Span> = HashMap::new();
     // Next number to append to each repeated name.
     let mut numbers: HashMap<String, u32> = HashMap::new();
-    // Limit the number of names that are tried for repeated rows, and thus the running time.
+    // Limit the number of names that are tried, because many repeated rows could otherwise take too long.
     let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.address.is_ok()) {
         if row.count.is_some() {

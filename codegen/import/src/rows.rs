@@ -159,8 +159,8 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     Rows { rows, definitions: reader.definitions.into_list(), no_access, from_one: style.addresses[0].is_x }
 }
 
-/// Returns whether the second of two addresses is an object index. A wire address is never greater than the printed
-/// address.
+/// Returns whether the second of two addresses is an object index. A second address that is greater than the printed
+/// address is not a wire address.
 fn is_index(printed: Address, second: Address) -> bool {
     second.is_hex && !printed.is_hex && second.first > printed.first && (0x1000..=0x9FFF).contains(&second.first)
 }
@@ -244,14 +244,14 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reports a line whose number of cells differs from the number of titles.
+    /// Reports a line whose number of cells differs from the number of column titles.
     fn count_cells(&mut self, record: &Record) {
         let (cells, width) = (record.cells.len(), self.columns.width);
         // Empty cells in columns without a title are ignored.
         let last = record.filled().last().map_or(0, |(at, _)| at + 1);
         let cells = cells.min(last.max(width));
         if cells != width && width > 0 {
-            let message = format!("the line has {cells} cells, but the list has {width} titles");
+            let message = format!("the line has {cells} cells, but the list has {width} column titles");
             self.report(&codes::CSV_RAGGED_ROW, record.span, message, "cells are assigned to titles from the left");
         }
     }
@@ -462,7 +462,8 @@ impl Reader<'_, '_> {
     /// the type size.
     fn compare(&mut self, record: &Record, ty: &mut Type, size: u32) {
         let of_type = ty.size().unwrap_or(size);
-        // A value that is smaller than a register occupies a whole register. A length column may contain bytes or bits.
+        // A value that is smaller than a register occupies a whole register. A length column may contain bytes or bits
+        // instead of registers.
         let is_same =
             of_type.div_ceil(16) * 16 == size.div_ceil(16) * 16 || of_type == size / 2 || of_type == size / 16;
         if is_same {

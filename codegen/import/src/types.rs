@@ -11,7 +11,7 @@ pub(super) enum Base {
     Bool,
     Text,
     Bytes,
-    /// A decimal exponent that other registers use (SunSpec).
+    /// A decimal exponent from which the scale factor of other registers is calculated (SunSpec).
     Exponent,
 }
 

@@ -11,8 +11,8 @@ use super::rows::{Row, RowAddress};
 /// Maximum width in characters to which keys are padded.
 const MAX_KEY: usize = 36;
 
-/// Returns a TOML string. Adds a space before a leading `$` that a lower-case letter follows, because such a text would
-/// refer to an option.
+/// Returns a TOML string. If the text starts with `$` and a lower-case letter, adds a space before the `$`, because
+/// such a text would refer to an option.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
@@ -91,7 +91,7 @@ pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
         out += "buses = [\"modbus\"]\n";
     }
     if list.no_access {
-        out += "\n[defaults]\naccess = \"ro\"    # the list has no access rights\n";
+        out += "\n[defaults]\naccess = \"ro\"    # the list does not state access rights\n";
     }
     list.spaces.iter().for_each(|item| space(&mut out, item));
     list.chapters.iter().for_each(|item| chapter(&mut out, item, list));

@@ -8,7 +8,7 @@ use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
 
-/// Maximum number of characters of a folder name, apart from the number that distinguishes longer names.
+/// Maximum number of characters of a folder name, without the checksum that distinguishes longer names.
 const LONGEST: usize = 60;
 
 /// A device of a site: the name of its description, and its position in this description.
@@ -17,10 +17,10 @@ pub(super) type DeviceKey = (String, usize);
 /// Revision numbers of the devices of a product.
 type Revisions = Vec<(u32, DeviceKey)>;
 
-/// The addresses of the devices of a site, and their previous revisions.
+/// The folders of a site's devices, and the revisions of each product.
 #[derive(Debug, Default)]
 pub(super) struct Addresses {
-    /// Devices by the folder of their product and the name of their revision's folder.
+    /// Devices, keyed by the folder of the product and the name of the revision's folder.
     devices: BTreeMap<(String, String), Vec<DeviceKey>>,
     /// Revisions of each product, see [`product`].
     products: HashMap<String, Revisions>,
@@ -42,7 +42,7 @@ impl Addresses {
         self.shared.insert(name.to_owned(), format!("{vendor}/_files/{}", folder_name(name)));
     }
 
-    /// Returns whether the devices of a description were added.
+    /// Returns whether the devices of this description have been added.
     pub fn has(&self, name: &str) -> bool {
         self.shared.contains_key(name)
     }
@@ -60,7 +60,7 @@ impl Addresses {
         let name = distinct(name, &key.0, is_ambiguous);
         match keys.iter().filter(|other| other.0 == key.0).position(|other| other == key) {
             None | Some(0) => format!("{folder}-{name}"),
-            // No folder name contains a dot, so the number cannot be a part of another description's name.
+            // No folder name contains a dot, so this name cannot be that of a device in another description.
             Some(number) => format!("{folder}-{name}.{}", number + 1),
         }
     }
@@ -72,14 +72,15 @@ impl Addresses {
         distinct(folder, name, is_ambiguous)
     }
 
-    /// Returns the previous revision of a device. If several descriptions contain it, returns the first by name.
+    /// Returns the previous revision of a device. If several descriptions contain this revision, the first of these
+    /// descriptions by name is used.
     pub fn previous(&self, device: &Device) -> Option<&(u32, DeviceKey)> {
         let number = device.identity.revision_number?;
         let older = self.revisions(device)?.iter().filter(|(other, _)| *other < number);
         older.max_by(|one, other| (one.0, &other.1).cmp(&(other.0, &one.1)))
     }
 
-    /// Returns the names of the descriptions that contain revisions of the same devices.
+    /// Returns the names of the descriptions that contain revisions of the devices in `catalog`.
     pub fn partners<'a>(&'a self, catalog: &'a Catalog) -> impl Iterator<Item = &'a str> {
         let revisions = catalog.devices.iter().filter_map(|device| self.revisions(device)).flatten();
         revisions.map(|(_, (name, _))| name.as_str())
@@ -100,10 +101,10 @@ fn vendor(device: &Device) -> String {
     }
 }
 
-/// Returns a text that is equal for the revisions of a product: vendor ID, product code and order code. Variants of a product can
-/// share the product code, for example EK1828 and EK1828-0010. Without an order code, the name distinguishes them. If vendor ID or
-/// product code is missing or 0, which many EDS files contain instead of the device's number, the folder of the product
-/// distinguishes products.
+/// Returns a text that is equal for the revisions of a product: vendor ID, product code and order code. Variants of a
+/// product can share the product code, for example EK1828 and EK1828-0010. Without an order code, the name
+/// distinguishes them. If the vendor ID or the product code is missing or 0, as in many EDS files, the text is the
+/// folder of the product instead.
 pub(super) fn product(device: &Device) -> String {
     let identity = &device.identity;
     match (identity.vendor_id, identity.product_code) {
@@ -118,8 +119,8 @@ pub(super) fn product(device: &Device) -> String {
     }
 }
 
-/// Returns the folder of a device's product in the folder of its vendor. The folder contains the product code, because
-/// products can have equal names.
+/// Returns the path of the product's folder, which is in the folder of the vendor. The folder contains the product
+/// code, because products can have equal names.
 fn folder_of_product(device: &Device) -> String {
     let title = folder_name(facts::device::title(device));
     match device.identity.product_code {
@@ -128,7 +129,7 @@ fn folder_of_product(device: &Device) -> String {
     }
 }
 
-/// Returns the folder of a device's revision in the folder of its product.
+/// Returns the name of the revision's folder, which is in the folder of the product.
 fn revision(device: &Device) -> String {
     device.identity.revision_number.map_or_else(|| "no-revision".to_owned(), folder_of_number)
 }
@@ -155,8 +156,8 @@ fn checksum(text: &str) -> u32 {
     text.bytes().fold(0x811C_9DC5, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 
-/// Returns a folder, with a checksum of the description's name if another description has the same folder: names can differ
-/// only in punctuation.
+/// Returns `folder`. If `is_ambiguous` is set, appends a checksum of the description's name, because names that differ
+/// only in punctuation give the same folder.
 fn distinct(folder: String, name: &str, is_ambiguous: bool) -> String {
     if is_ambiguous {
         format!("{folder}-{:08x}", checksum(name))

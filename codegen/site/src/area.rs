@@ -33,7 +33,7 @@ impl Area {
         self.sections.iter().map(|section| section.rows.len()).sum()
     }
 
-    /// Returns whether a row has requests with a node-ID or unit.
+    /// Returns whether any row has requests that contain a node-ID or a Modbus unit identifier.
     pub fn has_requests(&self) -> bool {
         self.sections.iter().any(Section::has_requests)
     }
@@ -56,13 +56,13 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// Returns whether a row has requests with a node-ID or unit.
+    /// Returns whether any row has requests that contain a node-ID or a Modbus unit identifier.
     pub fn has_requests(&self) -> bool {
         self.rows.iter().flat_map(|row| &row.fixed_requests).any(|request| !requests::is_of_record(request))
     }
 }
 
-/// A part of a device whose groups share pages.
+/// A part of a device. The groups of a part share pages.
 struct Part<'g> {
     title: String,
     /// The groups of the part, with their positions in the device.
@@ -72,7 +72,8 @@ struct Part<'g> {
 /// Returns the size of a section in bytes.
 pub(super) type Size = fn(&Section) -> usize;
 
-/// Returns the pages for these groups. `size` decides how many sections a page has.
+/// Returns the pages for these groups. `size` returns the size of a section, which limits the number of sections per
+/// page.
 pub(super) fn areas(groups: &[Group], types: &[TypeDef], known: Known<'_>, size: Size, files: &mut Names) -> Vec<Area> {
     parts(groups).iter().flat_map(|part| pages(part, Filler::new(types, known, size), files)).collect()
 }
@@ -96,7 +97,7 @@ fn parts(groups: &[Group]) -> Vec<Part<'_>> {
     parts
 }
 
-/// The pages of a part while sections are added.
+/// Distributes the sections of a part over pages.
 struct Filler<'p> {
     types: &'p [TypeDef],
     known: Known<'p>,
@@ -115,14 +116,15 @@ impl<'p> Filler<'p> {
         Filler { types, known, names, shown, fill: Fill::new(PAGE), size, pages }
     }
 
-    /// Adds items under one heading. They are all on the same page.
+    /// Adds a section with these items, which are all on the same page.
     fn add(&mut self, group: &Group, items: &[(ItemId, &Item)]) {
         let (mut section, mut size) = self.section(group, items);
         if !self.fill.fits(items.len(), size) {
             let pages = std::mem::take(&mut self.pages);
             *self = Filler { pages, ..Filler::new(self.types, self.known, self.size) };
             self.pages.push(Vec::new());
-            // The first row of a page with a type shows its bits or values.
+            // Create the section again for the new page, because the first row with a type on a page shows the bits or
+            // values of the type.
             (section, size) = self.section(group, items);
         }
         self.fill.add(items.len(), size);
@@ -148,7 +150,7 @@ fn pages(part: &Part<'_>, mut filler: Filler<'_>, files: &mut Names) -> Vec<Area
         let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
         match group.kind {
             GroupKind::Object { .. } => filler.add(group, &items),
-            // A long chapter can occupy several pages.
+            // Add each register as a separate section, because a long chapter can occupy several pages.
             _ => items.chunks(1).for_each(|item| filler.add(group, item)),
         }
     }

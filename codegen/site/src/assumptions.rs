@@ -94,7 +94,8 @@ impl<'d> AmbiguitySources<'d> {
         let mut all: Vec<Assumption<'d>> = Vec::new();
         let mut known = HashMap::new();
         self.visit(&mut |link, title, doubt| {
-            // The device's list and the element show different prefixes of the same ambiguity.
+            // Ignore the prefix: it differs between the device's list and the element, although the ambiguity is the
+            // same.
             let at = *known.entry(Doubt { prefix: String::new(), ..doubt.clone() }).or_insert(all.len());
             if at == all.len() {
                 all.push(Assumption { elements: Vec::new(), doubt });

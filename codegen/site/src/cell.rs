@@ -1,4 +1,4 @@
-//! A cell of a drawing. The label of the cell is the name, if the cell is wide enough.
+//! A cell of a drawing. If the cell is wide enough, its label is the name of the field.
 
 /// Width of a letter in pixels.
 const LETTER: u32 = 7;

@@ -35,17 +35,18 @@ impl<'d> Values<'d> {
 #[derive(Default)]
 pub(super) struct CodesOfItems {
     links: HashMap<ItemId, Vec<Link>>,
-    /// Positions of the tables that an item has a link to.
+    /// Pairs of an item and the position of a table to which the item has a link.
     tables: HashSet<(ItemId, usize)>,
 }
 
 impl CodesOfItems {
-    /// Returns the relation of an item to the codes that it reports, or whose description mentions it.
+    /// Returns the relation of an item to the codes that it reports and to the codes whose descriptions mention it.
     pub fn of(&self, id: ItemId) -> Option<Relation> {
         Relation::new("Codes", self.links.get(&id).into_iter().flatten())
     }
 
-    /// Adds the link to a table. A table on several pages has one link per item, to the first of the pages that mentions the item.
+    /// Adds the link to a table. If a table has several pages, adds only the link to the first page that mentions the
+    /// item.
     fn add_table(&mut self, items: impl IntoIterator<Item = ItemId>, table: usize, link: &Link) {
         for id in items {
             if self.tables.insert((id, table)) {
@@ -70,7 +71,8 @@ fn items(mentions: &[Mention]) -> impl Iterator<Item = ItemId> + '_ {
     })
 }
 
-/// Adds the relations of the codes on these pages, each with the file of the page. Returns the links in the other direction.
+/// Adds relations to the tables and codes on these pages. `pages` contains the file and the tables of each page.
+/// Returns the links from items to codes.
 pub(super) fn link<'p>(
     targets: &Targets<'_>,
     pages: impl IntoIterator<Item = (&'p str, &'p mut Vec<Codes>)>,

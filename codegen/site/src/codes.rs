@@ -14,7 +14,7 @@ use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
 pub(super) struct Codes {
     /// Position of the table in the device.
     pub position: usize,
-    /// Set if the first rows of the table are on a page before.
+    /// True if the first rows of the table are on a previous page.
     pub is_continued: bool,
     pub anchor: String,
     pub title: String,

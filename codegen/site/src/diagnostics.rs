@@ -54,7 +54,7 @@ impl<'d> Section for DiagnosticGroup<'d> {
 }
 
 impl DiagnosticGroup<'_> {
-    /// Returns the number of diagnostics: `1 repair`, `3 warnings`.
+    /// Returns the number of diagnostics as a text such as `1 repair` or `3 warnings`.
     pub fn count(&self) -> String {
         let noun = if self.code.class == Class::Repair { "repair" } else { "warning" };
         let plural = if self.list.len() == 1 { "" } else { "s" };
@@ -70,7 +70,7 @@ impl DiagnosticGroup<'_> {
     }
 }
 
-/// Returns the diagnostics on each page by code, in the order of the identifiers.
+/// Groups the diagnostics by code, in the order of the identifiers, and divides the groups into pages.
 pub(super) fn pages(list: &[ShownDiagnostic]) -> Vec<Vec<DiagnosticGroup<'_>>> {
     let mut groups: BTreeMap<&str, DiagnosticGroup<'_>> = BTreeMap::new();
     for diagnostic in list {
@@ -107,7 +107,7 @@ impl ShownDiagnostics {
         diagnostics
     }
 
-    /// Returns the diagnostics whose spans begin within the spans of an item's facts.
+    /// Returns the diagnostics whose spans begin within the span of an item or of one of its facts.
     pub fn of_item(&self, item: &Item) -> Vec<ShownDiagnostic> {
         if self.spans.is_empty() {
             return Vec::new();
@@ -161,7 +161,7 @@ fn shown(compilation: &Compilation, diagnostic: &Diagnostic) -> ShownDiagnostic 
     // The label completes the message: what the compiler did, or what is at the position.
     let message = [diagnostic.message.as_str(), &diagnostic.label].map(one_line);
     let message: Vec<&str> = message.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
-    // The note of a span names only what is there.
+    // The message of a note with a span states only what is at the span, so add the line number.
     let line = |span: Span| Some(source(span)?.position(span.start).line);
     let notes = diagnostic.notes.iter().map(|note| match note.span.filter(|span| !span.is_empty()).and_then(line) {
         Some(line) => format!("Line {line}: {}", one_line(&note.message)),

@@ -57,7 +57,7 @@ pub(super) struct StateBox {
     pub left: u32,
     pub top: u32,
     pub name: String,
-    /// Bits of the status in this state, if the state is a bit pattern.
+    /// Pattern of the status bits in this state; empty if the state has no bit pattern.
     pub pattern: String,
     pub is_initial: bool,
 }
@@ -75,7 +75,7 @@ pub(super) struct Arrow {
     pub label: String,
 }
 
-/// The transitions between the same two states, by the positions of the states.
+/// All transitions from one state to another. `from` and `to` are the positions of the states.
 #[derive(Debug)]
 struct Edge {
     from: usize,
@@ -174,8 +174,8 @@ impl<'m> Plan<'m> {
         self.rows.iter().enumerate().filter_map(one).collect()
     }
 
-    /// Returns the distance between the column and the first lane of a side. Labels of straight arrows can be wider than half of the
-    /// column.
+    /// Returns the distance between the column and the first lane of a side. The distance leaves space for labels of
+    /// straight arrows that extend beyond the column.
     fn gap(&self, is_beside: impl Fn(&Edge, &[Option<usize>]) -> bool) -> u32 {
         let labels = self.edges.iter().filter(|edge| is_beside(edge, &self.rows)).map(Edge::label_length);
         let inside = self.box_width / 2 - ASIDE;
@@ -230,7 +230,7 @@ fn edges(machine: &StateMachine) -> Vec<Edge> {
 }
 
 impl Edge {
-    /// Returns the rows of the two states if the edge needs a lane: if they are not neighbors.
+    /// Returns the rows of the two states if the edge needs a lane because the states are not neighbors.
     fn on_rows(&self, rows: &[Option<usize>]) -> Option<(usize, usize)> {
         let (from, to) = (rows[self.from]?, rows[self.to]?);
         (from.abs_diff(to) != 1).then_some((from, to))
@@ -254,7 +254,8 @@ impl Edge {
         self.on_rows(rows).filter(|(from, to)| from >= to)
     }
 
-    /// Returns the arrow on a lane at `x`, which starts and ends at `edge_x`, with a label at a position.
+    /// Returns the arrow on a lane at `x`. The arrow starts and ends at the horizontal position `edge_x`. `label` is
+    /// the position of its label.
     fn on_lane(&self, [x, edge_x]: [u32; 2], [start, end]: [u32; 2], label: (u32, u32)) -> Arrow {
         let path = format!("M{edge_x} {start}H{x}V{end}H{edge_x}");
         Arrow { path, x: label.0, y: label.1, side: "lane", label: self.label() }

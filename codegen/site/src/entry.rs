@@ -97,7 +97,8 @@ impl Row {
         std::iter::once(first).chain(others).collect()
     }
 
-    /// Returns the default value and the range with units and raw values, if the row only shows them without.
+    /// Returns the default value and the range with units and raw values, if the row shows them without units and raw
+    /// values.
     pub fn values(&self) -> Option<String> {
         let parts = [("Default", &self.default, &self.cells[0]), ("Range", &self.range, &self.cells[1])];
         let parts = parts.into_iter().filter(|(_, text, cell)| text != cell && !cell.is_empty());
@@ -175,13 +176,13 @@ impl Rows<'_> {
                 }
             }
         }
-        // Only the first row with a type shows the facts of the type.
+        // Only the first row with a type on a page shows the facts of the type.
         let definition = types::definition(self.types, item.ty).filter(|_| same_as.is_none());
         let addresses = address::addresses(item, self.known.modbus);
         let lookups: Vec<String> =
             addresses.iter().map(|address| address.lookup.clone()).filter(|lookup| !lookup.is_empty()).collect();
         let addresses = addresses.into_iter().filter(|address| address.text != number);
-        // Several windows can have the same address.
+        // Remove repeated addresses, because several windows can have the same address.
         let elsewhere = link::unique(addresses.map(|address| format!("{}: {}", address.bus, address.text)));
         let description = words::description(&item.name, item.documentation.as_deref());
         let names = words::names(&item.name, &item.names);

@@ -88,7 +88,7 @@ impl<'a> Folder<'a> {
         }
     }
 
-    /// Begins the pages of a folder.
+    /// Starts a new folder for the next pages, with its own file names.
     fn open(&mut self, folder: String) {
         self.open = folder;
         self.files = Names::default();
@@ -170,12 +170,12 @@ impl<'a> Folder<'a> {
         self.files.file(title) + self.format.ending()
     }
 
-    /// Returns the unused file names and the titles of `count` pages.
+    /// Returns unused file names and the titles for `count` pages.
     fn numbered(&mut self, title: &str, count: usize) -> Vec<(String, String)> {
         (0..count).map(|at| (self.file(title), split::title(title, at, count))).collect()
     }
 
-    /// Writes the pages of a device at this position in its catalog, with the note that lists show.
+    /// Writes the pages of a device. `at` is its position in the catalog, and `note` is the note that lists of devices show.
     fn device(
         &mut self,
         (at, note): (usize, String),
@@ -278,7 +278,7 @@ impl<'a> Folder<'a> {
         (parts, pages)
     }
 
-    /// Writes the pages of a device that follow the pages of items.
+    /// Writes the remaining pages of a device, which follow the pages of its items.
     fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
@@ -321,7 +321,7 @@ impl<'a> Folder<'a> {
 }
 
 impl Common<'_> {
-    /// Returns these links for pages from which `path` leads to the linked pages.
+    /// Returns a copy whose links begin with `path`, for pages in another folder.
     fn from(&self, path: &str) -> Self {
         let moved = |(file, title): &(String, String)| (format!("{path}{file}"), title.clone());
         let (list, shared) = (self.list.as_ref().map(moved), Rc::new(self.shared.moved(moved)));

@@ -10,10 +10,10 @@ const COLUMNS: u32 = 4;
 /// Number of bits in a row of bytes.
 const ROW: u32 = COLUMNS * 8;
 
-/// Maximum number of rows in a grid. The list below the grid contains all entries.
+/// Maximum number of rows in a grid. Longer data are cut off, but the list below the grid contains all entries.
 const MOST_ROWS: usize = 128;
 
-/// Maximum number of bits in a grid. The process data of a device is shorter.
+/// Maximum number of bits in a grid. The process data of real devices are shorter.
 const MOST_BITS: u32 = 1 << 24;
 
 /// A row of bytes or bits.
@@ -21,7 +21,7 @@ const MOST_BITS: u32 = 1 << 24;
 pub(super) struct Row {
     /// Position, such as `bytes 0–3` or `byte 4 bits 7–4`.
     pub position: String,
-    /// Bytes start with the lowest one, and bits with the highest one.
+    /// Cells from left to right: bytes in ascending order, or bits in descending order.
     pub cells: Vec<Cell>,
 }
 
@@ -42,7 +42,8 @@ struct Piece {
     entry: Option<usize>,
 }
 
-/// Returns the rows of process data with `bits` bits. The cells refer to the entries that are not padding.
+/// Returns the rows of process data with `bits` bits. A cell refers to its entry by the position among the entries that are not
+/// padding.
 pub(super) fn rows(entries: &[PdoEntry], bits: u32) -> Vec<Row> {
     let bits = bits.min(MOST_BITS);
     let pieces = pieces(entries, bits);
@@ -72,7 +73,7 @@ pub(super) fn rows(entries: &[PdoEntry], bits: u32) -> Vec<Row> {
     rows
 }
 
-/// Returns consecutive pieces that cover all bits. If entries overlap, the later one loses the common bits.
+/// Returns consecutive pieces that cover all bits. If entries overlap, the common bits belong to the earlier entry.
 fn pieces(entries: &[PdoEntry], bits: u32) -> Vec<Piece> {
     let used = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).enumerate();
     let mut sorted: Vec<Piece> = used
@@ -110,7 +111,7 @@ fn splits_byte(pieces: &[Piece], start: u32) -> bool {
     at(pieces, start).is_some_and(|piece| piece.end < start + 8)
 }
 
-/// Returns the end of a row of whole bytes. Rows end at multiples of four bytes, except if one piece fills several of them.
+/// Returns the end of a row of whole bytes. Rows end at multiples of four bytes, except if one piece fills several such rows.
 fn end_of_bytes(pieces: &[Piece], start: u32) -> u32 {
     let piece_end = at(pieces, start).map_or(start + 8, |piece| piece.end);
     if start.is_multiple_of(ROW) && piece_end >= start + ROW {
@@ -136,7 +137,7 @@ fn cells(pieces: &[Piece], low: u32, high: u32, unit: u32) -> Vec<Cell> {
 mod tests {
     use super::*;
 
-    /// Position, and columns and entry of each cell.
+    /// Position of a row, with the number of columns and the entry of each cell.
     type ShownRow = (String, Vec<(u32, Option<usize>)>);
 
     fn grid(entries: &[(u32, u32)], bits: u32) -> Vec<ShownRow> {

@@ -23,7 +23,7 @@ use super::Page;
 /// The style sheet of the pages.
 const STYLE: &str = include_str!("../templates/site.css");
 
-/// The script. Its parts share one scope, because modules do not load from disk.
+/// The script. Its parts share one scope, because browsers do not load JavaScript modules from disk.
 const SCRIPT: &str = concat!(
     include_str!("../templates/script/frame.js"),
     include_str!("../templates/script/devices.js"),
@@ -75,7 +75,7 @@ impl ListPage<'_> {
     }
 }
 
-/// A part of a page, to measure its size.
+/// A part of a page, rendered only to measure its size.
 #[derive(Template)]
 #[template(
     ext = "html",
@@ -85,14 +85,14 @@ struct SectionPart<'p> {
     section: &'p Section,
 }
 
-/// A part of a page, to measure its size.
+/// A part of a page, rendered only to measure its size.
 #[derive(Template)]
 #[template(ext = "html", source = "{% import \"parts.html\" as parts %}{% call parts::module(module) %}{% endcall %}")]
 struct ModulePart<'p> {
     module: &'p ModuleModel,
 }
 
-/// A row of a list, to measure its size.
+/// A row of a list, rendered only to measure its size.
 #[derive(Template)]
 #[template(
     ext = "html",

@@ -1,12 +1,12 @@
-//! The folder `latest` of each product, which leads to the newest revision.
+//! The folder `latest` of each product, which redirects to the newest revision.
 
 use std::collections::{BTreeMap, HashMap};
 
 use super::pages::{Listed, Pages, FIRST, ROOT};
 use super::Page;
 
-/// Returns a page in each product's folder that leads to the first page of the newest revision. If a revision has a new name, the
-/// folders of both names lead there.
+/// Returns a page in each product's folder that redirects to the first page of the newest revision. If the revisions have different
+/// names, the product has several folders, and each of them redirects to the newest revision.
 pub(super) fn pages(devices: &[Listed], format: &dyn Pages) -> Vec<Page> {
     let (mut folders, mut products) = (BTreeMap::new(), HashMap::new());
     for device in devices {

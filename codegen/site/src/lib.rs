@@ -170,7 +170,7 @@ impl Site {
         pages
     }
 
-    /// Returns a page with the changes between two descriptions, each with its name. The list of devices leads to this page.
+    /// Returns a page with the changes between two descriptions, each with its name. The list of devices links to this page.
     pub fn compare(&mut self, old: (&str, &Catalog), new: (&str, &Catalog)) -> Page {
         let format = self.format.pages();
         let comparison = Comparison::of_catalogs(old, new);

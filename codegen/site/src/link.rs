@@ -25,7 +25,7 @@ pub(super) fn unique<T: Clone + Eq + Hash>(list: impl IntoIterator<Item = T>) ->
 pub(super) struct Relation {
     pub title: &'static str,
     pub links: Vec<Link>,
-    /// Number of further elements.
+    /// Number of further elements, which have no link.
     pub others: usize,
 }
 

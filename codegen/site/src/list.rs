@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::pages::Listed;
 use super::split;
 
-/// Maximum size of the rows on a page in bytes of HTML. Rows are short, and a reader filters them, so a page of a list has more of
-/// them than a page of items.
+/// Maximum size of the rows on a page in bytes of HTML. The limit is higher than the limit of other pages, because rows are short
+/// and readers filter them.
 const SIZE: usize = 280_000;
 
 /// Number of bytes of the tags around the heading of a family.

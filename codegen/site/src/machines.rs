@@ -13,7 +13,7 @@ use lexibus_codegen::ir::{
     Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, Step, SubjectKind, Transition,
 };
 
-/// Name of the command of transitions that need no command.
+/// Text in place of the command, for transitions that need no command.
 const AUTOMATIC: &str = "automatic";
 
 /// A state machine, as a page shows it.

@@ -102,8 +102,8 @@ impl Pages for Markdown {
         ".md"
     }
 
-    /// Returns the file name that repositories display for a folder. Only the top folder uses this name, because `mdBook` renames
-    /// such files and breaks links to them.
+    /// Returns the name of the file that repository hosts such as GitHub display for a folder. Only the top folder uses this name,
+    /// because `mdBook` renames such files and breaks links to them.
     fn front(&self) -> &'static str {
         "README"
     }

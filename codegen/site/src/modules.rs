@@ -37,13 +37,13 @@ pub(super) struct ModuleModel {
 }
 
 impl ModuleModel {
-    /// Returns the numbers that the search finds the module by: ident number and order code.
+    /// Returns the numbers by which the search finds the module: ident number and order code.
     pub fn lookups(&self) -> impl Iterator<Item = &str> {
         [self.number.as_str(), self.order_code.as_str()].into_iter().filter(|number| !number.is_empty())
     }
 }
 
-/// Returns whether a row of the modules has requests with a node-ID or unit.
+/// Returns whether any of the modules has an item whose requests contain a node-ID or a unit.
 pub(super) fn have_requests(modules: &[ModuleModel]) -> bool {
     modules.iter().flat_map(|module| &module.sections).any(|(_, section)| section.has_requests())
 }
@@ -60,8 +60,8 @@ pub(super) struct Modules {
 }
 
 impl Modules {
-    /// Creates the modules of a catalog. `file` returns the file name of the next page. `size` returns the size of a module in bytes,
-    /// which decides how many modules a page has.
+    /// Creates the modules of a catalog. `file` returns the file name of the next page. `size` returns the size of a module in
+    /// bytes, which determines how many modules a page has.
     pub fn new(
         catalog: &Catalog,
         diagnostics: &ShownDiagnostics,
@@ -81,7 +81,8 @@ impl Modules {
         self.files.iter().zip(self.ranges.iter().map(|range| &self.all[range.clone()]))
     }
 
-    /// Returns the name of a module, and its file and anchor. Submodules follow the modules.
+    /// Returns the name of a module or submodule, and its file and anchor. `at` is its position in the list of all modules, in
+    /// which submodules come last.
     pub fn target(&self, at: usize) -> Option<(&str, String)> {
         let module = self.all.get(at)?;
         let (file, _) = self.files.get(self.page_of(at))?;
@@ -146,7 +147,7 @@ fn sections<'g>(
     groups.map(|group| section(group, &mut rows)).collect()
 }
 
-/// Returns the facts that modules and submodules have.
+/// Returns the facts about a module or submodule: its description and order code.
 fn facts(name: &str, documentation: Option<&Documentation>, identity: &Identity) -> Vec<String> {
     let mut facts = words::description(name, documentation);
     let order = &identity.order_code;

@@ -16,7 +16,7 @@ pub(super) struct Overview {
     pub facts: Vec<String>,
     /// Description of the device in other languages.
     pub translations: Vec<(String, String)>,
-    /// Names and values of properties of the identity, the buses and the source file.
+    /// Properties from the identity, the buses and the source file, each with its name and value.
     pub identity: Vec<(&'static str, String)>,
     /// Names and values of facts about a device access point.
     pub access_point: NamedFacts,
@@ -93,7 +93,8 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
     all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
-/// Returns the names and values of the device's bus settings. One row lists all buses; buses have their own row only for settings.
+/// Returns the names and values of the device's bus settings. One row lists all buses. A bus has a separate row only if it has
+/// settings.
 fn settings(device: &Device) -> Vec<(&'static str, String)> {
     let rates = device.canopen.iter().flat_map(|settings| &settings.bit_rates);
     let rates: Vec<String> = rates.map(u16::to_string).collect();
@@ -111,7 +112,7 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
     all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
-/// Returns the term for the addresses of nodes on the buses of a device.
+/// Returns the term for a node address on the device's buses.
 fn addresses(device: &Device) -> &'static str {
     match (device.canopen.is_some(), device.modbus.is_empty()) {
         (true, true) => "Node-IDs",

@@ -55,7 +55,7 @@ impl Frameset {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
 
-    /// Returns the pages that lead from the list of all catalogs to `file`, ending with `file`.
+    /// Returns the breadcrumb trail of `file`: the list of devices, the first page of the device or catalog, and `file` itself.
     pub fn path(&self, file: &str) -> Vec<(&String, &String)> {
         let list = self.list.iter().map(|(file, title)| (file, title));
         let first = self.device_pages.get(0).map(|(file, _)| (file, &self.title));
@@ -84,7 +84,7 @@ impl Frameset {
     }
 }
 
-/// The pages of a catalog for tables of contents.
+/// The pages of a catalog that a table of contents lists.
 #[derive(Debug, Default)]
 pub(super) struct ListedCatalog {
     pub title: String,
@@ -108,7 +108,7 @@ pub(super) struct Listed {
     /// Text that distinguishes the device from others with the same texts, or the number of identical descriptions.
     pub note: String,
     revision_number: u32,
-    /// Text that is equal for the revisions of the product.
+    /// Key of the product, which is equal for all its revisions.
     pub product: String,
     pub buses: String,
     /// Numbers of the device profiles.
@@ -162,21 +162,22 @@ impl Listed {
         (Reverse(self.revision_number), &self.file)
     }
 
-    /// Returns the text that distinguishes the device from others with the same title: the revision, otherwise the file; and the note.
+    /// Returns the text that distinguishes the device from others with the same title: the revision (or the file if there is no
+    /// revision), followed by the note.
     pub fn distinction(&self) -> String {
         let name = if self.revision.is_empty() { &self.file } else { &self.revision };
         let texts = [name.as_str(), &self.note].into_iter().filter(|text| !text.is_empty());
         texts.collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns the words that the search finds the device by, apart from its title.
+    /// Returns the words by which the search finds the device, in addition to its title.
     pub fn words(&self) -> String {
         let identity = [&self.order_code, &self.vendor, &self.family, &self.product_code, &self.revision];
         let others = [&self.buses, &self.profiles, &self.file];
         identity.into_iter().chain(others).map(String::as_str).collect::<Vec<_>>().join(" ")
     }
 
-    /// Returns the path from a page of a list, from which `root` leads to the site's folder.
+    /// Returns the path to the device's first page. `root` is the path from the linking page to the site's folder.
     pub fn path_from(&self, root: &str) -> String {
         match root {
             "." => self.path.clone(),
@@ -206,7 +207,7 @@ pub(super) enum Content<'p> {
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [DiagnosticGroup<'p>]),
     Changes(&'p Comparison),
-    /// A list of devices, in a catalog or in the site. `is_part` is set if further pages continue the list.
+    /// A list of devices, in a catalog or in the site. `is_part` is set if the list has several pages.
     List {
         devices: &'p [Listed],
         is_part: bool,
@@ -222,8 +223,8 @@ pub(super) trait Pages {
     /// Returns the text of the page `file`. `frame` contains its title and links.
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String;
 
-    /// Returns the text of a page that leads to `target`, the newest revision of a product. Returns `None` if the format has no such
-    /// pages.
+    /// Returns the text of a page that redirects to `target`, the newest revision of a product. Returns `None` if the format has no
+    /// such pages.
     fn redirection(&self, title: &str, target: &str) -> Option<String>;
 
     /// Returns the files that the pages of one catalog share.

@@ -62,7 +62,7 @@ impl Parts {
         }
     }
 
-    /// Returns the contents for the overview of the device.
+    /// Returns the table of contents for the overview of the device.
     pub fn contents(&self, slots: Slots) -> Contents {
         let of_frame =
             |(file, frame): (&String, &process::Frame)| (format!("{file}#{}", frame.anchor), frame.title.clone());

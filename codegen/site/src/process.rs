@@ -28,14 +28,14 @@ pub(super) struct Frame {
     pub title: String,
     pub facts: Vec<String>,
     pub doubts: Vec<super::entry::Doubt>,
-    /// COB-ID to which the node-ID is added, with its flags.
+    /// Base of the COB-ID, including its flags, if the COB-ID is the sum of this base and the node-ID.
     pub cob_id_of_node: Option<u32>,
     pub rows: Vec<grid::Row>,
     pub entries: Vec<Entry>,
 }
 
 impl Frame {
-    /// Returns whether at least one entry is an object. The data of PROFINET submodules have no objects.
+    /// Returns whether at least one entry is an object. The data of PROFINET submodules are not objects.
     pub fn has_objects(&self) -> bool {
         self.entries.iter().any(|entry| !entry.object.is_empty())
     }
@@ -148,7 +148,7 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     }
 }
 
-/// Converts a process image for a page. If `of` is not empty, it is the title and replaces the image's name.
+/// Converts a process image for a page. If `of` is not empty, the title is `of` and not the image's name.
 pub(super) fn image(image: &ProcessImage, types: &[TypeDef], anchor: &str, of: &str) -> Frame {
     let direction = match image.direction {
         Direction::Receive => "to the device",

@@ -17,7 +17,7 @@ use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeId};
 pub(super) struct Targets<'d> {
     pub(super) device: &'d Device,
     items: HashMap<ItemId, Link>,
-    /// The objects with several entries, by their indices as shown.
+    /// The objects with several entries, by their indices in the notation of the pages.
     objects: HashMap<String, Link>,
     pdos: Vec<Link>,
     images: HashMap<&'d str, Link>,
@@ -28,7 +28,7 @@ pub(super) struct Targets<'d> {
     messages: Vec<Link>,
 }
 
-/// Parts of a device with the files of their pages.
+/// Parts of a device, with the file names of their pages.
 pub(super) struct Pages<'p> {
     pub areas: &'p [Area],
     pub frames: (Option<&'p str>, &'p [Frame]),

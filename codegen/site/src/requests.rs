@@ -21,7 +21,7 @@ pub(super) type Request = (&'static str, String);
 /// Titles of the requests for records.
 const RECORD: [&str; 2] = ["PROFINET record read", "PROFINET record write"];
 
-/// Returns whether a request is one for a PROFINET record, which has neither a node-ID nor a unit.
+/// Returns whether a request reads or writes a PROFINET record. Such a request has neither a node-ID nor a unit.
 pub(super) fn is_of_record((title, _): &Request) -> bool {
     RECORD.contains(title)
 }
@@ -73,7 +73,8 @@ struct Written {
 }
 
 impl Written {
-    /// Returns the default value of an item on a bus. Returns nothing for items that are not numbers.
+    /// Returns the default value of an item on a bus, or unknown bytes if there is no valid default value. Returns `None` for items
+    /// that are not numbers.
     fn of(item: &Item, types: &[TypeDef], bus: Bus) -> Option<Self> {
         let ty = types::basic(types, item.type_on(bus));
         let is_number =
@@ -92,7 +93,7 @@ impl Written {
         self.bytes.iter().copied().collect()
     }
 
-    /// Returns the byte that fills the registers of the item after the bytes of the value: the sign of a signed value, or 0.
+    /// Returns the byte that pads the value to the size of its registers: the sign extension of an extended signed value, or 0.
     fn fill(&self, register: &RegisterBinding) -> Option<u8> {
         match self.bytes.last() {
             Some(last) if register.extended && self.ty.is_signed() => {
@@ -102,7 +103,7 @@ impl Written {
         }
     }
 
-    /// Returns the Python expression of the bytes. An unknown value is the variable `value`.
+    /// Returns the Python expression of the bytes. The variable `value` represents an unknown value.
     fn python(&self) -> String {
         match (self.known(), self.ty) {
             (Some(bytes), _) => {
@@ -181,7 +182,7 @@ fn words(register: &RegisterBinding, written: &Written) -> Vec<[Option<u8>; 2]> 
     words
 }
 
-/// Returns a word in Python. An unknown word is a variable.
+/// Returns a word in Python. A variable represents an unknown word.
 fn python_word(word: [Option<u8>; 2], at: usize) -> String {
     match word {
         [Some(high), Some(low)] => hex16(u16::from_be_bytes([high, low])),
@@ -189,7 +190,7 @@ fn python_word(word: [Option<u8>; 2], at: usize) -> String {
     }
 }
 
-/// Returns a Modbus RTU request with its CRC. The CRC is unknown if a byte is.
+/// Returns a Modbus RTU request with its CRC. The CRC is unknown if one of the bytes is unknown.
 fn rtu(function: u8, address: u16, data: &[Option<u8>]) -> String {
     let mut frame = known(&[NODE, function]);
     frame.extend(known(&address.to_be_bytes()));
@@ -204,7 +205,8 @@ fn rtu(function: u8, address: u16, data: &[Option<u8>]) -> String {
     }
 }
 
-/// Returns the address of a value in a record. The slot of the submodule depends on the configuration.
+/// Returns the address of a value in a record. The text contains `slot n`, because the slot of the submodule depends on the
+/// configuration.
 fn record(index: u16, bit_offset: u32, bits: u32) -> String {
     let (last, length) = ((bit_offset + bits).saturating_sub(1), tools::record_length(bit_offset, bits));
     format!(
@@ -228,7 +230,7 @@ mod tests {
 
     #[test]
     fn requests_have_the_bytes_of_the_browser_tests() {
-        // The example of the Modbus standard: reads 3 registers from address 107.
+        // The example in the Modbus standard reads 3 registers from address 107.
         assert_eq!(rtu(3, 107, &known(&3_u16.to_be_bytes())), "01 03 00 6B 00 03 74 17");
         let object = Object { index: 0x6040, sub_index: 0 };
         assert_eq!(
@@ -263,7 +265,7 @@ mod tests {
         assert_eq!(texts(&object)[2..], expected);
     }
 
-    /// Returns a 16-bit item in two registers, the high word first.
+    /// Returns an item in two registers, with the high word first. A 16-bit value is extended to both registers.
     fn extended(ty: Type, default: Option<i128>) -> Item {
         let register = RegisterBinding { extended: true, ..RegisterBinding::new(RegisterSpace::Holding, 16, 2) };
         item(Binding::Register(Box::new(register)), ty, default)
@@ -286,7 +288,7 @@ mod tests {
         has(&extended(Type::Integer(16), Some(-0x7000)), "01 10 00 10 00 02 04 FF FF 90 00 ");
         has(&extended(Type::Integer(16), Some(0x7000)), "01 10 00 10 00 02 04 00 00 70 00 ");
         has(&extended(Type::Integer(16), None), "01 10 00 10 00 02 04 xx xx xx xx CRC");
-        // The type on Modbus decides.
+        // The item has 32 bits, but its type on Modbus has 16 bits and determines the request.
         let mut other = extended(Type::Unsigned(32), None);
         other.variants.push(ItemVariant { ty: Some(Type::Integer(16)), ..variant(Bus::Modbus) });
         has(&other, "01 10 00 10 00 02 04 xx xx xx xx CRC");

@@ -16,7 +16,7 @@ const WORDS: usize = 80;
 /// Kind of a page that describes a device. The first entry of such a page is the device.
 pub(super) const DEVICE: &str = "device";
 
-/// Number of entries in the first part of the index whose names or numbers begin with the same character.
+/// Maximum number of entries in the first part of the index for each first character of a name or number.
 const FIRST: usize = 50;
 
 /// A search index.
@@ -28,9 +28,9 @@ pub(super) struct Index {
     /// Searchable texts: name, names in other languages, unit, and the start of the description. Tabs separate these
     /// texts.
     texts: Distinct<String>,
-    /// Anchors within a page; empty if the anchor equals the number.
+    /// Anchors within a page. An anchor that equals the number is stored as an empty text.
     anchors: Distinct<String>,
-    /// Entries: the positions of number, text and anchor in these lists.
+    /// Entries: positions of the number, text and anchor in the three lists above.
     entries: Distinct<[usize; 3]>,
 }
 
@@ -50,7 +50,7 @@ struct Device {
 #[derive(Clone, Debug)]
 struct Page {
     file: String,
-    /// Kind of the entries on the page, such as `state`. The text is empty for items, which have addresses.
+    /// Kind of the entries on the page, such as `state`. Empty for items, because their addresses already identify them as items.
     kind: &'static str,
     /// Positions of the page's entries in the list of entries.
     entries: Vec<usize>,
@@ -97,8 +97,8 @@ impl<T: Clone + Eq + Hash> Distinct<T> {
 
 impl Index {
     /// Adds a device, whose pages are in `folder`, relative to the site's folder. Pages that are added later belong to this device.
-    /// `words` are found together with each entry of the device. `distinction` is shown after the title if several devices have
-    /// this title.
+    /// A search can combine `words` with the text of any entry of the device. `distinction` is shown after the title if several
+    /// devices have this title.
     pub fn device(&mut self, title: &str, words: &str, distinction: &str, folder: &str) {
         let (title, words, distinction) = (line(title), line(words), line(distinction));
         self.devices.push(Device { title, words, distinction, folder: folder.to_owned(), pages: Vec::new() });
@@ -138,7 +138,7 @@ impl Index {
     }
 
     /// Returns the first part of the index: all devices, and for each first character of a name or number the entries that most
-    /// pages have. Each entry is on the first of its pages.
+    /// pages have. Each entry is listed only on the first of its pages.
     fn first(&self) -> Index {
         let mut chosen = self.chosen();
         let mut first = Index::default();
@@ -169,11 +169,11 @@ impl Index {
         let mut is_chosen = |entry: &usize| {
             let [number, text, _] = self.entries.all[*entry];
             let (number, text) = (self.numbers.all[number].as_str(), self.texts.all[text].as_str());
-            // The numbers of bits and values are relative to the entry before.
+            // Skip bits and values, because their numbers are relative to the previous entry.
             if number.is_empty() || is_part(number) {
                 return false;
             }
-            // Readers type indices without `0x`, and the addresses of registers without a word.
+            // Readers type indices without `0x`, and register addresses without the word `register`.
             let digits = number.trim_start_matches(|letter: char| !letter.is_ascii_digit()).trim_start_matches("0x");
             let characters = [text, digits].map(|text| text.chars().next());
             characters.into_iter().flatten().any(|first| {
@@ -228,7 +228,7 @@ impl Index {
         self.devices.iter().map(device).collect()
     }
 
-    /// Returns the entries. Each of their three numbers is the difference from the entry before.
+    /// Returns the entries. Each of the three numbers of an entry is written as the difference from the previous entry.
     fn differences(&self) -> String {
         let mut before = [0; 3];
         let mut numbers = Vec::with_capacity(3 * self.entries.all.len());
@@ -239,9 +239,9 @@ impl Index {
         separated(&numbers)
     }
 
-    /// Returns the entries of the pages as runs of consecutive entries. A page has the number of its runs, then two numbers per
-    /// run. The first number is the difference of the run's first entry from the end of the run before. The second number is the
-    /// length of the run.
+    /// Returns the entries of the pages as runs of consecutive entries. Each page is written as the number of its runs, followed by
+    /// two numbers per run. The first number is the distance from the end of the previous run to the first entry of this run. The
+    /// second number is the length of the run.
     fn runs(&self) -> String {
         let (mut end, mut numbers) = (0, Vec::new());
         for page in self.devices.iter().flat_map(|device| &device.pages) {
@@ -256,7 +256,7 @@ impl Index {
     }
 }
 
-/// Returns whether a number is that of a bit or value, which is a part of the entry before it.
+/// Returns whether a number belongs to a bit or value, which is a part of the previous entry.
 fn is_part(number: &str) -> bool {
     ["bit ", "value "].iter().any(|kind| number.starts_with(kind))
 }
@@ -334,7 +334,8 @@ mod tests {
         assert_eq!(first.devices.len(), 2);
         let pages: Vec<usize> =
             first.devices.iter().flat_map(|device| &device.pages).map(|page| page.entries.len()).collect();
-        // Each device, and each entry on the first of its pages. All names begin with `V`, and all numbers have the digit 1.
+        // The pages list each device, and each other entry only on the first of its pages. All names begin with `V`, and all
+        // numbers have the digit 1.
         assert_eq!(pages, [1, 2 * FIRST, 1]);
         let texts = first.texts.all.join("\n");
         assert!(texts.contains(&format!("Value {}\t", 2 * FIRST + 5)), "the entry on most pages: {texts}");
@@ -349,7 +350,7 @@ mod tests {
         let mut all = Index::default();
         all.device("A", "", "", "a");
         all.page("items.html", "");
-        // Entries with the same first letter fill the places of this letter.
+        // These entries reach the limit for their first letter.
         let names: Vec<String> = (0..FIRST).map(|at| format!("Zone {at}")).collect();
         for name in &names {
             all.entry(&Entry { number: "register 1", ..entry("zone", name) });

@@ -25,9 +25,9 @@ const FIRST_INTERFACE: u16 = 0x8000;
 pub(super) struct SlotRow {
     pub numbers: String,
     pub name: String,
-    /// Links to the modules. The title is the assignment.
+    /// Links to the modules. The title of the relation is the assignment, such as `fixed`.
     pub modules: Relation,
-    /// Modules in words, if the description does not contain them.
+    /// Text in place of the links, if the description does not contain the modules.
     pub note: String,
 }
 
@@ -76,7 +76,7 @@ impl ModuleLinks<'_> {
     }
 }
 
-/// How slots are assigned to modules, in the order of the rows.
+/// How modules are assigned to slots. The order of the variants is the order of the rows.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 enum Assignment {
     Fixed,
@@ -94,7 +94,7 @@ impl Assignment {
     }
 }
 
-/// Modules, by the slots and the assignment that they have in common. Slots are the ranges of [`Numbers`].
+/// Groups of modules that have the same slots and the same assignment. Slots are stored as the ranges of [`Numbers`].
 type Assigned = BTreeMap<(Vec<(u16, u16)>, Assignment), Vec<usize>>;
 
 /// Adds a module at this position in the list of all modules.
@@ -188,7 +188,7 @@ pub(super) fn slots(catalog: &Catalog, device: &Device, links: ModuleLinks<'_>) 
     Slots { slots, subslots, records: records(catalog, device, links) }
 }
 
-/// Returns the last slot of the slots with the same properties.
+/// Returns the number of the last slot that `slot` describes.
 fn last(slot: &Slot) -> u16 {
     slot.number.saturating_add(slot.instances.1.max(1) - 1)
 }

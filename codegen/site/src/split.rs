@@ -1,9 +1,10 @@
-//! Splits long content into pages. The HTML size of the elements decides in all formats, so all formats have the same pages.
+//! Splits long content into pages. The HTML size of the elements determines the page breaks of all formats, so all formats have the
+//! same pages.
 
 use std::ops::Range;
 
-/// Maximum size of the elements on a page in bytes of HTML. The frame of the page and the links between its elements come on top.
-/// A single element can be larger.
+/// Maximum size of the elements on a page in bytes of HTML, without the frame of the page and the links between its elements. A
+/// single element can be larger.
 pub(super) const SIZE: usize = 200_000;
 
 /// Number and size of the elements on a page.
@@ -23,7 +24,7 @@ impl Fill {
         Fill { most, limit: SIZE, count: 0, size: 0 }
     }
 
-    /// Returns whether `count` more elements with this total size fit on the page. All elements fit on an empty page.
+    /// Returns whether `count` more elements with this total size fit on the page. An empty page accepts any elements.
     pub fn fits(&self, count: usize, size: usize) -> bool {
         self.count == 0 || (self.count + count <= self.most && self.size + size <= self.limit)
     }

@@ -4,7 +4,7 @@ use lexibus_codegen::facts::{register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale, TypeDef, Value};
 
 /// Returns the conversion from raw values to physical values: `0.01 0` (scale factor and offset), or `/25000000` (numerator of a
-/// reciprocal). The text is empty if the two values are equal, or if the conversion needs other values.
+/// reciprocal). The text is empty if the two values are equal, or if the conversion needs more than the raw value.
 pub(super) fn scale(item: &Item) -> String {
     match item.quantity.as_deref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(&Scale::Linear { factor, offset }) if factor != 1.0 || offset != 0.0 => format!("{factor} {offset}"),
@@ -33,11 +33,13 @@ pub(super) fn range(item: &Item) -> String {
 
 /// Returns the addresses of an item for requests, separated by `;`.
 ///
-/// - `o 24640 0 ce`: index and sub-index of an object on CANopen and EtherCAT. If a bus has other requests than the access rights of the
-///   item allow, these follow its letter: `crer` is read-only on both buses, and `ce-` has no requests on EtherCAT.
+/// - `o 24640 0 ce`: index and sub-index of an object on CANopen and EtherCAT. If the requests on a bus differ from the access
+///   rights of the item, the letters of the requests follow the letter of the bus: `crer` is read-only on both buses, and `ce-` has
+///   no requests on EtherCAT.
 /// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
 ///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
-/// - `r 1 8 16 4`: record, bit offset and number of bits of the item, and length of the record in bytes as far as it is known.
+/// - `r 1 8 16 4`: record, bit offset and number of bits of the item, and number of bytes from the start of the record to the end
+///   of the item.
 pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> String {
     let address = |binding: &Binding| match binding {
         Binding::Object { buses, index, sub_index } => {
@@ -54,19 +56,21 @@ pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) 
     item.bindings.iter().filter_map(address).collect::<Vec<_>>().join(";")
 }
 
-/// Returns the number of 16-bit words that a request for the item reads. A request can only read whole registers of the device.
+/// Returns the number of 16-bit words that a request for the item reads. A request always reads whole registers of the device,
+/// which can consist of several words.
 pub(super) fn count(register: &RegisterBinding) -> u16 {
     let words = u16::from(register.words_per_address.max(1));
     register.count.div_ceil(words) * words
 }
 
-/// Returns the length of a record that ends with an item, in bytes.
+/// Returns the number of bytes from the start of a record to the end of an item.
 pub(super) fn record_length(bit_offset: u32, bits: u32) -> u32 {
     (bit_offset + bits).div_ceil(8)
 }
 
-/// Returns the letters of the requests on a bus, or nothing if they are those of the item's access rights. A page converts values to the
-/// type of the item, so a bus with another type has no write requests.
+/// Returns the letters of the possible requests on a bus: `r`, `w`, `rw` or `-`. The text is empty if the requests correspond to
+/// the item's access rights. A page converts values only to the item's type, so an item has no write requests on a bus where its
+/// type differs.
 fn rights(item: &Item, bus: Bus) -> &'static str {
     let access = item.access_on(bus);
     let is_writable = access.writable() && item.type_on(bus) == item.ty;

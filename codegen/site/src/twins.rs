@@ -7,7 +7,7 @@ use super::compare::compare_devices;
 use lexibus_codegen::facts;
 use lexibus_codegen::ir::{Catalog, Device};
 
-/// Maximum number of different devices with the same texts with which a device is compared.
+/// Maximum number of devices with which a device is compared. Only devices with the same texts are compared.
 const MOST_COMPARED: usize = 8;
 
 /// A device in a list, which can represent several identical ones.

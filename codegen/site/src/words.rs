@@ -3,8 +3,8 @@
 pub(super) use lexibus_codegen::facts::words::{one_line, PLAIN};
 use lexibus_codegen::ir::{Documentation, Texts};
 
-/// Returns the name of a state or command in words: `switch on disabled` for the identifier `switch_on_disabled`. Names that are no
-/// identifiers in lower case stay.
+/// Returns the name of a state or command in words: `switch on disabled` for the identifier `switch_on_disabled`. Other names than
+/// lowercase identifiers stay unchanged.
 pub(super) fn readable(name: &str) -> String {
     let is_identifier = name.chars().all(|letter| letter.is_lowercase() || letter.is_ascii_digit() || letter == '_');
     if is_identifier {
@@ -48,8 +48,8 @@ pub(super) fn description(name: &str, documentation: Option<&Documentation>) -> 
     paragraphs
 }
 
-/// Returns the translations of a description, each with its languages. Equal texts are handled as in [`names`]. `names` are the names
-/// of the element; translations that only repeat one of them are left out.
+/// Returns the translations of a description, each with its languages. Languages with the same text share one entry, as in
+/// [`names`]. `names` are the names of the element; translations that only repeat one of them are left out.
 pub(super) fn translations(
     name: &str,
     names: &[(String, String)],

@@ -41,7 +41,7 @@ struct Frame<'a> {
     owner: Owner<'a>,
     fields: &'a [MessageField],
     bytes: &'a [u8],
-    /// Fields and bytes of the request, for copies in the reply.
+    /// Fields and bytes of the request, for the reply fields that copy bytes of the request.
     request: Option<(&'a [MessageField], &'a [u8])>,
 }
 

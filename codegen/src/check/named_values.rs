@@ -219,8 +219,8 @@ fn listed(values: &[EnumValue]) -> String {
     }
 }
 
-/// Returns whether a limit is the number of bits, and not a set of bits. Such a limit has a single bit, or all bits up to the end
-/// of the type or up to the last named bit.
+/// Returns whether a limit only bounds the raw number, instead of naming the allowed bits. Such a limit has a single
+/// bit, or all bits up to the end of the type or up to the last named bit.
 fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();

@@ -30,7 +30,7 @@ pub(super) fn name_span(item: &Item) -> Span {
     item.at.name.or(item.origin.span)
 }
 
-/// Returns whether an item is anything except a reserved sub-index, which has no meaning.
+/// Returns whether an item has a meaning, that is, whether it is not a reserved sub-index.
 pub(super) fn has_meaning(item: &&Item) -> bool {
     !item.is_reserved
 }

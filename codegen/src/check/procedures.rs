@@ -59,7 +59,7 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
         Step::Write(name, value) => {
             let item = device.referred(name);
             let why = item.zip(value.as_int()).and_then(|(item, number)| refused(owner, item, number));
-            let why = why.map(|why| format!("writes {} to `{}`, {why}", shown(step), brief(name)));
+            let why = why.map(|why| format!("writes {} to `{}`, {why}", shown(item, value), brief(name)));
             read_only(name).into_iter().chain(why).collect()
         }
         Step::WriteBits(name, mask, value) => read_only(name).into_iter().chain(outside(name, *mask, value)).collect(),
@@ -72,11 +72,13 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     }
 }
 
-fn shown(step: &Step) -> String {
-    match step {
-        Step::Write(_, Value::Int(value)) if *value > 0xFFFF => format!("{value:#X}"),
-        Step::Write(_, value) => value.to_string(),
-        _ => String::new(),
+/// Returns the value of a step as text. Large numbers, and entries of PDO mappings and assignments, are hexadecimal.
+fn shown(item: Option<&Item>, value: &Value) -> String {
+    let object = item.and_then(Item::object);
+    let is_entry = matches!(object, Some((0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C12 | 0x1C13, 1..)));
+    match value {
+        Value::Int(number) if *number > 0xFFFF || (is_entry && *number > 0xFF) => format!("{number:#X}"),
+        _ => value.to_string(),
     }
 }
 
@@ -87,7 +89,7 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {
-        return Some(format!("but its type {ty} cannot hold this value"));
+        return Some(format!("but the type {ty} of this item cannot hold the value"));
     }
     let (low, high) = item.limits.integers();
     let are_ordered = low.zip(high).is_none_or(|(low, high)| low <= high);

@@ -26,7 +26,7 @@ impl Class {
     }
 }
 
-/// The code of a kind of diagnostics, with a stable identifier.
+/// The code for one kind of diagnostics, with a stable identifier.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub struct Code {
     /// Stable identifier of the code, such as `EDS020`.
@@ -129,7 +129,7 @@ codes! {
         header without `]` up to the end of the line, and skips text after `]`. Close the bracket, or delete the text."
     EDS006 INDENTED_HEADER Repair Warn "a section header is not in the first column"
         "CiA 306 requires `[` in the first column. Some tools read an indented header as a value of the section above, \
-        and lose the section. Lexibus reads the section all the same. Delete the blanks before `[`."
+        and lose the section. Lexibus reads the section all the same. Delete the spaces before `[`."
     EDS007 DUPLICATE_SECTION Repair Warn "a section occurs twice"
         "Section names must be unique. Case does not matter. Lexibus merges the entries of both sections. If both have \
         a key, the later value takes precedence and EDS008 reports it. Merge the sections in the file, because other \
@@ -142,7 +142,7 @@ codes! {
         separate line. Lexibus reads the whole line. Shorten the line if other tools use the file."
     EDS010 ILLEGAL_SECTION_NAME Repair Warn "a section name breaks the grammar of CiA 306"
         "The section of an object is its index in four hexadecimal digits, such as `[2000]`. The section of a \
-        sub-index is `[2000sub1]`, with the sub-index in hexadecimal. More leading zeros, a `0x` prefix and blanks are \
+        sub-index is `[2000sub1]`, with the sub-index in hexadecimal. More leading zeros, a `0x` prefix and spaces are \
         not allowed. Lexibus reads `[0x2000]`, for example, as `[2000]`. Correct the name, because other tools may \
         lose the object."
     EDS011 UNKNOWN_SECTION Lint Warn "a section is not defined in CiA 306"
@@ -186,7 +186,7 @@ codes! {
     EDS026 REVERSED_NODEID Repair Warn "a formula does not start with `$NODEID`"
         "CiA 306 requires the form `$NODEID+0x180`. Tools that follow the grammar ignore a formula in the reverse \
         order. Lexibus reads the formula as the standard form. Write `$NODEID` first."
-    EDS027 UNKNOWN_FORMULA Repair Warn "a node-ID formula has an unknown form"
+    EDS027 UNKNOWN_FORMULA Repair Warn "a node-ID formula is not defined in CiA 306"
         "CiA 306 defines only sums of `$NODEID` and numbers. Lexibus keeps any other formula as text. Correct the \
         formula. If it contains another name for the node-ID, declare the name with `--node-id-alias`."
     EDS028 REAL_FOR_INTEGER Repair Warn "a decimal fraction is given for an integer"
@@ -334,7 +334,7 @@ codes! {
     EDS071 HEX_COUNT Lint Warn "the number of list entries is hexadecimal"
         "Many tools read the number of entries of a list only as decimal, and then see an empty list. Lexibus reads \
         hexadecimal too. Write the number in decimal."
-    EDS072 MISSPELLED_KEY Lint Warn "a key is similar to a key that is missing"
+    EDS072 MISSPELLED_KEY Lint Warn "an unknown key is similar to a missing key"
         "The key of an entry is not defined in CiA 306 and differs in at most two letters from a key that the object \
         lacks. Lexibus keeps the entry as an extension attribute and does not use its value. Correct the key if it is \
         misspelled."
@@ -357,11 +357,11 @@ codes! {
         "Lexibus follows references only to files in the folder of the description and in folders below it. The \
         content of the referenced file is missing. Put the file into one of these folders, under the name in the \
         reference."
-    XML006 MISSPELLED_NAME Lint Warn "an unknown name is similar to a name that Lexibus reads"
+    XML006 MISSPELLED_NAME Lint Warn "an unknown element or attribute is similar to a known one"
         "The standard does not define the element or attribute at this position. Its name differs in one letter from a \
         name that Lexibus reads, or in two letters if it has more than eight. Lexibus keeps the value as an extension \
         attribute and does not use it. Correct the name if it is misspelled."
-    ESI001 ESI_VALUE Repair Warn "the value of an element or attribute has an unknown form"
+    ESI001 ESI_VALUE Repair Warn "an attribute or element has an invalid value"
         "ETG.2000 fixes the form of the value, such as a decimal number, `#x` with hexadecimal digits, or one of a few \
         words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold it. \
         Correct the value."
@@ -376,7 +376,7 @@ codes! {
         "The name is neither a DataType of this dictionary nor a base data type of ESI, or the DataType defines only \
         its name. Lexibus keeps the value as raw bytes. Define the type in DataTypes, or use a base data type such as \
         UINT."
-    ESI011 TYPE_ALIAS Lint Allow "a base data type has the name from another standard"
+    ESI011 TYPE_ALIAS Lint Allow "a base data type has a name from another standard"
         "ESI calls the base data types USINT, UINT, UDINT and so on. This file uses the name of the same type in CiA \
         301 or C, such as UNSIGNED16. Lexibus reads the name as the base data type of the same size, so this lint is off \
         by default. Use the ESI name if another tool requires it."
@@ -429,7 +429,7 @@ codes! {
         state its offset and length in this block. BitSize of the data type is the length of the block. If one of them \
         is wrong, a master reads the bits of another sub-item. Lexibus keeps the sub-items. Correct BitOffs or \
         BitSize."
-    ESI030 ESI_MISSING_ACCESS Lint Warn "an object has no access rights"
+    ESI030 ESI_MISSING_ACCESS Lint Warn "the access rights of an object are not declared"
         "The flags of an object or sub-item contain Access: ro, rw or wo. Lexibus makes an item without Access \
         read-only, so that generated code never writes the item by mistake. Add Access."
     ESI031 UNKNOWN_FLAG Repair Warn "a flag has an unknown value"
@@ -463,7 +463,7 @@ codes! {
     ESI050 DUPLICATE_MODULE Lint Warn "two modules have the same ident number"
         "A device identifies a module by its ident number. Lexibus keeps both modules. Correct one of the ident \
         numbers."
-    ESI051 NO_MODULE_FITS Lint Warn "no module fits into a slot"
+    ESI051 NO_MODULE_FITS Lint Warn "a slot accepts only modules that are not described"
         "The slot names ident numbers or classes that no module has, neither in this description nor in the files that \
         it references. Lexibus leaves the slot empty. Put the file with the modules next to the description, or \
         correct the slot."
@@ -483,7 +483,7 @@ codes! {
     XDD005 UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in CiA 311"
         "Lexibus keeps the element or attribute as an extension attribute if it has a value. Many tools add \
         attributes to objects, so this lint is off by default. XML006 reports likely misspellings."
-    XDD006 XDD_VALUE Repair Warn "the value of an attribute has an unknown form"
+    XDD006 XDD_VALUE Repair Warn "an attribute or element has an invalid value"
         "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
         a prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if \
         the intermediate representation can hold it. Correct the value."
@@ -507,7 +507,7 @@ codes! {
     GSD004 UNKNOWN_GSDML_ELEMENT Lint Allow "an element or attribute is not defined in GSDML V2.35"
         "Lexibus keeps the element or attribute as an extension attribute. Files of later versions can have new elements, \
         so this lint is off by default. XML006 reports likely misspellings."
-    GSD005 GSDML_VALUE Repair Warn "the value of an attribute has an unknown form"
+    GSD005 GSDML_VALUE Repair Warn "an attribute or element has an invalid value"
         "The schema fixes the form of the attribute, such as a decimal number, `true`, or a list like `1..3 7`. \
         Lexibus reads the value if it is unambiguous. Otherwise, it leaves the value out. Correct the value."
     GSD006 GSDML_MISSING Repair Warn "a mandatory attribute or element is missing"
@@ -537,7 +537,7 @@ codes! {
         "Numbers are decimal, octets are written as `0x00,0x1F`, and a bit is 0 or 1. Lexibus reads a hexadecimal \
         number, and keeps any other value as text. Correct the value."
     GSD014 ALLOWED_VALUES Repair Warn "a part of AllowedValues is neither a number nor a range"
-        "The list contains numbers and ranges, separated by blanks: `0..4 7 9`. Lexibus swaps the limits of a \
+        "The list contains numbers and ranges, separated by spaces: `0..4 7 9`. Lexibus swaps the limits of a \
         descending range, and leaves out any other part. Correct the list."
     GSD015 RECORD_BOUNDS Lint Warn "a parameter or constant exceeds its record"
         "The content of the record is longer than its Length. A device rejects a record of the wrong length. Lexibus \
@@ -675,7 +675,7 @@ codes! {
     TAB009 REGISTER_SPAN Lint Warn "the printed register numbers do not match the type"
         "A value of 32 bits takes two registers of 16 bits. Lexibus uses the type. Compare the type and the printed \
         numbers with the manual, and correct the wrong one."
-    TAB010 ACCESS_NOT_GIVEN Lint Warn "an item has no access rights"
+    TAB010 ACCESS_NOT_GIVEN Lint Warn "the access rights of an item are not declared"
         "Neither the row nor the defaults of its chapter or file have `access`. Lexibus makes the item read-only, so \
         generated code cannot write the item. Add `access` to the row or to `defaults`."
     TAB011 UNKNOWN_UNIT Lint Warn "a unit is unknown"
@@ -790,11 +790,11 @@ codes! {
         "The code also reports sub-entries of one object, and registers whose names differ only in case. Often the \
         name was copied from the line above. Generated code adds a number to one of the names. Correct the name.\n\
         In formats other than register tables, this lint runs only if you set a level for this code."
-    TAB041 BROKEN_NAME Lint Warn "a name contains a line break or a description, or is a column title"
+    TAB041 BROKEN_NAME Lint Warn "a name contains a hyphen from a line break, contains a description, or is a column title"
         "In a narrow column, the manual breaks a name with a hyphen. The text of the manual often has the whole name. \
         Or the cell with the name also contains values (`0 = Stop`) or a sentence. Or a bit has the title of a column, \
         such as `Definition`, because a line of the table is shifted. Write only the name, and the rest as `doc`."
-    TAB042 EMPTY_LIMIT Lint Warn "a row states only one limit, which equals that limit of its type"
+    TAB042 EMPTY_LIMIT Lint Warn "a row has only one limit, which is also the limit of its type"
         "A minimum of 0, for example, does not restrict an unsigned value. The manual does not state the other limit, \
         or the limit was lost. Write both limits, or neither."
     TAB043 SHARED_REGISTERS Lint Warn "two items share registers or bits of one register"
@@ -819,7 +819,7 @@ codes! {
         "`same_quantity` names an item for the same quantity in another scale. For each model, Lexibus compares the \
         default values as physical values, with a tolerance of 0.1 %. If the units differ, it compares machine values \
         (`[given]`). Correct a default value or a scale."
-    TAB051 NUMBER_GAP Lint Allow "a number is missing between consecutive parameters"
+    TAB051 NUMBER_GAP Lint Allow "a number is missing in a series of parameter numbers"
         "A row of the manual's table may be missing. Devices often skip numbers, so this lint is off by default. Look \
         for the parameter in the manual."
     TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale of the item"
@@ -855,8 +855,8 @@ codes! {
         "At least nine requests have a constant that is directly followed by another constant. The first constant is \
         the same in all of these requests except one. This request is an exception, or its constant is a misprint. \
         Record the assumption in a `doubt`, and `allow` this code."
-    MSG008 STATES_DIFFER Lint Warn "a message contradicts the table of commands and states"
-        "One section of the manual lists the states that accept the command. The table of commands and states \
+    MSG008 STATES_DIFFER Lint Warn "a message contradicts the state-command matrix"
+        "One section of the manual lists the states that accept the command. The state-command matrix \
         contradicts this list for a state. Keep the statement that lists the states one by one, and record the other \
         statement in `doubt`."
     MSG009 MESSAGE_UNSHAPED Lint Warn "no code is generated for a message or a part of the protocol"
@@ -888,7 +888,7 @@ codes! {
         repetitions, or its repetitions have the names of other rows. Lexibus writes the line into the table as a \
         comment. Complete the row by hand. If several lines describe bits of one register, add a column with the bit \
         number."
-    CSV005 CSV_RAGGED_ROW Repair Warn "a line has more or fewer cells than there are titles"
+    CSV005 CSV_RAGGED_ROW Repair Warn "a line has more or fewer cells than there are column titles"
         "Often a cell that is not in quotation marks contains the delimiter, and all cells after it are in the wrong \
         column. Lexibus reads the cells from the left. Put the cell in quotation marks."
     CSV006 CSV_SAME_NAME Lint Warn "two lines have the same name"

@@ -117,7 +117,7 @@ impl Diagnostic {
         self.more.max(1)
     }
 
-    /// Returns a closing diagnostic with another number of further diagnostics.
+    /// Returns a copy of a closing diagnostic with another number of further diagnostics.
     pub fn with_more(&self, more: usize) -> Self {
         Diagnostic { severity: self.severity, ..closing(self.span.file, self.code, more) }
     }

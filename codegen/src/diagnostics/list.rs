@@ -59,7 +59,7 @@ impl Diagnostics {
         }
     }
 
-    /// Removes and suppresses diagnostics with these codes within these spans, now and later. Diagnostics with codes of
+    /// Removes diagnostics with these codes within these spans, and suppresses later ones. Diagnostics with codes of
     /// [`Class::Error`] are kept.
     pub fn allow(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
         self.allowed.extend(spans.into_iter().filter(|(_, code)| code.class != Class::Error));

@@ -5,7 +5,8 @@ use compact_str::{format_compact, CompactString};
 /// LCID of the language that a text without the attribute LcId has.
 pub const ENGLISH: u32 = 1033;
 
-/// LCIDs and the corresponding BCP 47 tags. For a tag without a region, the first entry of the language applies.
+/// LCIDs and the corresponding BCP 47 tags. For a tag without a region, the first entry of the language applies, except for `zh`
+/// and `pt` (see [`lcid`]).
 const LANGUAGES: [(u32, &str); 23] = [
     (1028, "zh-TW"),
     (1029, "cs-CZ"),
@@ -32,8 +33,8 @@ const LANGUAGES: [(u32, &str); 23] = [
     (2070, "pt-PT"),
 ];
 
-/// Returns the rank of a text in the choice of an element's main name. English (1033) comes first, then texts without a language,
-/// then other languages.
+/// Returns the rank of a language for the choice of an element's main name. English (1033) has the lowest rank, followed by names
+/// without a language and by other languages.
 pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,
@@ -51,7 +52,8 @@ pub fn tag(lcid: Option<u32>) -> CompactString {
     }
 }
 
-/// Returns the LCID of a BCP 47 tag. For a tag without a region, returns the LCID of the first entry of the language.
+/// Returns the LCID of a BCP 47 tag. For a tag without a region, returns the LCID of the first entry of the language, except for
+/// `zh` and `pt`.
 pub fn lcid(tag: &str) -> Option<u32> {
     if let Some(number) = tag.strip_prefix("lcid:") {
         return number.parse().ok();

@@ -104,7 +104,8 @@ fn with_parameter(name: &str) -> Option<Basic> {
     if let Some(length) = wide {
         return length_of(length).map(|length| Basic::Type(Type::UnicodeString(Some(length))));
     }
-    // ETG.1000.6 has names without a number for 8, 16, 32 and 64 bits, so only the other widths are read here.
+    // The names of ETG.1000.6 for 8, 16, 32 and 64 bits contain no number (`USINT`, `UINT`), so only the other widths are read
+    // here.
     if let Some(bits @ (24 | 40 | 48 | 56)) = name.strip_prefix("UINT").and_then(width) {
         return Some(Basic::Type(Type::Unsigned(bits)));
     }

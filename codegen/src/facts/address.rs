@@ -7,7 +7,8 @@ use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, Regist
 /// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Name of the bus or buses on which the item has this address, or the kind of address, such as `Window`.
+    /// Bus or buses on which the item has this address. For an address that belongs to no single bus, the kind of address, such
+    /// as `Window`.
     pub bus: &'static str,
     /// Short form of the address, as the source prints it.
     pub number: String,
@@ -35,8 +36,7 @@ fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
         Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),
         Binding::Object { .. } | Binding::Parameter { .. } | Binding::Ascii(_) => number(binding),
     };
-    // An indirect access adds no search term, because its number is that of a register or parameter, which already is a
-    // search term.
+    // Indirect access adds no search term: the window uses the number of a register or parameter, which is already a search term.
     let lookup = if matches!(binding, Binding::Indirect(_)) { String::new() } else { text.clone() };
     Address { bus: bus(binding), number: text.clone(), lookup, text }
 }
@@ -82,7 +82,7 @@ pub fn object(index: u16, sub_index: u8) -> String {
     format!("0x{index:04X}:{sub_index:02X}")
 }
 
-/// Returns the bus or buses of an address, or the kind of an address that belongs to no single bus.
+/// Returns the bus or buses of an address. For an address that belongs to no single bus, returns the kind of address.
 pub fn bus(binding: &Binding) -> &'static str {
     match binding {
         Binding::Object { buses, .. } => object_bus(*buses),

@@ -59,12 +59,12 @@ pub enum LeftOut {
     Command,
     /// The entry is not part of the PDO mapping, because its sub-index is greater than the number of entries.
     NotMapped,
-    /// The value is not a value of the object's type.
+    /// The value does not fit the type of the object.
     NoValue,
 }
 
 impl LeftOut {
-    /// Returns a noun phrase for the objects.
+    /// Returns a noun phrase for the objects that are left out for this reason.
     pub fn text(self) -> &'static str {
         match self {
             LeftOut::ReadOnly => "read-only objects",
@@ -112,7 +112,7 @@ impl Configuration {
         phases.into_iter().chain([&self.disable_pdos, &self.enable_pdos]).all(Vec::is_empty)
     }
 
-    /// Adds the configured values of an object, or leaves them out for the reason `left_out`.
+    /// Adds the configured values of an object. If `left_out` is given, all values are left out for this reason.
     fn add_object(&mut self, index: u16, group: &Group, types: &[TypeDef], left_out: Option<LeftOut>) {
         let settings = configured(group, types, left_out, &mut self.left_out);
         match index {
@@ -143,8 +143,9 @@ impl Configuration {
     }
 }
 
-/// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. A file that a tool
-/// saved from a running drive contains such values. The objects of each further axis are 0x800 higher (CiA 402-2).
+/// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. These values are not
+/// written, because a file that a tool saved from a running drive can contain them. The objects of each further axis are 0x800
+/// higher (CiA 402-2).
 fn is_motion_command(index: u16) -> bool {
     const AXIS: u16 = 0x800;
     (0x6000..0xA000).contains(&index)
@@ -158,8 +159,8 @@ struct Pdo<'d> {
     mapping: Option<&'d Group>,
 }
 
-/// Returns the configured COB-ID of a PDO, or the default COB-ID if it contains a CAN identifier. Returns `None` if the COB-ID must
-/// not be written.
+/// Returns the configured COB-ID of a PDO, or the default COB-ID if it contains a CAN identifier. Returns `None` if there is no
+/// such COB-ID, or if it must not be written.
 fn cob_id(communication: &Group) -> Option<&Value> {
     let item = communication.sub(1).filter(|item| reason(communication, item).is_none())?;
     item.configured_value().or_else(|| item.default.as_ref().filter(|value| has_identifier(value)))
@@ -173,7 +174,8 @@ fn with_flags(cob_id: &Value, flags: i128) -> Value {
     }
 }
 
-/// Returns the settings of the configured items of an object, unless there is a reason to leave out the object.
+/// Returns the settings that write the configured items of an object. Adds each item that is not written to `left_out`, with the
+/// reason. `of_object` is a reason to leave out the whole object.
 fn configured(
     group: &Group,
     types: &[TypeDef],
@@ -192,8 +194,8 @@ fn configured(
     settings
 }
 
-/// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings clear the mapping first,
-/// and contain all entries. Some devices lose entries that are not written again.
+/// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings first clear the mapping
+/// and then write all entries, because some devices lose entries that are not written again.
 fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), LeftOut)>) -> Vec<Setting> {
     let mut settings = configured(group, types, None, left_out);
     let count = group.sub(0).filter(|item| reason(group, item).is_none());
@@ -224,7 +226,7 @@ fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), Left
     clear.into_iter().chain(entries).chain(of_count(number).filter(|_| number > 0)).collect()
 }
 
-/// Returns the reason why an item cannot be written.
+/// Returns the reason why an item must not be written, or `None` if it can be written.
 fn reason(group: &Group, item: &Item) -> Option<LeftOut> {
     /// Bit of ObjFlags: the object must not be written when a configuration is downloaded.
     const REFUSES_WRITE: u32 = 1;
@@ -237,7 +239,7 @@ fn reason(group: &Group, item: &Item) -> Option<LeftOut> {
     }
 }
 
-/// Returns the setting of a value. Returns `None` if the value does not fit the type of the item.
+/// Returns the setting that writes a value to an item. Returns `None` if the value does not fit the type of the item.
 fn setting(item: &Item, value: &Value, types: &[TypeDef]) -> Option<Setting> {
     let ty: Type = types::basic(types, item.object_type());
     let bytes = match value {
@@ -376,7 +378,7 @@ mod tests {
         assert_eq!(is_default(&pdo(255)), [true; 3]);
     }
 
-    /// The default COB-ID of a disabled PDO often has no identifier. The PDO cannot be enabled with it.
+    /// The default COB-ID of a disabled PDO often contains no CAN identifier, so it cannot enable the PDO.
     #[test]
     fn a_cob_id_without_an_identifier() {
         let rows = [(0, RO, Some(2), None), (1, RW, Some(0x8000_0000), None), (2, RW, Some(255), Some(1))];

@@ -2,8 +2,8 @@
 
 use crate::ir::{Type, Value};
 
-/// Returns the bytes of a value of a basic type. Returns `None` for a formula, for a text that has no value of the type, and for
-/// a number without a known length.
+/// Returns the bytes of a value of a basic type. Returns `None` for a formula, for a text that could not be converted to the
+/// type, and for a number if the length of the type is unknown.
 pub fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     match (value, ty) {
         (Value::Bytes(bytes), _) => Some(bytes.clone()),
@@ -21,13 +21,13 @@ pub fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     }
 }
 
-/// Returns the bytes of a number of a basic type. The number is cut to the length of the type.
+/// Returns the bytes of a number, cut to the length of a basic type. Returns `None` if this length is unknown.
 pub fn number(number: i128, ty: Type) -> Option<Vec<u8>> {
     let length = ty.bits()?.div_ceil(8) as usize;
     number.to_le_bytes().get(..length.min(16)).map(<[u8]>::to_vec)
 }
 
-/// Returns whether a value is a value of this basic type, for each node-ID if the value is a formula.
+/// Returns whether a value fits a basic type. A formula fits only if its result fits for each node-ID.
 pub fn fits(value: &Value, ty: Type) -> bool {
     /// Range of node-IDs.
     const NODES: (i128, i128) = (1, 127);

@@ -5,9 +5,9 @@ use super::types;
 use super::words::PLAIN;
 use crate::ir::{Group, Item, Limits, Mappable, ObjectCode, Quantity, Scale, Type, TypeDef, Value};
 
-/// Returns the name of an item. Many files name the entries of an object `SubIndex 001`, or not at all. Such an entry has the name of its
-/// object and its sub-index: `RxPDO 1 mapping, sub-index 1`. Sub-index 0 contains the number of entries (CiA 301). The value of an object
-/// without sub-indices has the name of the object.
+/// Returns the name of an item. Many files state no name, or only a placeholder such as `SubIndex 001`. In this case, sub-index 0
+/// is called `Number of entries` (CiA 301), and other sub-indices are called by object and sub-index: `RxPDO 1 mapping, sub-index
+/// 1`. The value of an object without sub-indices then has the name of the object.
 pub fn entry_name(item: &Item, group: &Group) -> String {
     let has_subs = group.object_code().is_some_and(ObjectCode::has_subs);
     match item.object() {
@@ -88,8 +88,8 @@ pub fn range_cell(item: &Item, types: &[TypeDef], shown: usize) -> String {
     }
 }
 
-/// Returns the unit of the physical value. The text is empty if the item has no unit, or if its scale has an exponent
-/// item.
+/// Returns the unit of the physical value. The text is empty if the item has no unit, or if another item contains the exponent of
+/// the physical value.
 pub fn unit(item: &Item) -> &str {
     match item.quantity.as_deref() {
         Some(Quantity { scale: Some(Scale::Exponent { .. }), .. }) | None => "",

@@ -2,9 +2,9 @@
 
 use crate::ir::{StateMachine, Transition};
 
-/// Returns the names of the fault states. These are the states that the source lists, the states to which automatic transitions from
-/// any state lead, and the states that follow the latter automatically. Automatic transitions from any state are reactions to faults.
-/// A listed state can end automatically without a fault, so its successors are not added.
+/// Returns the names of the fault states. An automatic transition from any state is a reaction to a fault, so its target and the
+/// states that follow the target automatically are fault states. The states that the source lists as fault states are added
+/// without their successors, because a device can leave a fault state automatically.
 pub fn fault_states(machine: &StateMachine) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     loop {

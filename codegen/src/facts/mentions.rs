@@ -20,9 +20,9 @@ pub enum Mention {
 /// The names that texts can mention.
 #[derive(Debug, Default)]
 pub struct Mentions<'d> {
-    /// Items and messages with names that are no ordinary words.
+    /// Items and messages whose names are not ordinary words.
     identifiers: HashMap<&'d str, Vec<Mention>>,
-    /// Items and messages with names in which only the first letter is a capital, as in the first word of a sentence.
+    /// Items and messages whose names have a capital only as the first letter, like the first word of a sentence.
     capitalized: HashMap<&'d str, Vec<Mention>>,
     objects: HashMap<u16, Mention>,
     /// States, which texts mention in quotes.
@@ -96,7 +96,8 @@ impl<'d> Mentions<'d> {
 
     /// Returns the elements that a text mentions.
     fn of_text(&self, text: &str) -> Vec<Mention> {
-        /// Words before the index of an object or a capitalized name. Other hexadecimal numbers can be codes.
+        /// Words that precede the index of an object or a capitalized name. Without such a word, a hexadecimal number can be a
+        /// code, and a capitalized word can start a sentence.
         const BEFORE: [&str; 4] = ["in", "of", "object", "objects"];
         let mut all: Vec<Mention> =
             words(text).filter_map(|word| self.identifiers.get(word)).flatten().copied().collect();
@@ -129,12 +130,12 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
         .filter(|word| !word.is_empty())
 }
 
-/// Returns whether a word is no ordinary word: `digital_inputs`, `DRV.OPMODE`, `CmdGetAlarm`, `MAXTORQUE`, `c8`. Abbreviations such
-/// as `CAN` and `PDOs` are ordinary words.
+/// Returns whether a word is not an ordinary word: `digital_inputs`, `DRV.OPMODE`, `CmdGetAlarm`, `MAXTORQUE`, `c8`.
+/// Abbreviations such as `CAN` and `PDOs` are ordinary words.
 fn is_identifier(word: &str) -> bool {
     /// Names of networks and organizations that are spelled like identifiers.
     const PROPER_NAMES: [&str; 7] = ["CiA", "DeviceNet", "EtherCAT", "EtherNet", "POWERLINK", "PROFIBUS", "PROFINET"];
-    /// Number of letters from which a word in capitals is no abbreviation.
+    /// Minimum number of letters of an identifier in capitals. Shorter words in capitals are abbreviations.
     const LONG: usize = 8;
     let has_digit = word.chars().any(|letter| letter.is_ascii_digit()) && word.chars().any(char::is_alphabetic);
     let mut pairs = word.chars().zip(word.chars().skip(1));
@@ -223,7 +224,7 @@ mod tests {
         assert_eq!(of("Rhsts, current and 0x2001"), []);
         assert_eq!(of("A bit in digital_inputs for each value of c8."), [item(0), item(3)]);
         assert_eq!(of("error codes in 0x2001, object 0x3000"), [object]);
-        // An item can have the name of something else.
+        // These words are not mentions, although items have these names.
         assert_eq!(of("CAN error: fault of CAN, too many PDOs in CANopen, EtherCAT or PROFINET"), []);
         assert_eq!(of("Not possible in this OpMode: increase MAXTORQUE"), [item(9), item(10)]);
         assert_eq!(of("CmdGetAlarm leaves \"alarm\", not alarm"), [Mention::Message(0), Mention::State(0, 0)]);

@@ -57,8 +57,8 @@ pub fn mappable(item: &Item, mapped: &HashMap<(u16, u8), Mappable>) -> Mappable 
     Mappable { rpdo: item.mappable.rpdo || by_default.rpdo, tpdo: item.mappable.tpdo || by_default.tpdo }
 }
 
-/// Returns the length in bits of an item in a PDO. A text with a known length has a fixed number of bits too. Returns `None` if no
-/// entry can have this length.
+/// Returns the length in bits of an item in a PDO. A string always has its maximum length in a PDO. Returns `None` if the length
+/// is unknown, or if no entry can have this length.
 pub fn mapped_bits(item: &Item, types: &[TypeDef]) -> Option<u32> {
     let bits = match types::basic(types, item.object_type()) {
         Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
@@ -67,12 +67,13 @@ pub fn mapped_bits(item: &Item, types: &[TypeDef]) -> Option<u32> {
     bits.filter(|bits| (1..=MAX_ENTRY).contains(bits))
 }
 
-/// Returns whether the mapping of a PDO can be changed, if its mapping object is writable.
+/// Returns whether the mapping of a PDO can be changed. Does not check whether the mapping object is writable.
 pub fn is_changeable(pdo: &Pdo) -> bool {
     !(pdo.fixed || pdo.is_virtual || pdo.depends_on_slot || pdo.depends_on_slot_group)
 }
 
-/// Returns the number of writable entries in a mapping object. Returns `None` if the number of entries is read-only.
+/// Returns the number of writable entries in a mapping object. Returns `None` if there are none, or if the number of entries is
+/// read-only.
 pub fn writable_entries(mapping: &Group) -> Option<usize> {
     let is_writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
     let entries = (1..=u8::MAX).take_while(is_writable).count().min(MAX_PDO_SUBS);

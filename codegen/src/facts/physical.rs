@@ -67,7 +67,8 @@ impl<'q> Physical<'q> {
         self.numbers(limits).unwrap_or_else(|| format!("raw {}", span((limits.0.map(raw), limits.1.map(raw)))))
     }
 
-    /// Returns the range of the physical values: `-20.0 … 200.0`. Returns `None` if the physical values are unknown.
+    /// Returns the range of the physical values: `-20.0 … 200.0`. Returns `None` if a physical value is unknown, or if the
+    /// conversion has a pole in the range.
     fn numbers(&self, (low, high): (Option<&Value>, Option<&Value>)) -> Option<String> {
         match (low.map(|low| self.number(low)), high.map(|high| self.number(high))) {
             (Some(None), _) | (_, Some(None)) => None,
@@ -77,8 +78,8 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Returns whether the range from `low` to `high` contains a pole of the conversion (division by zero). A range
-    /// without a limit is unbounded on this side.
+    /// Returns whether the range from `low` to `high` contains a pole of the conversion (division by zero). `None` means that the
+    /// range has no minimum or no maximum.
     fn has_pole_in(&self, low: Option<&Value>, high: Option<&Value>) -> bool {
         let is_above = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value > 0.0);
         let is_below = |value: Option<&Value>| value.and_then(Value::as_real).is_some_and(|value| value < 0.0);
@@ -94,7 +95,7 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Formats a difference, without the offset of the scale: `0.5 K (raw 5)`.
+    /// Formats a difference between two values, to which the offset of the scale does not apply: `0.5 K (raw 5)`.
     pub fn step(&self, step: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match *self.scale {
             Scale::Linear { factor, .. } => {
@@ -137,8 +138,8 @@ pub fn depends_on_node(limits: &Limits) -> bool {
     [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))))
 }
 
-/// Returns the physical value with the decimals of the scale: raw value 250 with scale factor 0.1 is `25.0`. The result is exact if factor
-/// and offset are decimal numbers.
+/// Returns the physical value with as many decimals as factor and offset have: raw value 250 with scale factor 0.1 is `25.0`. The
+/// result is exact if neither factor nor offset has more than nine decimals.
 fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
     let exact = || {
         let (factor, offset) = (Decimal::of(factor)?, Decimal::of(offset)?);

@@ -21,12 +21,12 @@ pub fn access_point(catalog: &Catalog, device: &Device) -> NamedFacts {
     facts
 }
 
-/// Formats a time in units of 31.25 µs: `0.25`.
+/// Converts a time in units of 31.25 µs to milliseconds: `0.25`.
 fn milliseconds(units: u16) -> String {
     (f64::from(units) / UNITS_PER_MS).to_string()
 }
 
-/// Formats times in units of 31.25 µs: `0.25, 0.5, 1 ms`. The text is empty if there are none.
+/// Converts times in units of 31.25 µs to milliseconds: `0.25, 0.5, 1 ms`. The text is empty if there are none.
 fn times(units: &Numbers) -> String {
     if units.is_empty() {
         return String::new();
@@ -50,7 +50,7 @@ fn tokens(list: &str) -> String {
     list.split(';').map(str::trim).filter(|token| !token.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
-/// Parses a list of numbers and ranges (`1 2 4..8`). Ignores parts that are no numbers.
+/// Parses a list of numbers and ranges (`1 2 4..8`). Ignores parts that are not numbers.
 fn numbers(list: &str) -> Numbers {
     let range = |part: &str| {
         let (first, last) = part.split_once("..").unwrap_or((part, part));

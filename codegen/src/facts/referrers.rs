@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::ir::{Condition, Device, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape, Step, TypeDef, TypeId};
 
-/// An element that refers to an item. Elements without an id are given by their position in the list of the device.
+/// An element that refers to an item. An element without an id is identified by its position in the device's list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Referrer {
     /// A PDO that maps the item.
@@ -56,8 +56,7 @@ impl Referrers {
         referrers
     }
 
-    /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages, composite numbers,
-    /// types, and items.
+    /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages, types and other items.
     pub fn of(&self, item: ItemId) -> &[Referrer] {
         self.0.get(&item).map_or(&[], Vec::as_slice)
     }
@@ -85,7 +84,7 @@ impl Referrers {
         items.into_iter().for_each(|item| self.add(item.id, referrer));
     }
 
-    /// Adds a referrer, unless it is the last one that was added to the item.
+    /// Adds a referrer to an item, unless the last added referrer of the item is the same element.
     fn add(&mut self, item: Option<ItemId>, referrer: Referrer) {
         let Some(item) = item else { return };
         let referrers = self.0.entry(item).or_default();

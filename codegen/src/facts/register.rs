@@ -13,7 +13,8 @@ impl RegisterSpace {
         }
     }
 
-    /// Returns the function codes to read, to write one element, and to write several elements (MODBUS Application Protocol V1.1b3, 6).
+    /// Returns the function codes for reading, for writing one element, and for writing several elements (MODBUS Application
+    /// Protocol V1.1b3, 6).
     fn functions(self) -> ([u8; 1], &'static [u8], &'static [u8]) {
         match self {
             RegisterSpace::Coil => ([1], &[5, 15], &[15]),

@@ -13,7 +13,7 @@ use crate::ir::{
 pub struct Words<'w> {
     /// Escapes a text so that the output shows it literally, on one line.
     pub escape: fn(&str) -> String,
-    /// Returns a link to an element with this text, or `None` if the output does not contain the element.
+    /// Returns a link to an element, or `None` if the output does not contain the element. The link has the given text.
     pub link: &'w dyn Fn(ElementId, &str) -> Option<String>,
 }
 

@@ -10,8 +10,8 @@ const REPLACEMENT: char = '\u{FFFD}';
 pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let Some((message, read_as)) = mismatch(source) else { return };
     let is_meant = |letter: char| if read_as.is_some() { !letter.is_ascii() } else { letter == REPLACEMENT };
-    // A file that contains only ASCII characters has the same bytes in the declared encoding and in UTF-8. In UTF-16,
-    // even the first character has different bytes.
+    // A file that contains only ASCII characters is not reported, because it has the same bytes in the declared
+    // encoding and in UTF-8. A file in UTF-16 is always reported, because even its first character has different bytes.
     let found = source.text().char_indices().find(|(_, letter)| is_meant(*letter));
     let found = found.or_else(|| source.text().char_indices().next().filter(|_| source.encoding() == Encoding::Utf16));
     let Some((at, letter)) = found else { return };
@@ -27,8 +27,8 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Returns the message of the diagnostic, and the encoding with which the file was decoded. The encoding is `None` if
-/// some bytes could not be decoded.
+/// Returns the message of the diagnostic, and the encoding with which the file was decoded. This encoding is `None` if
+/// some bytes could not be decoded. Returns `None` if the bytes match the declared encoding.
 fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
     const ANOTHER: &str = "the file is not in its declared encoding";
     // The default encoding is UTF-8 (XML 1.0, 4.3.3).

@@ -1,5 +1,6 @@
-//! Detects the format of a file by its content. The file name decides between EDS and DCF, which have almost the same
-//! sections.
+//! Detects the format of a file by its content. EDS and DCF files have almost the same sections, so the extension of
+//! the file name distinguishes them. If the extension is neither `.eds` nor `.dcf`, the file is a DCF if it has a
+//! section or key that only a DCF has.
 
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Format;
@@ -46,7 +47,7 @@ pub(super) fn eds(source: &Source) -> Option<Format> {
         Some("dcf") => Some(Format::Dcf),
         _ => None,
     };
-    // The first section usually identifies the format, so the whole file need not be parsed.
+    // The first section usually identifies a CANopen file, so the rest of the file need not be parsed.
     if by_name.is_some() && starts_as_canopen(source.text()) {
         return by_name;
     }
@@ -127,8 +128,8 @@ fn local_name(name: &str) -> &str {
     name.rsplit(':').next().unwrap_or(name)
 }
 
-/// Returns whether an ISO 15745 profile describes a PROFINET device. CANopen XDD files have the same root element as
-/// GSDML files.
+/// Returns whether an ISO 15745 profile describes a PROFINET device. The root element does not show this, because
+/// CANopen XDD files have the same root element as GSDML files.
 fn is_gsdml(text: &str) -> bool {
     let head = head(text);
     ["/GSDML/", "GSDML-DeviceProfile", "<DeviceAccessPointList"].iter().any(|mark| head.contains(mark))
@@ -160,7 +161,7 @@ fn root_element(text: &str) -> Option<(&str, usize)> {
     None
 }
 
-/// Names of sections in EtherNet/IP EDS files that CiA 306 does not define.
+/// Names of sections that EtherNet/IP EDS files have, and that CiA 306 does not define.
 const CIP_SECTIONS: [&str; 9] = [
     "File",
     "Device",

@@ -27,7 +27,7 @@ struct Input<'s> {
     file: FileId,
     /// Further names of `$NODEID` in formulas.
     node_id_aliases: &'s [String],
-    /// Choices for the options of a register table, as option name and choice.
+    /// Name of each option of a register table, with the chosen value.
     choices: &'s [(String, String)],
     /// Access to the files to which the source refers.
     references: References<'s>,
@@ -108,8 +108,8 @@ fn recognized(source: &Source, file: FileId) -> Result<(Format, &'static FrontEn
     found.ok_or_else(|| Box::new(detect::unknown(source, file)))
 }
 
-/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`. `choices` are the
-/// choices for the options of a register table.
+/// Reads a file with the front end of its format. `node_id_aliases` are further names of `$NODEID`. `choices` contains
+/// the name and the chosen value of each option of a register table.
 pub(crate) fn read(
     source: &Source,
     node_id_aliases: &[String],
@@ -132,14 +132,14 @@ pub(crate) fn read(
             None
         }
     };
-    // A DCF differs from an EDS by the commissioning section, not by its file name.
+    // A file with the extension `.eds` is a DCF if it has a commissioning section.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
     let is_configuration = format == Format::Eds && devices.any(|device| device.commissioning.is_some());
     let (others, missing) = input.references.into_files();
     Description { format: Some(if is_configuration { Format::Dcf } else { format }), catalog, others, missing }
 }
 
-/// Applies the overlay `source` to the devices or modules in `catalog` that it selects.
+/// Applies the overlay `source` to those devices or modules in `catalog` that the overlay selects.
 pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     #[cfg(feature = "table")]
     super::table::overlay::apply(source, file, catalog, diagnostics);

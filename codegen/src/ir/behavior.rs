@@ -141,7 +141,7 @@ pub enum Binding {
     Indirect(Box<IndirectBinding>),
 }
 
-/// The buses on which an object has the same index.
+/// The buses on which an object has a certain address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObjectBuses {
@@ -156,7 +156,7 @@ impl ObjectBuses {
     pub const CANOPEN: ObjectBuses = ObjectBuses { canopen: true, coe: false };
     /// Buses of an object that exists on EtherCAT only.
     pub const COE: ObjectBuses = ObjectBuses { canopen: false, coe: true };
-    /// Buses of an object that exists on neither bus.
+    /// The empty set of buses.
     pub const NONE: ObjectBuses = ObjectBuses { canopen: false, coe: false };
 }
 
@@ -455,10 +455,10 @@ pub struct Availability {
     pub models: Vec<CompactString>,
     /// First firmware version that has the element.
     pub since: Option<CompactString>,
-    /// First later firmware version that no longer has the element.
+    /// First firmware version after `since` that no longer has the element.
     pub until: Option<CompactString>,
-    /// Replacement for the element. An item or message replaces an item or message, and a bit or value replaces a bit
-    /// or value. A reference to a bit or value has no id.
+    /// Replacement for the element. An item or message is replaced by an item or message, and a bit or value by a bit or value. A
+    /// reference to a bit or value has no id.
     pub replaced_by: Option<ElementRef>,
     /// Hardware options that the element requires.
     pub options: Vec<CompactString>,

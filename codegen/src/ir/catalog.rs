@@ -14,7 +14,7 @@ use crate::source::{Digest, Encoding, Origin, Span};
 pub struct Catalog {
     /// Files from which the catalog was read. A span refers to a file by its position in this list.
     pub files: Vec<FileInfo>,
-    /// Devices, in the order of the description file. A device access point of GSDML is a device.
+    /// Devices, in the order of the description file. Each device access point of a GSDML file is a separate device.
     pub devices: Vec<Device>,
     /// Modules of all devices.
     pub modules: Vec<Module>,
@@ -155,7 +155,7 @@ impl Doubt {
     }
 }
 
-/// The consequence of a wrong assumption. The variants are in descending order of seriousness.
+/// The consequence of a wrong assumption. The variants are sorted from the most to the least serious consequence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

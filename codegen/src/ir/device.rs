@@ -17,7 +17,7 @@ pub struct Device {
     pub names: Texts,
     /// Identifier of the device in the source, if any (ID of a device access point).
     pub id: CompactString,
-    /// True if the description is not a device, but a dictionary to which devices refer (EtherCATDict of ETG.2000).
+    /// True if the description contains only a dictionary that devices share, and no device (EtherCATDict of ETG.2000).
     pub dictionary_only: bool,
     /// Identity: vendor, product and revision.
     pub identity: Identity,
@@ -29,7 +29,7 @@ pub struct Device {
     pub ethercat: Option<Box<EtherCatSettings>>,
     /// Settings of the device on PROFINET.
     pub profinet: Option<Box<ProfinetSettings>>,
-    /// Requests that the device accepts for each Modbus table, if the source states the requests.
+    /// Requests that the device accepts for each Modbus table, if the source states them.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub modbus: Vec<ModbusTable>,
     /// Example Modbus frames in the source: node address, function code and data, with or without CRC.
@@ -95,7 +95,7 @@ impl Device {
         self.groups.iter().flat_map(|group| &group.items)
     }
 
-    /// Returns the object with this index. Objects have to be sorted by index, after all other groups.
+    /// Returns the object with this index. The objects must be sorted by index, and must follow all other groups.
     pub fn object(&self, index: u16) -> Option<&Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
         self.groups.get(position)

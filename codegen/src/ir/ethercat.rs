@@ -15,7 +15,7 @@ pub struct EtherCatSettings {
     pub hides: Vec<(Option<u32>, Option<u32>)>,
     /// True if engineering tools hide the device itself (`Invisible`).
     pub invisible: bool,
-    /// FMMUs in the order of the slave controller.
+    /// FMMUs, in the order in which the slave controller numbers them.
     pub fmmus: Vec<Fmmu>,
     /// Sync units of the device.
     pub sync_units: Vec<SyncUnit>,
@@ -185,7 +185,7 @@ pub struct ClockMode {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockTime {
-    /// Time in nanoseconds; 0 if the time follows from the cycle time.
+    /// Time in nanoseconds; 0 if the master calculates the time from the cycle time.
     pub nanoseconds: i32,
     /// Factor by which the cycle time is multiplied (for SYNC1, the cycle time of SYNC0); a negative number is a
     /// divisor.

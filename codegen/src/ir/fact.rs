@@ -104,7 +104,7 @@ fn text(item: &Item) -> &str {
 pub enum FactOrigin {
     /// The description itself. This origin is recorded only if the description states that the item lacks the fact.
     Stated,
-    /// The name that the manual prints. The text of the description only spells out this name.
+    /// The name that the manual prints. The description of the item only spells out this name.
     PrintedName,
     /// An overlay of the user.
     Overlay(Box<OverlayOrigin>),
@@ -136,7 +136,7 @@ pub struct OverlayOrigin {
 pub enum Rule {
     /// Items without stated access rights are read-write, except Modbus inputs, which are read-only.
     UnstatedAccess,
-    /// A reserved sub-index is read-only if it only inherits read-write access.
+    /// A reserved sub-index is read-only, even if it inherits read-write access.
     ReservedEntry,
     /// Objects of implicit PDOs, which the description counts but does not describe, have the facts of CiA 301.
     AnnouncedPdo,
@@ -188,7 +188,7 @@ impl FactOrigins {
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
         self.0.retain(|(recorded, _)| *recorded != fact);
         if let Some(origin) = origin {
-            // Most items have one or two origins, but a vector that grows has room for four.
+            // This saves memory: most items have one or two origins, but a growing vector allocates room for four.
             self.0.reserve_exact(1);
             self.0.push((fact, origin));
         }

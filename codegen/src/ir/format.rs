@@ -66,8 +66,8 @@ impl Format {
         }
     }
 
-    /// Returns a help text for a default value in an ESI, whose notation depends on the element (DefaultData of
-    /// ETG.2000). Returns `None` for other formats.
+    /// Returns a help text about the notations of a default value in the elements DefaultData and DefaultValue of an ESI
+    /// (ETG.2000). Returns `None` for other formats.
     pub(crate) fn default_forms(self, default: u8) -> Option<String> {
         let forms = || format!("write `{default:02X}` in DefaultData, or `{default}` in DefaultValue");
         (self == Format::Esi).then(forms)

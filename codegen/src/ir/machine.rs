@@ -24,8 +24,8 @@ pub struct StateMachine {
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<CompactString>,
-    /// Fault states that the source lists. States to which automatic transitions from any state lead, and the states that
-    /// follow automatically, are fault states without an entry.
+    /// Fault states that the source lists. The list need not contain the target of an automatic transition from any state, or the
+    /// states that follow the target automatically: these are always fault states.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub faults: Vec<CompactString>,
     /// Commands as bit patterns of the control item.

@@ -21,7 +21,7 @@ pub struct Message {
     /// Approximate reply time in milliseconds, if the source states that the reply is delayed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub reply_time: Option<u32>,
-    /// The earlier message whose request determines the meaning of this reply, if the meaning depends on an earlier request.
+    /// The earlier message whose request determines the meaning of this reply, if there is one.
     pub after: Option<MessageRef>,
     /// True if the reply also has this meaning after power-on, before the device has received a request that determines the
     /// meaning.
@@ -93,7 +93,7 @@ pub enum Completion {
     Immediate,
     /// The command is complete when the device sends the reply, which can take a long time.
     Reply,
-    /// The command is complete when an item, or a field of a reply, has a value.
+    /// The command is complete when an item, or a field of a reply, has a certain value.
     Polled {
         /// Name of the item or field, optionally followed by a dot and the name of a bit. A reference to an item has an id, and a
         /// reference to a field has none.
@@ -142,19 +142,19 @@ pub enum MessageField {
         /// Number of the last copied byte in the request.
         last: u16,
     },
-    /// The code of an item in a parameter space. In a reply, the field contains the first code of the request.
+    /// The number of a parameter. In a reply, it equals the first parameter number in the request.
     ItemCode {
         /// Name of the parameter space.
         space: CompactString,
-        /// Length of the code in bits.
+        /// Length of the parameter number in bits.
         bits: u8,
     },
-    /// The value of the item whose code precedes this field.
+    /// The value of the parameter whose number precedes this field.
     ItemValue {
         /// Name of the parameter space.
         space: CompactString,
     },
-    /// Zero bytes in place of the value of the item whose code precedes this field.
+    /// Zero bytes in place of the value of the parameter whose number precedes this field.
     ItemPadding {
         /// Name of the parameter space.
         space: CompactString,
@@ -199,8 +199,8 @@ pub struct ParameterSpace {
     pub write: Option<MessageRef>,
     /// Message that writes a parameter to non-volatile memory.
     pub store: Option<MessageRef>,
-    /// Byte order of longer values on the wire as a list of byte numbers, in which 0 is the most significant byte; empty =
-    /// big-endian.
+    /// Byte order of values with several bytes on the wire as a list of byte numbers, in which 0 is the most significant byte;
+    /// empty = big-endian.
     pub byte_order: Vec<u8>,
     /// Description of the parameter space from the source.
     pub documentation: Option<Box<Documentation>>,
@@ -224,7 +224,7 @@ pub struct Framing {
     pub escaped: Vec<u8>,
     /// Name of the checksum algorithm: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
-    /// First field that the checksum covers; `None` = from the first byte after `start`.
+    /// First field that the checksum covers; `None` = the checksum starts at the first byte after `start`.
     pub check_from: Option<CompactString>,
     /// True if bytes of the checksum are escaped.
     pub check_escaped: bool,
@@ -271,7 +271,7 @@ pub struct CodeRow {
     /// The code or range as printed (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if the source prints decimal numbers.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
-    /// Cells of the further columns as printed. The text is empty for a cell that is not a hexadecimal number.
+    /// Hexadecimal numbers in the further columns, as printed. The text is empty for a cell without a hexadecimal number.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub printed_cells: Vec<CompactString>,
     /// Code, or first code of a range.

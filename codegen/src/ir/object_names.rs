@@ -3,8 +3,8 @@
 use super::owner::object;
 use super::{CompactString, Condition, Group, Item, ItemRef, Shape, TypeDef};
 
-/// Returns the objects whose indices are in the range from `first` to `last`, inclusive. Groups have to be sorted as
-/// for [`Device::object`](super::Device::object).
+/// Returns the objects whose indices are in the range from `first` to `last`, inclusive. The groups must be sorted as
+/// [`Device::object`](super::Device::object) requires.
 pub(crate) fn in_range(groups: &mut [Group], first: u16, last: u16) -> &mut [Group] {
     let start = groups.partition_point(|group| group.index() < Some(first));
     let end = groups.partition_point(|group| group.index() <= Some(last));

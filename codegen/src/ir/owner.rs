@@ -24,7 +24,7 @@ impl<'a> Owner<'a> {
         Owner { types, groups: &[] }
     }
 
-    /// Returns the item with this id. The group position in the id counts the groups of all lists.
+    /// Returns the item with this id. In the id, the groups of all lists are numbered consecutively.
     pub fn item(self, id: ItemId) -> Option<&'a Item> {
         let mut position = id.group as usize;
         for groups in self.groups {

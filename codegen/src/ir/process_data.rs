@@ -9,8 +9,8 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessData {
-    /// PDOs. In vendor files, RPDOs come before TPDOs. They are sorted by number on CANopen, and in the order of the
-    /// file on EtherCAT.
+    /// PDOs. In vendor files, RPDOs come before TPDOs. The PDOs of each direction are sorted by number on CANopen, and in the
+    /// order of the file on EtherCAT.
     pub pdos: Vec<Pdo>,
     /// Sync managers of an EtherCAT slave, sorted by number.
     pub sync_managers: Vec<SyncManager>,
@@ -192,7 +192,8 @@ impl Pdo {
         }
     }
 
-    /// Returns whether the index of each entry is known, except padding. Only then can a client write the mapping to the device.
+    /// Returns whether the index of every entry except padding is known. If an index is unknown, a client cannot write the
+    /// mapping to the device.
     pub fn is_mapping_known(&self) -> bool {
         self.entries.iter().all(|entry| entry.kind != PdoEntryKind::Unnumbered)
     }
@@ -256,8 +257,8 @@ pub struct PdoEntry {
     pub bits: u32,
     /// Kind of the entry.
     pub kind: PdoEntryKind,
-    /// Id of the mapped item, set by `resolve`. `None` for padding, and for objects that this device or module does not describe. In a module, positions of groups count
-    /// the fixed objects first and then the other groups.
+    /// Id of the mapped item, set by `resolve`. `None` for padding, and for objects that this device or module does not describe.
+    /// In the ids of a module, the groups are numbered consecutively: first the fixed objects, then the other groups.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub item: Option<ItemId>,
     /// Name of the mapped item, or the name in the mapping.

@@ -152,8 +152,8 @@ pub struct IoData {
     pub image: ProcessImage,
     /// True if all data items are transferred as one consistent block.
     pub consistent: bool,
-    /// Data items that have several fields or no field in the image, in order. Each field outside of these data items
-    /// is one data item.
+    /// Data items that consist of several fields of the image or of none, in order. Every other field of the image is a separate
+    /// data item.
     pub items: Vec<IoItem>,
     /// Channels, sorted by number (GSDML V2.45).
     pub channels: Vec<IoChannel>,
@@ -173,7 +173,7 @@ pub struct IoItem {
     pub bit_offset: u32,
     /// Length of the data item in bits.
     pub bits: u32,
-    /// Position of the data item's first field in the image.
+    /// Position of the data item's first field in the list of fields.
     pub first_field: u32,
     /// Number of the data item's fields, including padding.
     pub fields: u32,

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-/// A fact that most elements do not have. A missing fact has its default value and the size of one pointer.
+/// A fact that most elements do not have. A missing fact reads as its default value, and takes up only one pointer.
 pub struct Rare<T>(Option<Box<T>>);
 
 /// A type with a default value that is the same for all elements.

@@ -94,8 +94,8 @@ impl Device {
 #[cfg_attr(feature = "serde", serde(from = "CompactString", into = "CompactString", bound = "Id: Clone"))]
 #[derive(Clone, Debug)]
 pub struct Reference<Id> {
-    /// The name as the source spells it. A reference to an item uses one of the forms `Item` and `Chapter/Item`, the name of its
-    /// object, or index and sub-index (`0x6040`, `0x1018:1`).
+    /// The name as the source spells it. The name of an item has the form `Item` or `Chapter/Item`, or is an index with an
+    /// optional sub-index (`0x6040`, `0x1018:1`). The name of an object with a single value refers to this value.
     pub name: CompactString,
     /// Location of the name in the source.
     pub span: Span,

@@ -41,17 +41,18 @@ pub(crate) fn enumeration<'a>(owner: Owner<'a>, item: &Item) -> Option<(&'a [Enu
     owner.enumeration(ty(owner, item))
 }
 
-/// Returns the unit and scale factor of an item.
+/// Returns the unit and scale factor of an item, unless a profile added them.
 pub(crate) fn quantity(item: &Item) -> Option<&Quantity> {
     stated(&item.origins, Fact::Unit, item.quantity.as_deref())
 }
 
-/// Returns the storage, the side effects and the conditions for writing of an item.
+/// Returns the storage of an item, the side effects of writing it, and the conditions for writing it, unless a profile added
+/// these facts.
 pub(crate) fn behavior(item: &Item) -> Option<&Behavior> {
     stated(&item.origins, Fact::Behavior, item.behavior.as_deref())
 }
 
-/// Returns the description of an item or group with these origins.
+/// Returns the description of an item or group with these origins, unless a profile added it.
 #[cfg(feature = "table")]
 pub(crate) fn description<'d>(
     origins: &FactOrigins,
@@ -60,7 +61,7 @@ pub(crate) fn description<'d>(
     stated(origins, Fact::Description, documentation.as_deref())
 }
 
-/// Returns the code tables of a device.
+/// Returns the code tables of a device, except those that profiles added.
 pub(crate) fn code_tables(device: &Device) -> impl Iterator<Item = &CodeTable> {
     device.code_tables.iter().filter(|table| !is_of_profile(table.stated_by.as_deref()))
 }

@@ -32,7 +32,7 @@ pub enum Value {
         /// Days since 1984-01-01, or days of the difference.
         days: u16,
     },
-    /// A text that the compiler could not convert to the type of the item, with a diagnostic.
+    /// A text that the compiler could not convert to the type of the item. A diagnostic reports such a text.
     Raw(CompactString),
 }
 

@@ -1,4 +1,5 @@
-//! Signs of values in conditions: a bit pattern becomes a negative number if the item of the condition is signed.
+//! Corrects the signs of values in conditions. If the item of a condition is signed, a bit pattern with a set sign bit becomes a
+//! negative number.
 
 use std::collections::HashMap;
 

@@ -5,7 +5,7 @@ use crate::ir::{
     Shape, Step, Storage, TypeDef, WindowSide,
 };
 
-/// A reference to an item, or to an item or message.
+/// A reference to an item, or a reference whose target can be an item or a message.
 pub(super) enum Mention<'r> {
     Item(&'r mut ItemRef),
     Element(&'r mut ElementRef),
@@ -137,7 +137,7 @@ pub(super) fn target(step: &mut Step) -> Option<&mut ItemRef> {
     }
 }
 
-/// Returns the window sides for reading and for writing of an indirect binding.
+/// Returns the items for read access and for write access through the window of an indirect binding.
 pub(super) fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
     let window = match binding {
         Binding::Indirect(window) => Some(window),

@@ -26,7 +26,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of a module. In the ids of a module, positions of groups count the fixed objects first and
+/// Resolves the references of a module. In the ids of a module, the groups are numbered consecutively: first the fixed objects,
 /// then the other groups.
 pub(super) fn module(module: &mut Module) {
     let mut names = HashMap::new();

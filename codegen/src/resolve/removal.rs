@@ -3,7 +3,7 @@
 use super::mentions::{for_each, of_items_and_types, Mention, Visit};
 use crate::ir::{Device, ElementId, Group, ItemId, Module, Pdo};
 
-/// Removes the groups of a device for which `keep` returns false. References to removed items have no id.
+/// Removes the groups of a device for which `keep` returns false. Clears the ids in references to removed items.
 pub(crate) fn of_device(device: &mut Device, keep: impl Fn(&Group) -> bool) {
     if let Some(moved) = Moved::retain(&mut device.groups, 0, keep) {
         moved.entries(&mut device.process_data.pdos);
@@ -25,7 +25,7 @@ pub(crate) fn of_module(module: &mut Module, keep: impl Fn(&Group) -> bool) {
 struct Moved {
     /// Number of groups that precede the list and keep their positions.
     first: u32,
-    /// New position of each group of the list in the list; `None` for removed groups.
+    /// New position of each group in the list; `None` for removed groups.
     positions: Vec<Option<u32>>,
 }
 

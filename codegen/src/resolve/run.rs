@@ -7,7 +7,7 @@ use crate::ir::{Catalog, Device, Module};
 /// Whether profiles complete a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profiles {
-    /// The profiles that a device follows add facts.
+    /// Each device, module or submodule gets facts from the profiles that it follows.
     Applied,
     /// Profiles add no facts.
     Ignored,

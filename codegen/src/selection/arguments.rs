@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::{device_names, module_names, number, DeviceFilter};
 use crate::ir::{Device, Module};
 
-/// Returns an argument of `--device` for each device that selects only this device: the order code, name, identifier or product
+/// Returns, for each device, an argument of `--device` that selects only this device: the order code, name, identifier or product
 /// code, followed by the revision if other devices have the same. `None` if there is no such argument.
 pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
     let index = Index::new(devices.iter().map(|device| (device.identity.product_code, device_names(device).to_vec())));
@@ -25,7 +25,7 @@ pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
     devices.iter().enumerate().map(argument).collect()
 }
 
-/// Returns an argument of `--module` for each module that selects only this module: the identifier, name, order code or ident
+/// Returns, for each module, an argument of `--module` that selects only this module: the identifier, name, order code or ident
 /// number. `None` if there is no such argument.
 pub fn of_modules(modules: &[Module]) -> Vec<Option<String>> {
     let index = Index::new(modules.iter().map(|module| (Some(module.number), module_names(module).to_vec())));

@@ -7,7 +7,7 @@ use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, W
 /// The byte order mark of UTF-8.
 pub(super) const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Number of bytes of free space that is enough for any character.
+/// Number of free bytes that are enough for any character.
 const ROOM: usize = 16;
 
 /// The encoding from which a file's bytes were decoded.
@@ -26,7 +26,7 @@ pub enum Encoding {
     /// Not UTF-8: every byte was read as Windows-1252, which contains the printable characters of ISO 8859-1.
     #[cfg_attr(feature = "serde", serde(rename = "windows-1252"))]
     Windows1252,
-    /// Not UTF-8: the XML declaration names another encoding (GB2312, Shift JIS).
+    /// Not UTF-8: the XML declaration names another encoding, such as GB2312 or Shift JIS.
     #[cfg_attr(feature = "serde", serde(rename = "declared"))]
     Declared,
 }
@@ -125,7 +125,7 @@ pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
     rest[1..].split_once(quote).map(|(label, _)| label.trim())
 }
 
-/// Returns the name in the WHATWG Encoding Standard of the encoding with this label.
+/// Returns the name that the WHATWG Encoding Standard defines for the encoding `label`.
 pub(super) fn charset(label: &str) -> Option<&'static str> {
     Charset::for_label(label.as_bytes()).map(Charset::name)
 }

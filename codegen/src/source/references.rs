@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::{FileId, Source};
 
-/// The files that a description refers to and that were read. Only files in the folder of the description or below it
+/// Files to which a description refers, and which were read. Only files in the folder of the description or below it
 /// are read.
 #[derive(Debug)]
 pub struct References<'a> {

@@ -7,17 +7,17 @@ use encoding_rs::{Encoding as Charset, WINDOWS_1252};
 use super::decode::{declared, MARK};
 use super::{Encoding, Source};
 
-/// Number of bytes of UTF-8 that a decoder writes at most for one byte of input.
+/// Maximum number of UTF-8 bytes that a decoder writes for one byte of input.
 const MAX_STEP: usize = 32;
 
 impl Source {
-    /// Returns the bytes of the file with parts of its text replaced. The bytes outside of `replacements` stay the same, with
-    /// their line ends and byte order mark.
+    /// Returns the file with parts of its text replaced. The bytes outside of `replacements` stay the same, with their
+    /// line ends and byte order mark.
     ///
     /// The ranges are byte offsets into [`Source::text`]. They must be in ascending order and must not overlap.
     ///
-    /// Returns `None` if the ranges violate this rule, or if the encoding of the file lacks a character of a replacement. Also
-    /// returns `None` if the new bytes would not be decoded to the new text.
+    /// Returns `None` if the ranges violate this rule, or if the encoding of the file lacks a character of a
+    /// replacement. Also returns `None` if a reader would not decode the new bytes to the new text.
     pub fn replaced(&self, replacements: &[(Range<usize>, &str)]) -> Option<Source> {
         let bytes = self.bytes();
         let form = Form::of(self, &bytes)?;
@@ -43,11 +43,11 @@ impl Source {
 
 /// Relation between the bytes of a file and its text.
 enum Form {
-    /// UTF-8 after a mark of this length.
+    /// UTF-8 after a byte order mark of `mark` bytes.
     Utf8 { mark: usize },
-    /// One byte per character after a mark of this length.
+    /// One byte per character after a byte order mark of `mark` bytes.
     Windows1252 { mark: usize },
-    /// Units of two bytes after a mark of this length.
+    /// Units of two bytes after a byte order mark of `mark` bytes.
     Utf16 { mark: usize, is_big_endian: bool },
     /// The encoding of the XML declaration.
     Declared(&'static Charset),
@@ -70,8 +70,8 @@ impl Form {
         })
     }
 
-    /// Converts ascending offsets into the text to offsets into the bytes. Returns `None` if an offset is not at the edge of a
-    /// character.
+    /// Converts ascending offsets into the text to offsets into the bytes. Returns `None` if an offset is not at a
+    /// character boundary.
     fn byte_offsets(&self, text: &str, bytes: &[u8], offsets: &[usize]) -> Option<Vec<usize>> {
         if let Form::Declared(charset) = self {
             return decoded_offsets(charset, bytes, offsets);
@@ -98,7 +98,7 @@ impl Form {
         }
     }
 
-    /// Encodes a text without a mark. Returns `None` if the encoding lacks a character.
+    /// Encodes a text without a byte order mark. Returns `None` if the encoding lacks a character.
     fn encode(&self, text: &str) -> Option<Vec<u8>> {
         let charset = match self {
             Form::Utf8 { .. } => return Some(text.into()),
@@ -167,7 +167,7 @@ mod tests {
         for ranges in [&[(1..2, "")][..], &[(0..9, "")], &[(2..3, ""), (0..2, "")], &[(0..3, ""), (2..3, "")]] {
             assert!(source.replaced(ranges).is_none(), "{ranges:?}");
         }
-        // Without its first byte, the rest of the file is valid UTF-8, and would be read as other text.
+        // Without the first byte, the file is valid UTF-8, so it would be decoded to another text.
         let source = Source::new("x", b"\xe4\xc3\xa4".to_vec());
         assert_eq!((source.text(), source.replaced(&[(0..2, "")]).is_none()), ("äÃ¤", true));
     }

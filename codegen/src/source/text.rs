@@ -1,4 +1,4 @@
-//! One description file as text, with positions of bytes.
+//! A description file as text, with the line and column of each byte offset.
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -43,8 +43,9 @@ fn too_large() -> std::io::Error {
 impl Source {
     /// Decodes `bytes`; `name` is the file name in diagnostics.
     ///
-    /// Decoding never fails. Bytes that are not UTF-8 are read as Windows-1252, in which every byte is a character.
-    /// [`Source::encoding`] returns the encoding that was used.
+    /// Decoding never fails. A file that is neither UTF-8 nor UTF-16 is read in the encoding that its XML declaration
+    /// names, or otherwise as Windows-1252, in which every byte is a character. [`Source::encoding`] returns the
+    /// encoding that was used.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
         Source {
             name: name.into(),
@@ -102,8 +103,8 @@ impl Source {
         decode::declared(self.text().as_bytes())
     }
 
-    /// Returns the encoding of the XML declaration by its name in the WHATWG Encoding Standard (`UTF-8`, `windows-1252`). Returns
-    /// `None` if the declaration names no encoding or an unsupported encoding.
+    /// Returns the encoding that the XML declaration names, with its name in the WHATWG Encoding Standard, such as
+    /// `UTF-8` or `windows-1252`. Returns `None` if the declaration names no encoding or an unsupported encoding.
     pub fn declared_charset(&self) -> Option<&'static str> {
         self.declared_encoding().and_then(decode::charset)
     }
@@ -194,7 +195,8 @@ impl Source {
     /// Returns the offset of the start of a line, or `None` if there is no such line.
     fn start_of_line(&self, line: u32) -> Option<usize> {
         let Some(last) = line.checked_sub(2) else { return Some(0) };
-        // The line end before the line is in the part of the text after the last entry that does not count it.
+        // The line starts after the line end number `last + 1`. The search starts at the last entry that does not count
+        // this line end.
         let part = self.counts().partition_point(|counts| counts.line_ends <= last).saturating_sub(1);
         let before = self.counts()[part].line_ends;
         self.line_starts(part * STRIDE..self.text().len()).nth((last - before) as usize)
@@ -207,7 +209,7 @@ impl Source {
         ends.filter(|&end| bytes[end] == b'\n' || bytes.get(end + 1) != Some(&b'\n')).map(|end| end + 1)
     }
 
-    /// Returns the last entry of the list of counts for a multiple of [`STRIDE`] up to `offset`, and this multiple.
+    /// Returns the greatest multiple of [`STRIDE`] up to `offset`, and the counts before this multiple.
     fn counts_before(&self, offset: usize) -> (usize, Counts) {
         let entry = (offset / STRIDE).min(self.counts().len() - 1);
         (entry * STRIDE, self.counts()[entry])

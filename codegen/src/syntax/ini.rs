@@ -1,8 +1,9 @@
 //! The lexer for EDS and DCF files.
 //!
-//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the grammar. All parts
-//! of the document are spans of the text. The lines of a section are split on request, without an allocation per line. Lines that
-//! violate the grammar are recorded as an [`Oddity`] and still read. The front end handles case, numbers and meaning.
+//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the grammar.
+//! All parts of the document are spans of the text. The lines of a section are split on request, without an allocation
+//! per line. Each violation of the grammar is recorded as an [`Oddity`]. A line with a violation is still read if its
+//! meaning is clear. The front end handles case, numbers and meaning.
 
 use std::cell::{Cell, RefCell};
 
@@ -14,13 +15,13 @@ use crate::source::{FileId, Span};
 pub struct Document<'a> {
     text: &'a str,
     file: FileId,
-    /// Offset of the end of the text, without trailing blanks, line ends, zeros and Ctrl-Z.
+    /// Offset of the end of the text, without trailing spaces, tabs, line ends, zeros and Ctrl-Z.
     end: usize,
     sections: Vec<Section>,
     preamble: Vec<Entry>,
     /// Violations of the grammar found so far.
     oddities: RefCell<Vec<(Oddity, Span)>>,
-    /// For each section, true if the violations of the grammar in this section were recorded.
+    /// For each section, true if its violations of the grammar were already recorded.
     noted: Vec<Cell<bool>>,
 }
 
@@ -185,7 +186,7 @@ impl<'a> Document<'a> {
         Span::new(self.file, range.0, range.1)
     }
 
-    /// Finds the section headers: all lines whose first character, except blanks, is `[`.
+    /// Finds the section headers: all lines whose first character, except spaces and tabs, is `[`.
     fn headers(&mut self) {
         let bytes = &self.text.as_bytes()[..self.end];
         let (mut from, mut line, mut counted) = (0, 1, 0);
@@ -314,7 +315,8 @@ fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
             let signs = words::equal(word, b'=');
             equals = (signs != 0).then(|| at + words::first(signs));
         }
-        // Line ends are control characters, and the others are rare.
+        // Control characters other than line ends are rare, so this comparison usually shows that the word contains no
+        // line end.
         if words::less(word, b' ') != 0 {
             let ends = words::equal(word, b'\n') | words::equal(word, b'\r');
             if ends != 0 {
@@ -434,13 +436,13 @@ fn line_ends(bytes: &[u8], has_returns: bool) -> u32 {
     (feeds().count() + memchr::memchr_iter(b'\r', bytes).count() - both) as u32
 }
 
-/// Trims blanks and tabs from both ends of `start..end`.
+/// Trims spaces and tabs from both ends of `start..end`.
 fn trim(bytes: &[u8], start: usize, end: usize) -> (usize, usize) {
     let start = start_of(bytes, start, end);
     (start, end_of(bytes, start, end))
 }
 
-/// Returns the offset of the first byte in `start..end` that is not a blank or tab.
+/// Returns the offset of the first byte in `start..end` that is not a space or tab.
 #[inline]
 fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     while start < end && matches!(bytes[start], b' ' | b'\t') {
@@ -449,7 +451,7 @@ fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
     start
 }
 
-/// Returns the offset after the last byte in `start..end` that is not a blank or tab.
+/// Returns the offset after the last byte in `start..end` that is not a space or tab.
 #[inline]
 fn end_of(bytes: &[u8], start: usize, mut end: usize) -> usize {
     while start < end && matches!(bytes[end - 1], b' ' | b'\t') {

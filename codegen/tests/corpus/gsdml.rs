@@ -318,7 +318,7 @@ fn data(catalog: &Catalog) -> impl Iterator<Item = &IoData> {
     catalog.submodules.iter().flat_map(|found| found.input.iter().chain(&found.output)).map(|data| &**data)
 }
 
-/// Returns the number of data items: fields that are items on their own, and items with several fields.
+/// Returns the number of data items: items that became a single field, and items with several fields.
 fn data_items(data: &IoData) -> usize {
     let within: u32 = data.items.iter().map(|item| item.fields).sum();
     data.image.fields.len() - within as usize + data.items.len()
@@ -388,7 +388,7 @@ fn bits(data: &IoData) -> usize {
     fields.filter(|field| field.bits == 1 && field.kind == PdoEntryKind::Item).count()
 }
 
-/// Returns the number of values in each value list. A list can become several types.
+/// Returns the number of values in each value list. The compiler can create several types from one list.
 fn enumerations(catalog: &Catalog) -> BTreeMap<&str, usize> {
     let types = catalog.types.iter().filter_map(|def| match &def.shape {
         Shape::Enumeration { values, .. } => Some((def.name.as_str(), values.len())),
@@ -407,7 +407,7 @@ fn counts_agree() {
     }
 }
 
-/// Returns the values of an attribute in all elements with this name, in file order. Uses a minimal scanner.
+/// Returns the values of the attribute `name` in all elements called `element`, in file order. Uses a minimal scanner.
 fn attributes<'t>(text: &'t str, element: &str, name: &str) -> Vec<&'t str> {
     let (open, key) = (format!("<{element}"), format!("{name}="));
     let tags = text.match_indices(&open).filter_map(|(at, _)| {

@@ -59,7 +59,7 @@ fn e32_ctrl_z(text: &str) -> &str {
     text.trim_end_matches([' ', '\t', '\r', '\n', '\u{1a}', '\0'])
 }
 
-/// E64: moves keys for which `configparser` reads no value to `junk`, with their section.
+/// E64: moves keys to `junk`, with their section, if `configparser` reads no value for them.
 fn e64_junk(
     section: &str,
     entries: impl IntoIterator<Item = (String, Option<String>)>,

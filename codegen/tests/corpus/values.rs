@@ -44,7 +44,7 @@ struct Tally {
     kept: BTreeMap<String, usize>,
     /// Number of values about which there is a diagnostic, by the code of the diagnostic.
     reported: BTreeMap<String, usize>,
-    /// Number of values that are empty, or that are 0 if 0 means no value.
+    /// Number of empty values, including the number 0 if it means no value.
     empty: usize,
     /// Lost or changed values, each with its line and description.
     lost: Vec<String>,
@@ -77,7 +77,7 @@ struct Target<'a> {
     compact: bool,
     /// Whether the section describes the object itself.
     is_object: bool,
-    /// Whether the section, with its facts about the object, was already compared with another item.
+    /// Whether another item was already compared with the section, including the facts about the object.
     again: bool,
 }
 
@@ -209,7 +209,7 @@ impl Comparison<'_> {
         });
     }
 
-    /// E33: a sub-index without an object must be reported once per object.
+    /// E33: sections of sub-indices without the section of their object must be reported once per object.
     fn orphan(&mut self, index: u16, sub: u8, section: &Section) {
         if self.reading.subs(index).first() == Some(&sub) {
             self.reported_or_lost(section.headers[0], &["EDS040"], "the missing object is not reported");

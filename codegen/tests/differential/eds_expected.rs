@@ -14,8 +14,8 @@ pub fn signed_bits(ty: i128) -> Option<u32> {
     SIGNED.iter().find(|(entry, _)| *entry == ty).map(|(_, bits)| *bits)
 }
 
-/// Parses a value of the type number `ty`. Hexadecimal digits are the bit pattern of a signed number (E07, E08) or of a
-/// real number (E51). `$NODEID` is accepted at any position, ignoring case (E12 to E17), and is replaced with the node-ID.
+/// Parses a value whose type has the CiA 301 number `ty`. Hexadecimal digits are the bit pattern of a signed number (E07, E08) or
+/// of a real number (E51). `$NODEID` is accepted at any position, ignoring case (E12 to E17), and is replaced with the node-ID.
 pub fn value(raw: &str, ty: i128, node_id: u8) -> Option<String> {
     match ty {
         0x08 => real(cut(raw).0, 32),

@@ -18,7 +18,7 @@ pub fn table() -> Compilation {
     with_choices(&[])
 }
 
-/// Compiles the table with choices for its options.
+/// Compiles the table with the given choices for its options.
 pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
     let path = root::root().join("dictionaries/eco.toml");
     let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
@@ -89,7 +89,7 @@ pub fn definition(device: &Device, ty: Type) -> Option<&TypeDef> {
     device.types.get(id as usize)
 }
 
-/// Returns the integer or text type on which a bit field or enumeration is based.
+/// Returns the integer or text type on which a bit field or enumeration is based. Other types are returned unchanged.
 pub fn base(device: &Device, ty: Type) -> Type {
     match definition(device, ty).map(|entry| &entry.shape) {
         Some(Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => *base,

@@ -453,7 +453,7 @@ fn comparable(device: &Device) -> serde_json::Value {
     fn clear(value: &mut serde_json::Value) {
         match value {
             serde_json::Value::Object(map) => {
-                // An EDS can describe sub-indices in a compact form, and a rule then completes their facts.
+                // Origins differ, because a rule completes the facts of sub-indices that an EDS describes in a compact form.
                 for key in ["origin", "origins", "at", "name_at", "span", "extensions"] {
                     map.remove(key);
                 }

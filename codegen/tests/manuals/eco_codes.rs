@@ -241,7 +241,7 @@ fn values_of_c9_and_e3_are_the_printed_ones() {
     }
 }
 
-/// Words that occur in a line about a bit, and the number of the mode of operation to which such a line refers.
+/// Words in the lines about bits, each with the number of the mode of operation that it denotes.
 const MODES: [(&str, i128); 6] = [
     ("Posizionatore", 1),
     ("Controllo Velocità", 3),
@@ -306,7 +306,7 @@ fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
             let field = fields(device(&compilation), name).iter().find(|field| field.offset == bit).expect("a bit");
             assert!(cites(field.documentation.as_deref(), line), "line {line}");
             assert!(!matches!(field.meaning, BitMeaning::Reserved { .. }), "line {line}");
-            // For one bit of the controlword, the manual states that the transition from 0 to 1 triggers the effect.
+            // For one bit of the controlword, the manual states that a rising edge triggers the effect.
             let is_edge = manual[line - 1].contains("transizione da 0 a 1") && name == "Controlword";
             assert_eq!(field.trigger == Some(Trigger::Rising), is_edge, "line {line}");
         }

@@ -20,7 +20,8 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A5", &["Limits are printed"], &[]),
     ("A6", &["In the register table, the"], &[]),
     ("A7", &["In the register table, the"], &[]),
-    // The exceptions of the next item are a byte of a frame (38), the end of a range (255) and a misprinted value (1312).
+    // The numbers of the next item that are not line numbers are a byte of a frame (38), the end of a range (255) and a misprinted
+    // value (1312).
     ("A8", &["Some text is", "The manual prints 1312", "The name of d1", "The name of P1", "The name of P2"], &[38, 255, 1312]),
     ("A9", &["Rotated labels next to"], &[]),
     ("A10", &["References lead to"], &[]),

@@ -102,7 +102,8 @@ const ITEMS: &[(&str, How)] = &[
     ("44", Finding("item-44-no-notes-at-all", &["TAB010"])),
     ("45", Finding("item-45-values-and-bits-outside-of-the-limits", &["TAB016", "TAB018", "TAB021"])),
     ("46", Finding("item-46-access-against-storage-and-mapping", &["TAB024", "TAB022"])),
-    // The printed access rights are plausible, although versions and a command are saved and limits are read-only.
+    // The compiler cannot detect these wrong access rights, because each of them is possible: versions and a command are saved, and
+    // limits are read-only.
     ("46", Doubt(&[(2867, "RW SAVE"), (2868, "RW SAVE"), (2869, "RW SAVE"), (3184, "RO"), (3185, "RO"), (3188, "SAVE")])),
     ("47", Finding("item-47-mode-that-is-reserved", &["TAB018", "TAB015", "TAB017"])),
     ("48", Finding("item-48-one-value-with-two-limits-and-two-types", &["TAB022"])),

@@ -178,8 +178,8 @@ fn indices(text: &str) -> HashMap<String, u16> {
     indices
 }
 
-/// Returns the types in the order of their layouts. A module imports the PDOs that it shares with another module before it defines its
-/// own. Therefore, PDOs of such a module are found by their index.
+/// Returns the types in the order of their layouts. A module imports the PDOs that it shares with another module before it defines
+/// its own PDOs. Therefore, the PDOs of such a module are assigned to their layouts by index.
 fn in_order<'t>(found: Vec<Found<'t>>, layouts: &[Layout], indices: &HashMap<String, u16>) -> Vec<Found<'t>> {
     let (mut ordered, mut rest, mut layouts) = (Vec::new(), found.into_iter().peekable(), layouts.iter());
     while let Some(first) = rest.next() {

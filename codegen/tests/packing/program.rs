@@ -40,8 +40,8 @@ impl Random {
         number >> shift
     }
 
-    /// Returns a parameter with a value of 1, 2, 4 or 8 bytes. The parameter of a reply is taken from the request if a
-    /// random position is within the request.
+    /// Returns a parameter with a value of 1, 2, 4 or 8 bytes. The parameter of a reply is copied from a random
+    /// position in the request, unless the request ends before this position.
     fn setting(&mut self, request: &[u8]) -> Setting {
         let named =
             request.windows(2).nth(self.next() as usize % 8).map(|two| i64::from(two[0]) << 8 | i64::from(two[1]));
@@ -57,8 +57,8 @@ const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 /// The bytes of packed data, and their unpacked fields as text.
 type Packed = (Vec<u8>, String);
 
-/// Unpacks data, sets a field to the bits of a value, and packs the fields. A number selects the field; no field is set for
-/// the number [`NONE`].
+/// Unpacks data, sets a field to the bits of a value, and packs the fields. The second argument is the number of the field, or
+/// [`NONE`] to set no field.
 type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
 
 /// Field number that selects no field.
@@ -245,14 +245,15 @@ macro_rules! view {
     }};
 }
 
-/// Creates the view at a given bit, and copies a field from other packed data into it. Copies all fields for the number [`NONE`].
+/// Creates the view at a given bit, and copies a field from other packed data into it. Copies all fields if the field number is
+/// [`NONE`].
 type Set<'s> = &'s dyn Fn(&mut [u8], usize, usize, &[u8]) -> Result<(), String>;
 
 /// Reads all fields of the view at a given bit, and returns them as packed data.
 type Get<'g> = &'g dyn Fn(&mut [u8], usize) -> Result<Vec<u8>, String>;
 
-/// Checks a view. Setting a field must change only its bits of the image, and reading must return the bits of the image. The
-/// view starts at each of the first `bits` bits. The images end with the view or are longer.
+/// Checks a view. Setting a field must change only its bits of the image, and reading must return the bits of the image. The test
+/// places the view at each of the first `bits` bits, both in images that end with the view and in longer images.
 fn view(layout: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
     let (title, mask, mut random) = (layout.title, layout.mask(), Random(SEED));
     let (mut from, zeros) = (vec![0; layout.len()], vec![0; layout.len()]);
@@ -311,7 +312,8 @@ macro_rules! record {
 const ACCEPTED: usize = 64;
 
 /// Checks a record. Decoding and encoding must keep the bits of all fields, and must set all other bits to those of
-/// `default`. Setting a field must change only its bits. The test changes the default step by step through allowed values.
+/// `default`. Setting a field must change only its bits. The test starts with the default and changes it step by step to other
+/// valid records.
 fn record(layout: &Layout, default: &[u8], change: Change<'_>) {
     let (title, mask, mut random) = (layout.title, layout.mask(), Random(SEED));
     let (mut data, mut accepted, mut moved) = (default.to_vec(), 0, 0);

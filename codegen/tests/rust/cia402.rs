@@ -65,7 +65,7 @@ fn devices_without_the_profile() {
     // The controlword is write-only, so its other bits are unknown.
     let text = text.replace("AccessType=rww", "AccessType=wo");
     assert!(!bindings(&text, &Options::default()).contains("cia402"));
-    // The device has no type.
+    // Without accessors, the code contains no type for the device.
     let mut options = Options::default();
     options.rust.accessors = false;
     assert!(!bindings(&drive("Drive", ACTIVE_MODE), &options).contains("cia402"));
@@ -81,14 +81,14 @@ fn the_code_compiles_and_has_the_form_of_prettyplease() {
          [603F]\nParameterName=Code\nDataType=6\nAccessType=ro\n\
          [60F4]\nParameterName=Lag\nDataType=3\nAccessType=ro\n"
     );
-    // The lines of the code are broken for long names only.
+    // From a certain length of the name, the lines of the code must be broken. These names are slightly shorter or longer.
     for length in 36..44 {
         let text = bindings(&drive(&"N".repeat(length), &all), &Options::default());
         assert_eq!(canonical("a name near the margin", &text), Ok(()));
     }
     for name in ["Drive", "A drive with a name that is so long that the lines of its code have to be broken"] {
         let text = bindings(&drive(name, &all), &Options::default());
-        // The name of an object takes precedence.
+        // An object has the name `cia402`, so the method for the profile gets an underscore.
         assert!(text.contains("pub fn cia402(&mut self) -> objects::"), "{text}");
         assert!(text.contains("pub fn cia402_(") && text.contains("-> rt::cia402::Drive<"), "{text}");
         assert_eq!(canonical(name, &text), Ok(()));

@@ -137,7 +137,7 @@ fn every_edition_of_rust_takes_it() {
     }
 }
 
-/// Names of traits that generated code implements. Each is also the name of an enumeration of the test.
+/// Names of traits that generated code implements. Each is also the name of an enumeration in the test.
 const TRAITS: [&str; 8] = ["from", "eq", "partial eq", "hash", "display", "from str", "copy", "named"];
 
 /// Tests types, values, bits and items with names that the Rust prelude or generated code also uses.

@@ -135,7 +135,7 @@ fn rust_of_a_small_device() {
     accept("valve", &text);
 }
 
-/// Names that are keywords, types, names in generated code, repeated, or empty.
+/// Problematic names: keywords, types, names that generated code also uses, repeated names, and empty names.
 const NASTY: [&str; 25] = [
     "type",
     "self",

@@ -11,8 +11,8 @@ fn program_of(table: String) -> Program {
     program(&catalog.devices[0], &catalog.files[0], None).expect("a program")
 }
 
-/// Returns a table with a state machine. Each state has a number as its value. A transition consists of the state before, `>` with
-/// a command or `>` alone, and the state after.
+/// Returns a table with a state machine. Each state has a number as its value. A transition has the form `FROM >COMMAND TO`, or
+/// `FROM > TO` if it is automatic.
 fn with_machine(keys: &str, states: &[&str], transitions: &[&str]) -> String {
     let mut table = format!(
         "lexibus = 1\n[device]\nname = \"D\"\nbuses = [\"modbus\"]\n[spaces.holding]\nmodbus = {{ table = \"holding\", first = 0 }}\n\
@@ -37,7 +37,7 @@ fn with_machine(keys: &str, states: &[&str], transitions: &[&str]) -> String {
     table
 }
 
-/// Returns the state after power-on and the operating state, or the reason why a program leads the device to no state.
+/// Returns the state after power-on and the operating state, or the reason why the program has no target state.
 fn way(keys: &str, states: &[&str], transitions: &[&str]) -> Result<[String; 2], NoTarget> {
     let machine = program_of(with_machine(keys, states, transitions)).machine.expect("a machine");
     machine.map(|machine| [machine.simulation.expect("a simulation").initial, machine.target])
@@ -56,14 +56,14 @@ fn the_target_is_the_operating_state() {
     let chain = ["off >up ready", "ready >up operating", "operating >down halted", "operating > alarm"];
     let states = ["off", "ready", "operating", "halted", "alarm"];
     let faults = "faults = [\"alarm\"]";
-    // The states "halted" and "alarm" are farther from power-on.
+    // The states "halted" and "alarm" are farther from the state after power-on.
     assert_eq!(way(faults, &states, &chain), path("Off", "Operating"));
     // The order of the states does not matter.
     assert_eq!(way(faults, &["operating", "alarm", "off", "ready", "halted"], &chain), path("Off", "Operating"));
-    // A state without motion comes first.
+    // The state without motion ("Enabled") takes precedence over the state with motion ("running").
     let drive = ["off >up Enabled", "Enabled >up running"];
     assert_eq!(way("", &["off", "running", "Enabled"], &drive), path("Off", "Enabled"));
-    // An automatic transition that leaves the operating state is no part of the path.
+    // The automatic transition out of the operating state does not belong to the path.
     let once = ["off >up operating", "operating > off"];
     assert_eq!(way("", &["off", "operating"], &once), path("Off", "Operating"));
     assert_eq!(way("", &["off", "on"], &["off >up on"]), Err(NoTarget::Name));
@@ -78,12 +78,12 @@ fn the_path_enters_no_fault_state() {
     assert_eq!(through("off >trip alarm"), no_path("Off", "Operating"));
     assert_eq!(through("off > alarm"), no_path("Off", "Operating"));
     assert_eq!(through("* >trip alarm"), no_path("Off", "Operating"));
-    // The states to which automatic transitions from any state lead are faults as well.
+    // States to which automatic transitions from any state lead are also fault states.
     assert_eq!(
         way("", &states, &["* > alarm", "off >trip alarm", "alarm >reset operating"]),
         no_path("Off", "Operating")
     );
-    // A device that is in a fault state after power-on leaves it.
+    // If the device is in a fault state after power-on, the path leads out of this state.
     let initial = "faults = [\"alarm\"]\ninitial = \"alarm\"";
     assert_eq!(way(initial, &states, &["alarm >reset off", "off >up operating"]), path("Alarm", "Operating"));
 }
@@ -116,7 +116,8 @@ fn a_simulated_device_changes_its_state_like_the_real_one() {
     assert_eq!(moves("Alarm"), ["Reset Warm"]);
 }
 
-/// Returns the value that a program reads in a test, and the value that it writes, for a device with these rows.
+/// Returns the name and sample value of the item that a program reads, and the name and value of the item that it
+/// writes, for a device with these rows.
 fn samples(rows: &[&str]) -> [Option<(String, i128)>; 2] {
     let rows = rows.join("\n");
     let table = format!(
@@ -141,7 +142,7 @@ fn values_that_a_program_reads_are_possible() {
     ] {
         assert_eq!(read(row), ("height".to_owned(), sample), "{row}");
     }
-    // No value of the type is within the limits.
+    // The program reads another item, because no value of this type is within the limits.
     assert_eq!(read("height = { reg = 1, access = \"ro\", min = 40000, max = 50000 }").0, "other");
     assert_eq!(read("height = { reg = 1, access = \"ro\", min = 4, max = 3 }").0, "other");
 }

@@ -5,8 +5,9 @@ use crate::compile_support;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 
-/// Returns an EDS of a device with one RPDO and some objects. `count` and `entry` are the access rights of the number
-/// of mapped entries and of the third entry. `cob_id` contains the access rights and the default value of the COB-ID.
+/// Returns an EDS of a device with one RPDO and some objects. `count` contains the access rights of the number of
+/// mapped entries, and `entry` those of the third entry. `cob_id` contains the access rights and the default value of
+/// the COB-ID.
 fn device(granularity: &str, count: &str, entry: &str, cob_id: &str) -> String {
     format!(
         "[DeviceInfo]\nProductName=Device\nGranularity={granularity}\nNrOfRXPDO=1\n\

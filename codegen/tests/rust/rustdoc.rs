@@ -53,7 +53,7 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
     examples.retain(|path| lane::is_full() || path.parent().is_some_and(|folder| folder.ends_with("data")));
     on_all_processors(examples, |path| {
         let compilation = read(&path, &Options::default());
-        // Use few options for the drives, because the crate `lexibus-drives` also documents them with all options.
+        // Use only one set of options for the drives, because the crate `lexibus-drives` documents them with all options.
         let chosen =
             if path.parent().is_some_and(|entry| entry.ends_with("data")) { &choices[..] } else { &choices[1..2] };
         let texts: Vec<String> = chosen.iter().filter_map(|entry| compilation.rust(entry)).collect();

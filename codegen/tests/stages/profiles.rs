@@ -1,4 +1,4 @@
-//! Tests which facts profiles add to devices, which facts of devices they keep, and that they cause no diagnostics.
+//! Tests which facts profiles add to devices and which facts of devices they keep. Profiles must cause no diagnostics.
 
 use crate::corpus_support;
 
@@ -229,7 +229,7 @@ fn telegrams_of_profidrive_have_their_words() {
     assert_eq!(typed, 3, "telegrams 1, 2 and 3");
 }
 
-/// Lints judge the description. Profiles are applied before the lints run, but must not change a diagnostic.
+/// Lints check only the description itself. Profiles are applied before the lints run, but must not change a diagnostic.
 #[test]
 fn profiles_change_no_diagnostic() {
     let mut levels = Levels::lenient();

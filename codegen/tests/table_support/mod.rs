@@ -1,4 +1,4 @@
-//! Completes the examples in `dictionaries/README.md` to register tables, so that tests can compile the examples.
+//! Turns the examples in `dictionaries/README.md` into complete register tables, so that tests can compile them.
 
 #![allow(dead_code)]
 

@@ -216,7 +216,7 @@ fn fault_states_of_machines() {
             .collect::<Vec<_>>()
     };
     assert_eq!(faults("[]"), ["S2", "S3"]);
-    // The successor of a listed state is no fault state.
+    // A transition from a listed state does not make its target a fault state.
     assert_eq!(faults("[\"s4\", \"s3\", \"s4\"]"), ["S2", "S3", "S4"]);
     let unknown = machine("[\"s5\", \"s44\"]");
     assert_eq!(reported(&unknown), ["t.toml:13:17: no state has the name `s44` [TAB005]"]);

@@ -260,7 +260,7 @@ fn several_of_the_same() {
     let range = rows("\"w{n}\" = { reg = \"66-72\", type = \"u16\", access = \"ro\", count = 7 }");
     assert_eq!(reported(&range), [""; 0]);
     let short = reported(&range.replace("66-72", "66-70"));
-    assert!(short.len() == 1 && short[0].contains("one item needs 1 and all items need 7"), "{short:?}");
+    assert!(short.len() == 1 && short[0].contains("one repetition needs 1 and all repetitions need 7"), "{short:?}");
     let found = |row: &str| reported(&rows(row)).join("\n");
     assert!(found("\"w{n}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("needs a `count`"));
     assert!(found("\"w{m}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("the placeholder in the name"));

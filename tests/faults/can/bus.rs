@@ -16,7 +16,7 @@ use lexibus::{AbortCode, NodeId, Object};
 use crate::faulty::TIMEOUT;
 
 pub const NODE: u8 = 5;
-/// Time that a sent frame takes.
+/// Simulated time that the transmission of a frame takes.
 pub const FRAME: Duration = Duration::from_millis(1);
 /// Object that contains the number of the current request.
 pub const COUNT: Object = Object::new(0x2000, 0);

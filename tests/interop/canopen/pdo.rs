@@ -216,7 +216,7 @@ fn communication_parameters() -> Result<(), Error> {
     let configuration = event.configure(TxPdo1::configuration(node_id())).expect("valid parameters");
     configuration.clone().send(&mut node)?;
     assert_eq!(timing(&mut script), json!([true, false, 254]));
-    // The PDO is disabled first, so it can be configured again.
+    // The configuration disables the PDO first, so the PDO can be configured again.
     let cyclic = PdoParameters::new().transmission(TransmissionType::EverySync(240)).remote_requests(true);
     cyclic.configure(TxPdo1::configuration(node_id())).expect("valid parameters").send(&mut node)?;
     assert_eq!(timing(&mut script), json!([true, true, 240]));

@@ -68,7 +68,7 @@ fn rights() -> Result<(), Error> {
     assert_aborted(naive::<u16>(0x2200, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<i32>(0x2201, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
     assert_aborted(naive::<u32>(0x2202, 0).at(device.client()).read(), AbortCode::WRITE_ONLY);
-    // The node aborts after the last segment, because this library checks access rights at the end of a transfer.
+    // The node aborts after the last segment, because the Python library checks access rights at the end of a transfer.
     let text = lexibus::Object { index: 0x1008, sub_index: 0 };
     let written = lexibus::Client::write(device.client(), text, b"something longer than a frame");
     assert_aborted(written, AbortCode::READ_ONLY);

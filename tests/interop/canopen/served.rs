@@ -1,4 +1,4 @@
-//! A simulated node at the other end of a serial line, in a thread. Its clock follows the real time.
+//! A simulated node at the other end of a serial line, in a thread. The node's clock follows the real time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};

@@ -127,8 +127,8 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
     }
 }
 
-/// Returns objects with the communication parameters and mappings of PDOs. The compiler passes create PDOs from these
-/// objects.
+/// Returns objects with the communication parameters and mappings of PDOs. The passes of the compiler create PDOs from
+/// these objects.
 pub fn pdo_objects(b: &mut Bytes<'_>, dictionary: &[Group]) -> Vec<Group> {
     let mut numbers = b.list(4, |b| b.pick(&[0x1400, 0x1401, 0x1402, 0x15FF, 0x1800, 0x1801]));
     numbers.sort_unstable();

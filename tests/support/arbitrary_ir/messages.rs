@@ -71,7 +71,7 @@ fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     frame.iter().filter_map(name).collect()
 }
 
-/// Returns the fields of a request. If `request` is `Some`, returns the fields of the reply to it.
+/// Returns the fields of a request or, if `request` is `Some`, of the reply to this request.
 fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]>) -> Vec<MessageField> {
     let asked = request.map(fields).unwrap_or_default();
     let mut frame: Vec<MessageField> = Vec::new();
@@ -127,7 +127,7 @@ fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     }
 }
 
-/// Returns a repeated group of fields. A field with the count may precede it.
+/// Returns a repeated group of fields. A field with the number of repetitions may precede the group.
 fn repeat(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     let count = unbound(b, around);
     let max = b.maybe(2, |b| b.within(0..=9));

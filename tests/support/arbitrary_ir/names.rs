@@ -190,7 +190,7 @@ const TEXTS: [&str; 14] = [
 
 const LANGUAGES: [&str; 3] = ["de", "ja", "zh-\""];
 
-/// Returns a name that other elements often also have.
+/// Returns a name from short lists, so that other elements often have the same name.
 pub fn name(b: &mut Bytes<'_>) -> CompactString {
     match b.within(0..=9) {
         0..=4 => b.pick(&ORDINARY).into(),

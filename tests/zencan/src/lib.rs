@@ -54,7 +54,7 @@ impl CanPort for Zencan {
             self.requests[usize::from(frame.data()[0] >> 5)] += 1;
         }
         let id = CanId::Std(u16::try_from(frame.id()).expect("an identifier of 11 bits"));
-        // The node returns messages that it doesn't use.
+        // `store_message` returns messages that the node doesn't use.
         let _ = self.mailbox.store_message(CanMessage::new(id, frame.data()));
         self.process();
         Ok(true)

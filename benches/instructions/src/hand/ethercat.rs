@@ -14,7 +14,7 @@ pub enum Mode {
     Velocity,
     /// 4.
     Torque,
-    /// Any other number.
+    /// Any number without a name.
     Unknown(u8),
 }
 

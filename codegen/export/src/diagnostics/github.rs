@@ -1,4 +1,5 @@
-//! Diagnostics as workflow commands of GitHub Actions, which the code review of a change shows at the marked lines.
+//! Diagnostics as workflow commands of GitHub Actions. In the review of a change, GitHub shows them at the marked
+//! lines.
 
 use std::fmt::Write as _;
 

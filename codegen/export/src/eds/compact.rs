@@ -1,4 +1,5 @@
-//! Objects with equal elements. CiA 306 describes such an object in one section with CompactSubObj.
+//! Objects whose elements are equal except for name and configured value. CiA 306 describes such an object in one
+//! section with CompactSubObj.
 
 use crate::note;
 use lexibus_codegen::ir::{Access, Group, Item, Limits, Mappable, ObjectCode, Type, Value};
@@ -11,13 +12,13 @@ pub(super) struct Elements<'g> {
     group: &'g Group,
     /// Number of elements, without sub-index 0.
     pub(super) count: u8,
-    /// The first element. All other elements equal the first element.
+    /// The first element. The other elements differ from it only in name and configured value.
     pub(super) template: &'g Item,
 }
 
 /// Returns the elements of `group` if the source declares them together and CompactSubObj can express them exactly.
 ///
-/// Other objects with equal elements keep one section per element, because not all EDS readers support CompactSubObj.
+/// All other objects get one section per element, because not all EDS readers support CompactSubObj.
 pub(super) fn elements(group: &Group) -> Option<Elements<'_>> {
     let (count_item, items) = group.items.split_first()?;
     let count = u8::try_from(items.len()).ok().filter(|&count| (1..=254).contains(&count))?;

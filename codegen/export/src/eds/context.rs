@@ -45,13 +45,14 @@ pub(super) struct Context<'a> {
     pub(super) reals: Reals,
     /// Name of the source file.
     pub(super) file_name: &'a str,
-    /// True if the source is a CiA 306 file. The export of such a file keeps its spellings and adds no missing facts.
+    /// True if the source is a CiA 306 file. The export then keeps the spellings of the source and adds no missing
+    /// facts.
     pub(super) is_verbatim: bool,
     /// True if the source describes a CANopen device.
     pub(super) is_canopen: bool,
 }
 
-/// Returns whether a CANopen device has this object only on EtherCAT.
+/// Returns whether this object of a CANopen device exists only on EtherCAT.
 pub(super) fn is_coe_only(device: &Device, group: &Group) -> bool {
     let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
     let mut items = group.items.iter();

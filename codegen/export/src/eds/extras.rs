@@ -1,8 +1,8 @@
 //! Extension attributes and comments of the device, and the sections of the file that contain them.
 //!
 //! The IR lists the attributes as `section/key`, in the order of the source; those of header sections come first. The
-//! export writes each attribute to its section. The order of the header sections is the order of their first
-//! attributes.
+//! export writes each attribute to its section. The header sections have the order in which their first attributes
+//! occur in the IR.
 
 use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
@@ -106,7 +106,8 @@ impl<'a> Extras<'a> {
                 notes.add(NoteKind::Configuration, Subject::Named(&extension.key));
             }
             Some(header) => self.header.push((header, extra)),
-            // In other formats, a slash separates the names of nested XML elements.
+            // Only names from a CiA 306 file are section names: in other formats, a slash separates the names of nested
+            // XML elements.
             None if context.is_verbatim && !section.contains(['[', ']']) => self.unknown.push((section, extra)),
             None => notes.add(NoteKind::Extension, Subject::Named(&extension.key)),
         }
@@ -131,7 +132,8 @@ impl<'a> Extras<'a> {
         self.header.iter().filter(move |(other, _)| *other == header).map(|&(_, extra)| extra)
     }
 
-    /// Writes the sections that CiA 306 does not define, and sections about undescribed objects.
+    /// Writes the sections that CiA 306 does not define, and the sections of objects that the description does not
+    /// define.
     pub(super) fn write_unknown(&self, writer: &mut Writer) {
         let mut last = None;
         for &(section, extra) in &self.unknown {

@@ -7,7 +7,7 @@ use lexibus_codegen::ir::{
     MAX_PDO_SUBS,
 };
 
-/// Returns a mapping object for each PDO of `device` that has none and that a mapping object can express.
+/// For each PDO of `device` without a mapping object, returns a mapping object if it can express the PDO.
 pub(super) fn objects(device: &Device) -> Vec<Group> {
     let mut seen: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
     let expressible = device.process_data.pdos.iter().filter(|pdo| is_expressible(pdo));

@@ -129,7 +129,7 @@ impl<'a> Object<'a> {
         let parts = |extension: &'a Extension| extension.key.split_once('/');
         let mut counts: HashMap<&str, usize> = HashMap::new();
         for (section, key) in list.iter().filter_map(parts) {
-            // Count only the numeric keys.
+            // NrOfEntries counts only the entries with numeric keys.
             *counts.entry(section).or_default() += usize::from(key.bytes().all(|byte| byte.is_ascii_digit()));
         }
         let mut section = "";

@@ -18,7 +18,7 @@ pub(super) struct Writer {
     text: String,
     /// Keys of the current section, in lowercase.
     keys: HashSet<String>,
-    /// True if the source is an EDS, in which keys of extension attributes may contain any characters and occur twice.
+    /// True if the source is an EDS. Keys of its extension attributes may contain any characters and occur twice.
     is_verbatim: bool,
     pub(super) notes: Notes,
 }
@@ -95,7 +95,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Replaces characters in `text` that would end the line or the file with spaces.
+    /// Replaces each character in `text` that would end the line or the file by a space.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {

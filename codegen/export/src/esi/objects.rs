@@ -1,4 +1,4 @@
-//! The objects of a device on EtherCAT.
+//! The objects that a device has on EtherCAT.
 
 use crate::note::{NoteKind, Notes, Subject};
 use crate::registers;

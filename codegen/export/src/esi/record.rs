@@ -184,8 +184,8 @@ fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
     }
 }
 
-/// Returns whether readers assign each item to the correct entry. Readers search for the name of a sub-item, then use
-/// its position.
+/// Returns whether readers assign each item to the correct entry. Readers identify the entry of a SubItem element by
+/// the name or, if no name matches, by the position.
 fn matches_by_name_or_position(entries: &[Entry], fields: &[CompactString], items: &[(u8, &Item)]) -> bool {
     let named = |entry: &Entry| fields.get(entry.field).map_or("", CompactString::as_str);
     items.iter().enumerate().all(|(position_of_item, (_, item))| {

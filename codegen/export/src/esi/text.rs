@@ -21,7 +21,8 @@ pub(super) fn names(
     notes: &mut Notes,
     subject: Subject<'_>,
 ) {
-    // If the name has no language number, a reader replaces it with another English name.
+    // If there is another English name, write the language number: without the number, a reader would use the other
+    // name.
     let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
     xml.open(element);
     xml.optional("LcId", others.iter().any(is_english).then_some(language::ENGLISH));

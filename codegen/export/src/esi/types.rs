@@ -24,11 +24,11 @@ pub(super) struct Types<'a> {
     basic: HashMap<Type, CompactString>,
     /// Additional types, written after those of the device.
     pub(super) added: Vec<AddedType>,
-    /// Properties of the fields of each declared record that is the type of an object.
+    /// For each declared record that is the type of an object, the properties of its fields.
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
     /// Declared records, keyed by the sub-indices and types of their entries.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
-    /// True if the source is an ESI, whose facts the export keeps.
+    /// True if the source is an ESI. The export then keeps its facts.
     pub(super) is_esi: bool,
 }
 
@@ -200,7 +200,7 @@ pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     }
 }
 
-/// Returns a basic type whose size is replaced with the declared size, if there is one.
+/// Returns the basic type `ty`, with the declared size if there is one.
 fn sized(ty: Type, bits: Option<u32>) -> Type {
     let Some(bits) = bits.filter(|&bits| bits > 0) else { return ty };
     let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);

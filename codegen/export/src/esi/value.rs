@@ -48,8 +48,8 @@ fn number(value: &Value) -> Option<String> {
     value.as_int().map(|value| value.to_string())
 }
 
-/// Returns a value of type `ty` as little-endian bytes. Readers interpret an element without digits as no value, so an empty
-/// text is a NUL.
+/// Returns a value of type `ty` as little-endian bytes. Readers interpret an element without digits as no value, so an
+/// empty text is written as a NUL.
 fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     match (value, ty) {
         (Value::Text(text), Type::UnicodeString(_)) if text.is_empty() => Some(vec![0, 0]),

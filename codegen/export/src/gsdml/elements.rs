@@ -38,7 +38,8 @@ pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
 pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
 pub(super) static FAMILY: Element = leaf("Family");
 
-/// The child element of an interface that precedes its records. The static items below list the elements that follow the records.
+/// The child element of an interface that precedes its records. [`OF_INTERFACE`] and [`MEDIA_REDUNDANCY`] list the
+/// elements that follow the records.
 pub(super) static GENERAL: Element = element("General", &SIGNAL);
 pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];

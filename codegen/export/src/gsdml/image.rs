@@ -391,7 +391,8 @@ fn losses(device: &Device, notes: &mut Notes) {
                     notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
                     notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
                 }
-                // A record requires start-up values for all its bytes. Registers have no start-up values.
+                // A record cannot contain registers: it requires start-up values for all its bytes, and registers have
+                // none.
                 (false, true) => notes.add(NoteKind::Binding, subject),
                 (false, false) => notes.add(NoteKind::NotInData, subject),
             }

@@ -5,7 +5,7 @@ use lexibus_codegen::ir::Numbers;
 
 options! {
     /// Facts that override the facts of the source or supply missing ones. The options of the device access point, its
-    /// submodules and the interface are only used if a process image becomes a device access point.
+    /// submodules and the interface are used only if a process image becomes a device access point.
     pub struct Options, TrackedOptions {
         /// Vendor ID assigned by PROFIBUS & PROFINET International (VendorID).
         vendor_id: u16 = "vendor-id",

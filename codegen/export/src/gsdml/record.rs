@@ -61,7 +61,7 @@ impl<'m> Menus<'m> {
         let mut menus = BTreeMap::new();
         let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
         while let Some(name) = names.pop() {
-            // Each name is removed from the map after its first use, because it has to be followed only once.
+            // Remove each name from the map, because its menus have to be collected only once.
             for at in self.by_name.remove(name).into_iter().flatten() {
                 if let Some(menu) = self.left.get_mut(at).and_then(Option::take) {
                     names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));

@@ -22,8 +22,8 @@ pub(super) struct TextList {
 }
 
 impl TextList {
-    /// Creates a text list. The list starts with those texts of the source that are referred to only by attributes that
-    /// the IR stores unchanged.
+    /// Creates a text list. Attributes that the IR stores unchanged can also refer to texts. The list starts with the
+    /// texts of the source to which nothing else refers.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();
         let mut positions: HashMap<CompactString, usize> = HashMap::new();

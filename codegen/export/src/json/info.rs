@@ -55,7 +55,7 @@ pub struct DeviceInfo {
     pub name: String,
     /// Order code, or Type of ETG.2000; empty if there is none.
     pub order_code: String,
-    /// Argument of `--device` that selects only this device, if there is one. Not part of the JSON object.
+    /// Argument of `--device` that selects only this device; `None` if no argument does. Not part of the JSON object.
     #[serde(skip)]
     pub argument: Option<String>,
     /// Number of distinct indices that the file and the dictionary file of the device declare.
@@ -101,7 +101,7 @@ pub struct ModuleInfo {
     /// Name of the module. Not part of the JSON object.
     #[serde(skip)]
     pub name: String,
-    /// Argument of `--module` that selects only this module, if there is one. Not part of the JSON object.
+    /// Argument of `--module` that selects only this module; `None` if no argument does. Not part of the JSON object.
     #[serde(skip)]
     pub argument: Option<String>,
     /// The bus-specific facts of the module.

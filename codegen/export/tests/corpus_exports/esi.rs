@@ -21,13 +21,14 @@ fn comparable(before: &mut Value, after: &mut Value) {
             // `described` counts the items that are described in the object and not in its data type. An export may
             // move a description from one to the other.
             fields.remove("described");
-            // The file stores a REAL with 32 bits, although its text can have more digits.
+            // The exported file stores a REAL as 32 bits, but its text in the original can have more digits.
             if let Some(real) = fields.get_mut("real").filter(|real| real.is_f64()) {
                 *real = Value::from(real.as_f64().unwrap_or_default() as f32);
             }
         });
     }
-    // The schema requires definitions of all types and record types for objects, so an export can add types.
+    // The schema requires a definition of each type that is used, and a record type for each object with sub-indices,
+    // so an export can add types.
     for list in ["devices", "modules"] {
         let (Some(before), Some(after)) = (before[list].as_array_mut(), after[list].as_array_mut()) else { continue };
         for (one, other) in before.iter_mut().zip(after) {

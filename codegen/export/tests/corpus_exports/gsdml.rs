@@ -15,7 +15,7 @@ use serde_json::Value;
 
 /// Removes facts that the comparison ignores. The comments in the function state the reasons.
 fn comparable(value: &mut Value) {
-    // The export writes the diagnosis lists in the order of the schema.
+    // Sort the diagnosis lists, because the export writes them in the order of the schema.
     if let Some(tables) = value["code_tables"].as_array_mut() {
         tables.sort_by_key(|table| table["name"].to_string());
     }
@@ -51,7 +51,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
         .iter()
         .map(|(key, count)| count.saturating_sub(exported_keys.get(key).copied().unwrap_or(0)))
         .sum();
-    // The export adds the header, because the schema requires it. The header is equal in all files.
+    // Ignore the header, which the export adds because the schema requires it. The header is equal in all files.
     let is_header = |key: &str| key.starts_with("ProfileHeader/") || key.starts_with("ISO15745Reference/");
     let new = exported_keys.iter().filter(|(key, _)| !is_header(&key.0));
     let new = new.into_iter().find(|(key, count)| original_keys.get(key).is_none_or(|before| before < count));

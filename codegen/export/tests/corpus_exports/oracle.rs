@@ -1,5 +1,5 @@
-//! Compares the compiler's results with lists of the corpus: the counts of a simple script (`oracle.json`) and the class of
-//! each file (`MANIFEST.tsv`).
+//! Compares the compiler's results with two lists of the corpus: `oracle.json`, which contains the counts of a simple
+//! script, and `MANIFEST.tsv`, which contains the class of each file.
 
 use std::collections::BTreeMap;
 
@@ -68,7 +68,8 @@ fn is_sub(declaration: &str) -> bool {
 
 /// Compares all counts with the oracle. The oracle and the compiler count these special cases in the same way: E24
 /// (capitalization of `sub`), E27 (repeated sections), E33 (sub-indices without an object), E41 (leading zeros), E43
-/// (entries that CompactSubObj implies without sections) and E70 (entries that CompactPDO implies without sections).
+/// (entries without sections, which CompactSubObj implies) and E70 (entries without sections, which CompactPDO
+/// implies).
 #[test]
 fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     let Some(cases) = cases() else { return };
@@ -95,8 +96,8 @@ fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     );
 }
 
-/// Returns whether the text has the section of a commissioned device (quirk E68). The script treats such a file as a DCF
-/// and other files as EDS.
+/// Returns whether the text has a section about commissioning (quirk E68). The script treats such a file as a DCF and
+/// other files as EDS.
 fn e68_commissioned(text: &str) -> bool {
     let names = lines(text).into_iter().filter_map(|(_, line)| Some(header(line)?.0.to_ascii_lowercase()));
     names.into_iter().any(|name| ["devicecomissioning", "devicecommissioning"].contains(&name.as_str()))

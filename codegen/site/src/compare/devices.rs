@@ -161,8 +161,8 @@ fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comp
 
 fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
     compare_fields!(ModbusTable, old, new, comparison, {
-        // A missing list means that all functions are accepted. A driver uses another function if the preferred one was
-        // removed.
+        // A missing list means that all functions are accepted. If the preferred function was removed, a driver uses
+        // another one, so its requests change.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
             let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
             if is_lost { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }

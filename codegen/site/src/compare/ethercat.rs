@@ -31,7 +31,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     });
 }
 
-/// Returns the product code and revision of a device that the device hides.
+/// Returns the product code and revision of another device that this device hides in configuration tools.
 fn hidden(identity: &(Option<u32>, Option<u32>)) -> String {
     [identity.0, identity.1].into_iter().flatten().map(hex32).collect::<Vec<_>>().join(" ")
 }

@@ -13,7 +13,7 @@ use lexibus_codegen::facts::item::entry_name;
 use lexibus_codegen::facts::number::{bytes, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
 
-/// Compares groups and their items. An item is also found if it moved to another group.
+/// Compares groups and their items. An item that moved to another group is still compared with its old version.
 pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Comparison<'_>) {
     let (old, new) = (Side::of(old), Side::of(new));
     let groups = Matching::of(&old.group_keys(), &new.group_keys());
@@ -140,7 +140,8 @@ fn title(group: &Group) -> String {
     format!("{} {}", position(group), group.name).trim().to_owned()
 }
 
-/// Compares two items. Their Rust identifiers can also differ because of other items' names.
+/// Compares two items. Even if their names are equal, their Rust identifiers can differ because of the names of other
+/// items.
 fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
     let name = |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
         // The value of an object without entries has the object's name, which is compared with the object.

@@ -157,7 +157,7 @@ fn variants() -> Elements<ItemVariant> {
     .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR)
 }
 
-/// Compares a variant, which applies to some models or buses, in both descriptions.
+/// Compares the old and the new version of a variant. A variant applies only to some models or buses.
 fn variant(items: [&Item; 2], old: &ItemVariant, new: &ItemVariant, comparison: &mut Comparison<'_>) {
     let access = new.access.unwrap_or(items[1].access);
     compare_fields!(ItemVariant, old, new, comparison, {

@@ -64,7 +64,7 @@ fn completion(completion: &Completion) -> String {
     }
 }
 
-/// Compares the layout of a frame and its values.
+/// Compares the layout and the values of a frame.
 fn frame(name: &'static str, old: &[MessageField], new: &[MessageField], comparison: &mut Comparison<'_>) {
     comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
     let title = |value: &&MessageValue| value.item.name.to_string();
@@ -133,7 +133,7 @@ fn field(field: &MessageField, with_names: bool) -> String {
     }
 }
 
-/// Compares the number ranges in which the protocol addresses items.
+/// Compares parameter spaces: the ranges of numbers with which the protocol addresses items.
 pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut Comparison<'_>) {
     compare_fields!(ParameterSpace, old, new, comparison, {
         read: fact("read by", Judgment::WIRE),

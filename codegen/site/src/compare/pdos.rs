@@ -162,7 +162,8 @@ impl Layout<'_> {
     }
 }
 
-/// Returns the keys that pair entries. The key is the name, or the order for paddings.
+/// Returns the keys that pair entries. The key of an entry is its name. The key of a padding is its position among the
+/// paddings.
 fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     let mut paddings = 0_u32..;
     let name = |entry: &PdoEntry| match entry.kind {
@@ -192,7 +193,7 @@ fn entry_title(entry: &PdoEntry) -> String {
 
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
     compare_fields!(PdoEntry, old, new, comparison, {
-        // All differences of positions except those of paddings are reported with the layout.
+        // The change of the layout already shows all changed positions, except those of paddings.
         bit_offset: fact("first bit", Judgment::NONE),
         kind: fact_as("kind", Judgment::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),
@@ -233,7 +234,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces the beginning and the end that both lists have in common with `…`.
+/// Replaces the common beginning and the common end of both lists by `…`.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);

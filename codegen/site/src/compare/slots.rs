@@ -1,4 +1,4 @@
-//! Compares slots and subslots and the modules and submodules that fit into them.
+//! Compares slots and subslots, and the modules and submodules that fit into them.
 
 use super::change::Judgment;
 use super::comparison::{fact, slices, Comparison, Elements};

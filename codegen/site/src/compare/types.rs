@@ -30,7 +30,8 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
             definitions(one, other, is_same_type, comparison);
         }
         (Some(_), Some(_)) | (None, None) => {}
-        // Both types are names of the same basic type. If one type had a definition, its text would differ.
+        // One type is a basic type, and the other is only a name for this type: any other definition would have a
+        // different text.
         (one, other) if name(old_types, old) == name(new_types, new) => {
             let text = |value: Option<&TypeDef>| value.map(|value| value.name.to_string()).unwrap_or_default();
             comparison.push("name of the type", text(one), text(other), Judgment::NONE);
@@ -77,7 +78,7 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     );
 }
 
-/// Returns the text of a type, such as `UNSIGNED16`, `values of UNSIGNED16` or `array of 4 × INTEGER16`.
+/// Returns the text of a type, such as `UNSIGNED16`, `values of UNSIGNED16` or `array [4 from 1] of INTEGER16`.
 pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
     let shape = Owner::of_types(types).definition(ty).map(|definition| &definition.shape);
     match shape {
@@ -162,7 +163,7 @@ fn shapes(old: &Shape, new: &Shape, comparison: &mut Comparison<'_>) {
             base(old_base, new_base, comparison);
             fact_as("scale", Judgment::API_AND_BEHAVIOR, |scale| PLAIN.scale(scale, ""))(old, new, comparison);
         }
-        // The text of the type shows the difference unless both definitions are names of a basic type.
+        // The definitions have different kinds.
         _ => comparison.push("kind of the type", kind(old).to_owned(), kind(new).to_owned(), Judgment::API),
     }
 }

@@ -16,13 +16,13 @@ pub(super) struct Lanes {
 struct Lane {
     /// Position of the lane. The first lane is next to the column.
     number: u32,
-    /// First and last row in which no other edge has this lane.
+    /// First and last row that the edge occupies in the lane. No other edge has the same lane in these rows.
     rows: (usize, usize),
 }
 
 impl Lanes {
-    /// Gives each edge on this side a lane. Shorter edges have nearer lanes. A label that is longer than its edge also takes the rows
-    /// next to the edge. `pitch` is the distance between two rows in pixels.
+    /// Assigns a lane to each edge on this side. Shorter edges get lanes nearer to the column. If a label is longer
+    /// than its edge, the edge also occupies rows above and below. `pitch` is the distance between two rows in pixels.
     pub fn new(
         edges: &[Edge],
         rows: &[Option<usize>],
@@ -69,8 +69,9 @@ impl Lanes {
         used.map(|(_, edge)| edge.label_length()).max().unwrap_or_default()
     }
 
-    /// Returns the middle of an edge's label, which is `length` long, and whether no arrow crosses the label. Only arrows on lanes
-    /// that are further out can cross it. `ends` returns the ends of an edge, and `top` the top of a row.
+    /// Returns the vertical position of the middle of an edge's label, and whether no arrow crosses the label there.
+    /// The label is `length` pixels long. Only arrows on lanes further out can cross it. `ends` returns the vertical
+    /// positions of the ends of an edge, and `top` returns that of the top of a row.
     pub fn label(
         &self,
         edge: usize,

@@ -44,7 +44,8 @@ const UNREPORTED: [(&str, &str); 12] = [
     ("/manual/sections/*/start", "a position in the manual"),
 ];
 
-/// Returns the reason why changes of a leaf are not reported. The list can contain the leaf or an element that contains it.
+/// Returns the reason why changes of a leaf are not reported. The list can name the leaf itself or an element that contains the
+/// leaf.
 fn unreported(pattern: &str) -> Option<&'static str> {
     let is_part = |end: &str| format!("{pattern}/").contains(&format!("{end}/"));
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))
@@ -157,7 +158,7 @@ struct Tally {
 }
 
 impl Tally {
-    /// Changes the leaves of a description until each path has at most `most` changed leaves in all descriptions.
+    /// Changes the leaves of a description, but no more than `most` leaves per path in all descriptions together.
     fn add(&mut self, description: &Description, most: usize) {
         assert_eq!(compare(&description.catalog, &description.catalog), [], "{} differs from itself", description.name);
         let mut json = description.json.clone();

@@ -33,14 +33,14 @@ fn the_search_finds_modules_by_name_order_code_and_ident_number() {
     let text = text.replace("<InfoText TextId=\"T_Axis\"/>", order);
     let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.xml", text.into()))]);
     let index = &pages.iter().find(|page| page.path.ends_with("/search.js")).expect("an index").text;
-    // Both numbers of the module are entries with its name, and lead to its anchor: the second entry differs from the first in its
-    // number.
+    // The ident number and the order code of the module are entries with its name and anchor. The second entry differs from the
+    // first only in its number.
     for part in ["\\n0x00000030\\nEX-7 AX\\n", "\\nAxis\\t", "\\nmodule-00000030\\n", ",1,1,1,1,0,0,"] {
         assert!(index.contains(part), "{part}: {index}");
     }
     let modules = &pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules").text;
     assert!(modules.contains("<section id=\"module-00000030\" class=\"module\">"), "{modules}");
-    // The data of submodules have no objects.
+    // The data of submodules are not objects.
     assert!(!modules.contains("<th scope=\"col\">Object"), "{modules}");
 }
 
@@ -138,7 +138,7 @@ fn revisions_in_two_files_are_compared() {
              [2000]\nParameterName=Gain\nDataType=6\nAccessType={access}\n"
         )
     };
-    // The order of the files does not matter.
+    // The pages must not depend on the order of the files.
     let source = |name: &str, text: String| (name.to_owned(), Source::new(format!("{name}.eds"), text.into()));
     let (old, new) = (source("old", eds(1, "rw")), source("new", eds(2, "ro")));
     let other = |text: String| text.replace("ProductNumber=7", "ProductNumber=8\nOrderCode=P-8");
@@ -158,7 +158,7 @@ fn revisions_in_two_files_are_compared() {
         assert!(pages.iter().any(|page| page.path == "maker/pump-plus-0x00000008/0x00000002/changes.html"));
         assert!(pages.iter().all(|page| page.path != "maker/pump-0x00000007/0x00000001/changes.html"));
         html_links(&pages);
-        // The results of the search state the revision if the titles are equal.
+        // The search results contain the revision if the titles are equal.
         for device in ["[\"Pump (0x00000001)\",", "[\"Pump (0x00000002)\",", "[\"Pump plus\","] {
             assert!(text("search.js").contains(device), "{device}");
         }
@@ -399,7 +399,7 @@ fn rows_of_a_list_differ() {
     let markdown = site(Format::Markdown, vec![("a".to_owned(), terminals(&[4, 4]))]);
     let list = &markdown.iter().find(|page| page.path == "README.md").expect("the list").text;
     assert!(list.contains(") (2 identical descriptions) |"), "{list}");
-    // The results of the search differ, too.
+    // The search results must also differ.
     let index = &pages.iter().find(|page| page.path == "search.js").expect("the index").text;
     for name in ["description 1 of 2, 2 identical descriptions", "0x00120000, description 2 of 2"] {
         assert!(index.contains(name), "{name}: {index}");

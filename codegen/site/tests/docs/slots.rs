@@ -8,7 +8,7 @@ use lexibus_site::{Format, Page};
 /// Number of modules that fit into the slots 2 and 3.
 const MODULES: usize = 20;
 
-/// Returns a device access point with all facts that the overview shows.
+/// Returns the pages of a device access point that has all facts that the overview shows.
 fn access_point(format: Format) -> Vec<Page> {
     let path = crate::root::root().join("tests/data/drive.gsdml.xml");
     let text = std::fs::read_to_string(path).expect("a description");

@@ -1,4 +1,4 @@
-//! Devices with several axes: the constant `AXES`, from which the runtime calculates addresses.
+//! Devices with several axes: the constant `AXES`, from which the runtime calculates the object addresses of each axis.
 
 use super::code::{Data, Doc};
 use super::docs;
@@ -6,8 +6,8 @@ use crate::ir::{AxisRange, AxisRule, AxisStep, Device};
 
 /// The axes of a multi-axis device, ready to be printed.
 pub(super) struct AxesModel {
-    /// Names of the device models with several axes, as part of a sentence. The text is empty if all models of the
-    /// device have several axes.
+    /// A phrase ` of …, …` with the names of the device models that have several axes. The phrase is empty if all
+    /// models of the device have several axes.
     pub models: String,
     /// Value of the constant `AXES`.
     pub constant: Doc,

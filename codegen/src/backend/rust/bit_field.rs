@@ -21,13 +21,13 @@ pub(super) struct BitFieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// The texts, if the options request them.
+    /// Data for the implementations of `Debug` and the number formats, if the options request `Debug`.
     pub debug: Option<DebugModel>,
     /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
     pub base: &'static str,
     /// Primitive integer that holds the raw value.
     pub native: &'static str,
-    /// Initial value. This value contains the reserved bits that must be 1.
+    /// Initial value, in which only the reserved bits that must be 1 are set.
     pub initial: String,
     /// Expression that clears the bits of `raw` beyond the width of the bit field.
     pub cut: String,
@@ -36,7 +36,7 @@ pub(super) struct BitFieldModel {
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
     pub views: Vec<ViewModel>,
-    /// Mask of all flags, if the bit field consists only of flags that are set while their bits are 1.
+    /// Mask of all flags. `None` if the bit field has views, fields of several bits, reserved bits or active-low flags.
     pub flags: Option<String>,
 }
 
@@ -52,7 +52,7 @@ impl BitFieldModel {
     }
 }
 
-/// Texts of a bit field: `Debug`, the formats of its raw bits, and the names of its flags.
+/// Data for the implementations of `Debug` and the number formats of a bit field.
 pub(super) struct DebugModel {
     /// The `cfg` attribute of the implementations. The list is empty if they are unconditional.
     pub gate: Vec<String>,
@@ -60,7 +60,7 @@ pub(super) struct DebugModel {
     /// Names and masks of the fields, in the format that the runtime's `debug_bits` requires. The list starts with the
     /// name of the type.
     pub layout: String,
-    /// Values of the fields that `Debug` prints in the format of the field's type.
+    /// Values of those fields that `Debug` prints in the format of their Rust type.
     pub values: Vec<Doc>,
 }
 
@@ -99,8 +99,9 @@ pub(super) struct ViewModel {
     pub allow: Option<String>,
 }
 
-/// Names that getters must not have. These are other methods of bit fields, methods that clippy expects in trait
-/// implementations only, and methods of all types. The methods of all types would be called instead of the getter.
+/// Names that getters must not have. These are keywords, other methods of bit fields, methods that clippy expects in
+/// trait implementations only, and methods that all types have. A call would otherwise choose the method that all types
+/// have, and not the getter.
 const RESERVED: [&str; 17] = [
     "self",
     "super",
@@ -270,8 +271,8 @@ fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     (zeros & !used, ones & !used)
 }
 
-/// Returns the mask of all flags. Returns `None` if a bit is not a flag or is active low. An operation on all bits would then not
-/// be one on all flags.
+/// Returns the mask of all flags. Returns `None` if the bit field has views, or if an entry is not a flag or is active
+/// low. Operators on the raw bits would then not have the same effect on the flags.
 fn flags(entries: &[&BitFieldEntry], has_no_views: bool) -> Option<String> {
     let is_flag = |entry: &&BitFieldEntry| {
         entry.bits == 1 && matches!(entry.meaning, BitMeaning::Flag { inverted: false }) && entry.when.is_none()
@@ -338,8 +339,8 @@ impl Fields<'_, '_> {
             !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_deref() == condition
         };
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
-        // One bit can have two fields with the same name and different meanings, one for each of two firmware versions.
-        // A suffix with the position makes the names of these fields unique.
+        // If the meaning of a bit depends on the firmware version, the bit can have two fields with the same name. A
+        // suffix with the position makes the names of these fields unique.
         let mut seen = HashSet::new();
         let name_requests: Vec<NameRequest<'_>> = entries
             .iter()

@@ -26,8 +26,8 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
     facts
 }
 
-/// For each Modbus table: the field and the constant in the runtime, and the maximum numbers of values in a read
-/// request and a write request.
+/// For each Modbus table: its field in `rt::modbus::Limits`, the constant with its standard limits, and the maximum
+/// numbers of values in a read request and in a write request.
 const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
     (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),
@@ -73,15 +73,16 @@ fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Ve
     )
 }
 
-/// Returns the address ranges of a Modbus table that a request can include between the addresses of other items. Values
-/// that are too long for one Modbus request are excluded.
+/// Returns the address ranges of a Modbus table that a read request for other items may include. Values that are too
+/// long for one Modbus request are excluded.
 fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
     let all = items(device).flat_map(|item| registers(item).map(move |register| (item, register)));
     for (item, register) in all.filter(|(_, register)| register.space == space && register.count <= longest) {
         let word_count = is_read_along(item).then_some(register.words_per_address);
         for address in register.address..=register.last() {
-            // An address can be read together with others only if all items at the address allow it.
+            // An address can be read together with others only if all items at the address allow it and have the same
+            // number of words per address.
             let known = addresses.entry(address).or_insert(word_count);
             *known = known.filter(|_| *known == word_count);
         }
@@ -107,8 +108,8 @@ fn span(span: (u16, u16, u8)) -> Doc {
     }
 }
 
-/// Returns whether an item can be read without an explicit request by the program. All models must have the item in all
-/// states, and reading must have no side effect.
+/// Returns whether an item can be read without an explicit request by the program. The item must exist on all models
+/// and firmware versions and with all options, it must be readable in all states, and reading must have no side effect.
 fn is_read_along(item: &Item) -> bool {
     /// Flag in ObjFlags (CiA 306): do not read the object during a scan.
     const REFUSES_SCAN: u32 = 2;

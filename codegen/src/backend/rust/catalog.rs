@@ -101,8 +101,8 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
 }
 
 /// Returns unique names of the devices. The names are based on order codes if possible, because order codes are shorter
-/// than names. Ambiguous names get the revision number as a suffix, preceded by the product code if several devices
-/// with the name have the same revision number.
+/// than names. An ambiguous name gets the revision number as a suffix. If several devices have the same name and
+/// revision number, the suffix begins with the product code.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
     let mut seen = HashSet::new();
@@ -136,8 +136,8 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-/// Returns the name of a device or module in the description. If the description contains no name for the device or
-/// module, returns its Rust name.
+/// Returns the name that the description gives to a device or module. Returns the Rust name if the description contains
+/// no name.
 fn title(original: &str, name: &str) -> String {
     let title = docs::escape(original);
     docs::sentence(if title.is_empty() { name } else { &title })

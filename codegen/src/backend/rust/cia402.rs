@@ -1,4 +1,4 @@
-//! The objects of CiA 402 that a device has, for the operations of the runtime.
+//! Objects of CiA 402 that a device has and the runtime uses for its CiA 402 operations.
 
 use super::code::Doc;
 use super::constants::{accesses, bound, Constant, Constants};
@@ -8,7 +8,7 @@ use crate::facts::words::enumerated;
 
 /// The objects of CiA 402, ready to be printed.
 pub(super) struct Cia402Model {
-    /// Name of the method that returns the operations.
+    /// Name of the method that returns the CiA 402 operations.
     pub method: String,
     pub docs: Vec<String>,
     /// Traits of the runtime that the device's type implements.
@@ -20,16 +20,16 @@ pub(super) struct TraitModel {
     /// Path of the trait without its parameter.
     pub path: &'static str,
     pub functions: Vec<FunctionModel>,
-    /// Bounds of the location types.
+    /// Trait bounds of the location types.
     pub bounds: Vec<Doc>,
 }
 
-/// A function that returns an object.
+/// A trait function that returns an object.
 pub(super) struct FunctionModel {
     pub name: &'static str,
     /// Whether the object is read and whether it is written.
     pub access: (bool, bool),
-    /// Path of the constant.
+    /// Path of the object's constant.
     pub path: String,
 }
 
@@ -47,11 +47,11 @@ const CONTROLWORD: Role = Role { object: (0x6040, 0), function: "controlword", a
 const STATUSWORD: Role = Role { object: (0x6041, 0), function: "statusword", access: READ };
 const MODE: Role = Role { object: (0x6060, 0), function: "modes_of_operation", access: WRITE };
 const ACTIVE_MODE: Role = Role { object: (0x6061, 0), function: "modes_of_operation_display", access: READ };
-/// The object can also be another one with the error code.
+/// The error code is read from object 0x1003:1 if the device has no object 0x603F.
 const ERROR_CODE: Role = Role { object: (0x603F, 0), function: "error_code", access: READ };
 const FOLLOWING_ERROR: Role = Role { object: (0x60F4, 0), function: "following_error", access: READ };
 
-/// Traits for objects that not every drive has: path of the trait, object, and text for the documentation.
+/// Traits that a drive implements if it has the object: path of the trait, object, and text for the documentation.
 const CAPABILITIES: [(&str, Role, &str); 3] = [
     (
         "rt::cia402::Positioning",
@@ -62,11 +62,12 @@ const CAPABILITIES: [(&str, Role, &str); 3] = [
     ("rt::cia402::Homing", Role { object: (0x6098, 0), function: "homing_method", access: WRITE }, "homing"),
 ];
 
-/// A role and the constant of its object.
+/// A role, and the constant of the device's object for this role.
 type Played<'r, 'c> = (&'r Role, Constant<'c>);
 
 impl Cia402Model {
-    /// Returns the model of a device whose state machine is that of CiA 402, and which also has the objects of the mode.
+    /// Returns the model of a device. Returns `None` unless the device has the CiA 402 state machine and the objects
+    /// 0x6060 and 0x6061 (mode of operation).
     pub(super) fn new(constants: &Constants<'_, '_>, walks: &[WalkModel]) -> Option<Self> {
         let find = |role: &Role| {
             let (reads, writes) = role.access;
@@ -84,7 +85,8 @@ impl Cia402Model {
         if !walks.iter().any(is_drive) {
             return None;
         }
-        // Optional objects must not restrict the buses of the operations.
+        // An optional object is used only if its location type is that of an object that is always read. Otherwise, it
+        // would restrict the buses of the operations.
         let read = accesses(core.iter().map(located));
         let is_everywhere =
             |constant: &Constant<'_>| read.get(constant.location.as_str()).is_some_and(|access| access.0);
@@ -106,7 +108,7 @@ impl Cia402Model {
     }
 }
 
-/// Returns the implementation of a trait. `core` contains the objects of the trait on which this trait depends.
+/// Returns the implementation of a trait for these objects. `core` contains the objects of the supertrait.
 fn implementation(path: &'static str, objects: &[Played<'_, '_>], core: &[Played<'_, '_>]) -> TraitModel {
     let function = |(role, constant): &Played<'_, '_>| FunctionModel {
         name: role.function,
@@ -121,7 +123,7 @@ fn implementation(path: &'static str, objects: &[Played<'_, '_>], core: &[Played
     }
 }
 
-/// Returns the location of an object and its access.
+/// Returns the location of an object, and whether the object is read and whether it is written.
 fn located<'p>(played: &'p Played<'_, '_>) -> (&'p str, (bool, bool)) {
     let (role, constant) = played;
     (&constant.location, role.access)

@@ -20,7 +20,7 @@ pub(super) struct CodeTableModel {
     pub link: String,
     pub docs: Vec<String>,
     pub rows: Vec<Doc>,
-    /// True if a cell may contain a number close to a mathematical constant. Clippy reports such literals.
+    /// True if a cell may contain a real number close to a mathematical constant. Clippy reports such literals.
     pub has_real: bool,
     /// Enumeration of the codes.
     pub ty: Option<CodeTypeModel>,

@@ -108,8 +108,8 @@ fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut pieces = Vec::new();
     for at in order {
         let (mut first, mut last) = spans[at];
-        // The last code of the part of the span that no covered span contains. If this code is below `first`, nothing
-        // of the span remains.
+        // The last code of the part of the span that is not yet compared with the covered spans. If this code is below
+        // the first code of the span, no such part remains.
         let mut end = Some(last);
         while let Some((low, high)) = last_meeting(&covered, spans[at]) {
             covered.remove(&low);

@@ -1,5 +1,5 @@
-//! Generates a constant for each composite number. The constant combines the digits from several items into one number,
-//! and splits a number into these digits.
+//! Generates a constant for each composite number. With this constant, a program combines the digits in several items
+//! into one number, and splits a number into these digits.
 
 use super::bus_facts::FactModel;
 use super::code::{seq, Data, Doc};

@@ -6,13 +6,13 @@ use crate::facts::address;
 use crate::facts::configuration::{Configuration, LeftOut, Setting};
 use crate::ir::Device;
 
-/// Maximum number of addresses in a list of objects that are left out.
+/// Maximum number of addresses that the documentation lists for each reason why objects are left out.
 const SHOWN: usize = 12;
 
 /// The constant, ready to be printed.
 pub(super) struct ConfigurationModel {
     pub docs: Vec<String>,
-    /// Names of the phases with their settings. Phases without settings are not in the list.
+    /// Phases of the configuration: the name and the settings of each phase. Phases without settings are left out.
     pub phases: Vec<(&'static str, Vec<Doc>)>,
 }
 

@@ -15,14 +15,14 @@ use super::value_type;
 /// first entry of the pre-defined error field of CiA 301, 7.5.2.4.
 const ERROR_CODES: [(u16, u8); 2] = [(0x603F, 0), (0x1003, 1)];
 
-/// Access to the constants of items.
+/// Finds the constants of items.
 pub(super) struct Constants<'c, 'a> {
     pub context: &'c Context<'a>,
     pub locations: &'c Locations,
     pub objects: &'c [ObjectModel],
 }
 
-/// The constant of an item.
+/// The constant of an item that is an integer of 8, 16 or 32 bits.
 pub(super) struct Constant<'c> {
     model: &'c ItemModel,
     pub path: String,
@@ -40,7 +40,7 @@ impl Constants<'_, '_> {
         self.context.link_to(id.into(), name, DocModule::TOP).unwrap_or_default()
     }
 
-    /// Returns the constant of an object, if the object is an integer of up to 32 bits.
+    /// Returns the constant of an object, if the object is an integer of 8, 16 or 32 bits.
     pub fn object(&self, object: (u16, u8)) -> Option<Constant<'_>> {
         self.integer(&|model| model.object == Some(object))
     }
@@ -50,7 +50,8 @@ impl Constants<'_, '_> {
         ERROR_CODES.iter().find_map(|object| self.object(*object).filter(Constant::is_readable))
     }
 
-    /// Returns the constant of the first item that `is_it` accepts, if the item is an integer of up to 32 bits.
+    /// Returns the constant of the first item for which `is_it` returns true, if this item is an integer of 8, 16 or 32
+    /// bits.
     pub fn integer(&self, is_it: &dyn Fn(&ItemModel) -> bool) -> Option<Constant<'_>> {
         let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |item| (object, item)));
         let (object, model) = all.into_iter().find(|(_, item)| is_it(item))?;
@@ -76,7 +77,7 @@ impl Constant<'_> {
     }
 }
 
-/// Returns whether the items at each location are read and written.
+/// Returns, for each location type, whether any of its items is read and whether any is written.
 pub(super) fn accesses<'l>(
     items: impl IntoIterator<Item = (&'l str, (bool, bool))>,
 ) -> BTreeMap<&'l str, (bool, bool)> {
@@ -88,7 +89,8 @@ pub(super) fn accesses<'l>(
     all
 }
 
-/// Returns the bound of a location type whose items a client of `bus` reads, writes or both.
+/// Returns the trait bound that a location type needs so that a client of `bus` can access its items: read them, write
+/// them, or both.
 pub(super) fn bound(location: &str, bus: &str, access: (bool, bool)) -> Doc {
     let route = match access {
         (true, true) => format!("Route: rt::ReadRoute<{bus}> + rt::WriteRoute<{bus}>"),

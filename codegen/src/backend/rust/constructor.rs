@@ -8,7 +8,7 @@ use super::value_type::ValueType;
 use super::variant;
 use crate::ir::{Item, Value};
 
-/// Default arguments, which short constructors omit.
+/// Default arguments, which the short constructors omit.
 const FULL: &str = "rt::Range::Full";
 const UNKNOWN: &str = "rt::Initial::Unknown";
 const NO_FLAGS: &str = "rt::Flags::NONE";

@@ -1,4 +1,4 @@
-//! Input of the stage that lowers a device or module to plain data: its elements with their addresses, names and links.
+//! Input of the lowering to plain data: a device or module, with the addresses, names and links of its elements.
 
 use std::ops::Deref;
 

@@ -16,8 +16,8 @@ use super::reexport::{Reexport, Section};
 /// The definitions of all devices that were processed so far.
 pub(super) struct Definitions {
     runtime: String,
-    /// Numbers of definitions, by their code and the numbers of the definitions that the code refers to. The code alone
-    /// is not enough, because two definitions with equal code can refer to different types.
+    /// Number of each definition, keyed by its code and by the numbers of the definitions to which the code refers. The
+    /// code alone is not enough, because two definitions with equal code can refer to different types.
     numbers: HashMap<(String, Vec<usize>), usize>,
     /// For each definition number, the module of the device that contains the definition.
     homes: Vec<String>,
@@ -144,8 +144,8 @@ impl Device<'_> {
                 print::objects::object(code, model, object);
             };
             let used = in_types(object.items.iter().filter_map(|item| item.type_name.as_deref()));
-            // If a name contains no letters, a constant and a module can have the same name. A re-export of the name
-            // would include both of them.
+            // If a name contains no letters, a constant and a module can have the same name. The object is then defined
+            // again, because a re-export of the name would include both.
             is_cased(&object.name) && !self.is_new(&[Section::Objects], &[name], used, &write)
         };
         let reexported: Vec<bool> = model.objects.iter().map(is_reexported).collect();

@@ -51,7 +51,7 @@ pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
 }
 
 /// Returns the text of an element for a table cell: its name, followed by the start of its documentation. The name is
-/// left out if `rust` consists of the same words.
+/// left out if the Rust name `rust` consists of the same words.
 pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentation>) -> String {
     let mut parts = Vec::new();
     if !is_same(name, rust) {

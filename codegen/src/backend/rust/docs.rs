@@ -18,8 +18,9 @@ pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<
     Words { escape, link }
 }
 
-/// Returns a function that links to other elements from the documentation of an item. The function compares IDs instead
-/// of names, because the replacement of an item may have the same name as the item.
+/// Returns a function that creates links to other elements for the documentation of an item. The function returns no
+/// link to the item itself. It compares IDs instead of names, because the replacement of an item may have the same name
+/// as the item.
 fn links_from<'c>(
     entry: &'c NamedItem<'_>,
     context: &'c Context<'_>,
@@ -114,7 +115,7 @@ pub(super) fn method(
     lines
 }
 
-/// Returns facts after a name, if there is one.
+/// Returns `name: facts`, or only the facts if the name is empty.
 fn titled(name: &str, facts: &str) -> String {
     match escape(name.trim()).trim_end_matches('.') {
         "" => facts.to_owned(),
@@ -144,7 +145,7 @@ pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: Do
     linked(&|id, name| context.link_to(id, name, doc_module)).holds(condition)
 }
 
-/// Adds the sentences of an element's documentation to `sentences`.
+/// Adds the text of an element's documentation to `sentences`.
 pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
     sentences.extend(WORDS.description(documentation));
 }

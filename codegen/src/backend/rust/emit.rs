@@ -81,12 +81,12 @@ fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
     calls.into_iter().filter(|(exists, _)| *exists).map(line).collect()
 }
 
-/// Returns the default name of the device's type. By default, the name of the generated file has the same words.
+/// Returns the default name of the device's type.
 pub fn device_name(device: &Device, file: &FileInfo) -> String {
     device_names::device_name(device, file, None)
 }
 
-/// Returns the name of the module for `device`: the name of its type in snake case.
+/// Returns the name of the module for `device`: the default name of its type in snake case.
 pub fn module_name(device: &Device, file: &FileInfo) -> String {
     device_names::module_name(device, file)
 }

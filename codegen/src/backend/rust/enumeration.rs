@@ -49,8 +49,8 @@ const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
 /// Returns the model of the enumeration at `position` in the list of types.
 ///
-/// The enumeration has no variant `Unknown` if two conditions are met. It is the type of a field in a bit field, and it
-/// names all numbers of up to [`COMPLETE`] bits.
+/// The enumeration has no variant `Unknown` if it is the type of a field in a bit field, has at most [`COMPLETE`] bits,
+/// and names all numbers of its width.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,
@@ -86,8 +86,8 @@ pub(super) fn model(
     }
 }
 
-/// Returns the documentation table: the ranges and, unless there are too many, the variants. The table shows the
-/// variant `Unknown` for each range.
+/// Returns the documentation table: the ranges of numbers and, unless there are too many, the variants. The table shows
+/// the variant `Unknown` for each range.
 fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) -> Vec<String> {
     let mut rows: Vec<(i128, [String; 3])> = Vec::new();
     if variants.len() <= doc_table::MAX_ROWS {

@@ -7,8 +7,8 @@ use super::value_type;
 use super::walk::WalkModel;
 use crate::ir::{Binding, Item, Type, Value};
 
-/// Returns the lines of the example: creates the driver, leads its state machine to a state, reads a value and writes a value.
-/// Returns no lines if a program cannot access any value of the device.
+/// Returns the lines of the example, which creates the driver, leads its state machine to a state, reads a value and
+/// writes a value. Returns no lines if a program cannot access any value of the device.
 pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel]) -> Vec<String> {
     let calls: Vec<(&Item, String)> = objects::calls(context).map(|(entry, path)| (entry.item, path)).collect();
     let (read, write) = (readable(context, &calls), writable(context, &calls));
@@ -49,7 +49,7 @@ pub(super) fn writable<'c>(context: &Context<'_>, calls: &'c [(&Item, String)]) 
     settings.into_iter().find_map(|(item, call)| Some((*item, call.as_str(), default(item, context.base(item.ty))?)))
 }
 
-/// Returns whether the value of an item is a plain number.
+/// Returns whether an item is an integer of 8, 16 or 32 bits without an enumeration or bit field.
 pub(super) fn is_number(context: &Context<'_>, item: &Item) -> bool {
     value_type::is_word(context.base(item.ty)) && context.enumeration(item.ty).is_none()
 }
@@ -58,7 +58,7 @@ fn is_measured(context: &Context<'_>, item: &Item) -> bool {
     is_number(context, item) && item.quantity.is_some() && !is_communication(item)
 }
 
-/// Returns whether an item is a communication object (CiA 301, 7.4.1).
+/// Returns whether an item is in the communication profile area of the object dictionary (CiA 301, 7.4.1).
 fn is_communication(item: &Item) -> bool {
     item.bindings.iter().any(|binding| matches!(binding, Binding::Object { index: 0x1000..=0x1FFF, .. }))
 }

@@ -8,7 +8,7 @@ use crate::ir::Type;
 /// Number of bits in a word, that is, in the `u64` that contains encoded values.
 const WORD: u32 = 64;
 
-/// The Rust type for a number of bits.
+/// The Rust type of a field that consists of a number of bits.
 pub(super) enum FieldType {
     Bool,
     /// A primitive integer.
@@ -37,8 +37,8 @@ impl FieldType {
         }
     }
 
-    /// Returns an expression that converts `value` to bits in a `u64`. For an enumeration, bits beyond its width may be
-    /// set.
+    /// Returns an expression that converts `value` to bits in a `u64`. For an enumeration, bits of the result beyond
+    /// its width may be set.
     pub fn encode(&self, value: &str, bits: u32) -> String {
         match self {
             FieldType::Named(_, native) => match native.strip_prefix('i') {
@@ -78,8 +78,8 @@ impl FieldType {
         }
     }
 
-    /// Returns whether the expression of [`decode`](Self::decode) applies an operator to the bits. If it does, an
-    /// expression for the bits that contains operators needs parentheses.
+    /// Returns whether the expression of [`decode`](Self::decode) applies an operator to the bits. If it does, `bits`
+    /// needs parentheses when it contains an operator itself.
     pub fn is_cast(&self) -> bool {
         match self {
             FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",
@@ -88,8 +88,8 @@ impl FieldType {
         }
     }
 
-    /// Returns a mask of the field's bits. Returns `None` if no mask is necessary, because the Rust type has no further
-    /// bits or its conversions remove the further bits.
+    /// Returns a mask of the field's bits. Returns `None` if no mask is necessary, because the Rust type has no bits
+    /// beyond the field's width, or its conversions clear these bits.
     pub fn cut(&self, bits: u32) -> Option<String> {
         match self {
             FieldType::Named(_, native) if native_bits(native) > bits => {

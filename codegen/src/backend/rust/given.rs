@@ -54,7 +54,8 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
     (!numbers.is_empty()).then(|| GivenModel { derives: options.derives(true), numbers, units })
 }
 
-/// Returns the units of the machine without repetitions, in the order of the items that use these units.
+/// Returns the conversions between units of the device and units of the machine, without repetitions, in the order of
+/// the items that need them.
 fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitModel> {
     let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
     let items = device.groups.iter().flat_map(|group| &group.items);
@@ -92,7 +93,7 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     found.iter().zip(names.chunks(2)).filter_map(unit).collect()
 }
 
-/// Returns the unit as words to append to a name.
+/// Returns the text `, in <unit>`, which is appended to a name. The text is empty if the unit is empty.
 pub(super) fn in_unit(unit: &str) -> String {
     if unit.is_empty() {
         return String::new();

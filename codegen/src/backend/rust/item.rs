@@ -22,8 +22,8 @@ pub(super) struct ItemModel {
     pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// Type arguments of the handle, as written in its own module. They are the type of the value, and the type of the
-    /// location if there are several locations.
+    /// Type arguments of the handle, as written in its own module. They are the type of the value and, unless it is the
+    /// default, the type of the location.
     pub arguments: Vec<Doc>,
     /// Type arguments of the handle, as written in the device's module.
     pub arguments_at_top: Vec<Doc>,
@@ -56,8 +56,8 @@ impl ItemModel {
         format!("{}{}", self.method, if hides { "_" } else { "" })
     }
 
-    /// Returns the expression that combines the handle with the device's client. The expression is a function call for
-    /// long names, because the lines of a method chain would be broken.
+    /// Returns the expression that combines the handle with the device's client. For long names, the expression is a
+    /// function call, because a method chain would be broken into several lines.
     pub(super) fn at_client(&self) -> Doc {
         const LONG: usize = 57;
         let path = format!("objects::{}", self.constant);
@@ -133,7 +133,7 @@ pub(super) fn model(
     }
 }
 
-/// Frees the unused capacity of a list. A large device has a list of each kind for each of its items.
+/// Frees the unused capacity of a list. Each item of a device has several such lists, so their unused capacity adds up.
 fn exact<T>(mut list: Vec<T>) -> Vec<T> {
     list.shrink_to_fit();
     list

@@ -31,7 +31,7 @@ impl<'h> DocModule<'h> {
     pub const PDO: DocModule<'static> = DocModule::new("super::", "pdo::");
     #[cfg(feature = "messages")]
     pub const MESSAGES: DocModule<'static> = DocModule::new("super::", "messages::");
-    /// A module in the device's module. No link leads to such a module.
+    /// Any other module in the device's module. No link leads to such a module.
     pub const OTHER: DocModule<'static> = DocModule::new("super::", "::");
 
     pub const fn new(outer: &'h str, module: &'h str) -> Self {
@@ -132,12 +132,12 @@ pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,
     /// For each object, the names of the PDO structs that contain it by default.
     carriers: HashMap<(u16, u8), Vec<String>>,
-    /// The items with each type, by the position of the type in the list of types.
+    /// The items that use each type, keyed by the position of the type in the list of types.
     users: HashMap<u32, Vec<ItemId>>,
-    /// Paths of message types. The path leads to the type of the request, or to the type of the reply if only the
+    /// Paths of message types. Each path leads to the type of the request, or to the type of the reply if only the
     /// device sends the message.
     messages: HashMap<MessageId, String>,
-    /// For each item, the names of the constants of composite numbers that contain it.
+    /// For each item, the names of the constants for the composite numbers of which the item is a part.
     wholes: HashMap<ItemId, Vec<String>>,
     /// True if the device's type has methods.
     pub has_methods: bool,

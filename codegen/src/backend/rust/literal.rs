@@ -44,14 +44,14 @@ pub(super) fn text_bytes(text: &[u8]) -> String {
     }
 }
 
-/// Returns whether a character is a letter or digit of any script, a blank, or a visible sign that does not change how other
-/// characters are displayed.
+/// Returns whether a character is a letter or digit of any script, a space, or a visible sign that does not change how
+/// other characters are displayed.
 pub(super) fn is_harmless(letter: char) -> bool {
     letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || is_sign(letter)
 }
 
-/// Returns whether a character is in a block of punctuation, currency signs, superscripts, mathematical or technical symbols. Spaces,
-/// soft hyphens, combining marks and characters without a width are left out.
+/// Returns whether a character is in a Unicode block of punctuation, currency signs, superscripts, or mathematical or
+/// technical symbols. Spaces, soft hyphens, combining marks and characters without a width are left out.
 fn is_sign(letter: char) -> bool {
     matches!(letter,
         '\u{a1}'..='\u{ac}' | '\u{ae}'..='\u{bf}' | '×' | '÷'

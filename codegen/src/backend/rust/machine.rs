@@ -20,7 +20,8 @@ use crate::names::{self, Case};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
-    /// The transitions that a program can trigger or wait for. Empty if states or commands are no bit patterns.
+    /// The transitions that a program can trigger or wait for. The list is empty if the states or the commands are not
+    /// bit patterns.
     pub steps: Vec<StepModel>,
     /// Variants of the states that the device enters because of a fault.
     pub faults: Vec<String>,
@@ -67,9 +68,10 @@ pub(super) struct PatternsModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// Condition for `Display` and `FromStr`. `None` if the options do not request them.
+    /// The `cfg` attribute of `Display` and `FromStr`. `None` if the options do not request these.
     pub texts: Option<Vec<String>>,
-    /// Path of the runtime in `FromStr`. If a feature adds `FromStr`, nothing else may use the import of the runtime.
+    /// Path of the runtime in `FromStr`. If a feature enables `FromStr`, this is the full path, because the import `rt`
+    /// could be unused without the feature.
     pub runtime: String,
     /// Primitive integer that holds the bits.
     pub native: &'static str,
@@ -79,7 +81,7 @@ pub(super) struct PatternsModel {
 }
 
 impl PatternsModel {
-    /// Returns the variant of a state or command from its name in the description.
+    /// Returns the variant for the state or command with this name in the description.
     pub(super) fn variant(&self, original: &str) -> Option<&str> {
         self.patterns.iter().find(|pattern| pattern.original == original).map(|pattern| pattern.name.as_str())
     }
@@ -95,7 +97,7 @@ pub(super) struct PatternModel {
     pub name: String,
     /// Name of the state or command in the description.
     original: String,
-    /// The same name for people, with blanks instead of underscores.
+    /// The same name for people, with spaces instead of underscores.
     pub title: String,
     pub docs: String,
     /// Meaning of the state or command, for a table cell.
@@ -252,9 +254,9 @@ impl Named<'_, '_> {
     }
 }
 
-/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state, and those from a state
-/// without a fault to one of the variants `faults`, are left out, because they are reactions of the device to errors. Transitions
-/// without generated states or commands are also left out.
+/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state, and automatic
+/// transitions from another state to a fault state (`faults`), are left out, because they are reactions of the device
+/// to errors. Transitions without generated states or commands are also left out.
 fn steps(
     machine: &StateMachine,
     states: &PatternsModel,

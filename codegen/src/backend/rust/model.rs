@@ -73,7 +73,7 @@ pub(super) struct Model {
     pub types: Types,
     /// Methods that lead a state machine to a state.
     pub walks: Vec<WalkModel>,
-    /// The objects of CiA 402 for the operations of the runtime.
+    /// Objects of CiA 402 that the runtime uses for its CiA 402 operations.
     pub cia402: Option<Cia402Model>,
     pub code_tables: Vec<CodeTableModel>,
     /// Procedures that consist only of object writes.
@@ -185,8 +185,8 @@ impl Model {
         }
     }
 
-    /// Creates the message protocol. The methods of the protocol and the accessors of the objects belong to the same
-    /// type.
+    /// Creates the message protocol. Its methods must not have the names of the objects' accessors, because both belong
+    /// to the same type.
     #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));

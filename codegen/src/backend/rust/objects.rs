@@ -44,8 +44,8 @@ impl ObjectModel {
         }
     }
 
-    /// Returns whether `lexibus::pdo!` knows the names of the items. It knows all mappable items, and items outside of the
-    /// communication parameters, so that it can report that they aren't mappable.
+    /// Returns whether `lexibus::pdo!` must know the names of the items. The macro knows all mappable items. It also
+    /// knows other items with an index of 0x2000 or above, so that it can report that they are not mappable.
     pub(super) fn is_in_mappable(&self) -> bool {
         self.items.iter().any(|item| item.mappable.is_some() || item.object.is_some_and(|(index, _)| index >= 0x2000))
     }
@@ -137,7 +137,8 @@ fn index_aliases(index: u16) -> [String; 2] {
     [format!("{index:04X}"), hex16(index)]
 }
 
-/// Returns the printed addresses of a register, and the numbers of a parameter.
+/// Returns the texts under which the search of rustdoc finds an item: printed addresses of registers, numbers of
+/// parameters, and indices of objects.
 fn aliases(item: &Item) -> Vec<String> {
     let of = |binding: &Binding| match binding {
         Binding::Register(register) => {
@@ -149,7 +150,7 @@ fn aliases(item: &Item) -> Vec<String> {
         _ => Vec::new(),
     };
     let mut all: Vec<String> = item.bindings.iter().flat_map(of).collect();
-    // Rustdoc rejects quotation marks and blanks at the ends.
+    // Rustdoc rejects an alias that contains quotation marks, or that starts or ends with a space.
     all.retain(|alias| !alias.is_empty() && alias.chars().all(|letter| letter.is_ascii_alphanumeric()));
     all.sort();
     all.dedup();

@@ -29,11 +29,11 @@ pub struct RustOptions {
     pub debug: Presence,
     /// Specifies whether generated types implement `PartialEq`.
     pub partial_eq: Presence,
-    /// Specifies whether generated types implement `defmt::Format`. The compiling crate needs `defmt`, and the feature
-    /// `defmt` of `lexibus`.
+    /// Specifies whether generated types implement `defmt::Format`. The crate that contains the generated code needs
+    /// the dependency `defmt`, and the feature `defmt` of `lexibus`.
     pub defmt: Presence,
-    /// Specifies whether generated types implement `serde::Serialize` and `serde::Deserialize`. The compiling crate
-    /// needs `serde`, and the feature `serde` of `lexibus`.
+    /// Specifies whether generated types implement `serde::Serialize` and `serde::Deserialize`. The crate that contains
+    /// the generated code needs the dependency `serde`, and the feature `serde` of `lexibus`.
     pub serde: Presence,
 }
 
@@ -73,7 +73,8 @@ impl RustOptions {
         }
     }
 
-    /// Returns the line with the attribute of a part, or `None` if the part is not generated.
+    /// Returns the line with the `cfg` attribute of a part, or no line if the part is generated unconditionally.
+    /// Returns `None` if the part is not generated.
     pub(super) fn gate(presence: &Presence) -> Option<Vec<String>> {
         match presence {
             Presence::Never => None,
@@ -92,8 +93,8 @@ impl RustOptions {
         self.derives_with(true, Some("PartialEq, Eq, Hash"))
     }
 
-    /// Returns the lines with the attributes of a generated type that compares its numbers. Its code implements the traits for
-    /// equality.
+    /// Returns the lines with the attributes of a generated type whose equality traits are not derived. Generated
+    /// implementations compare the numbers of its values instead.
     pub(super) fn derives_without_equality(&self) -> Vec<String> {
         self.derives_with(true, None)
     }

@@ -71,8 +71,8 @@ pub(super) struct FieldModel {
     pub attribute: Option<String>,
     pub ty: String,
     kind: FieldType,
-    /// Mask of the field's bits. `None` if no mask is necessary, because the Rust type has no further bits or its
-    /// conversions remove the further bits.
+    /// Mask of the field's bits. `None` if no mask is necessary, because the Rust type has no bits beyond the field's
+    /// width, or its conversions clear these bits.
     cut: Option<String>,
     pub offset: u32,
     pub bits: u32,
@@ -232,7 +232,7 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> Doc {
 
 fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions) -> Vec<FieldModel> {
     // `new` and `at` are constructors of the view. The other names belong to methods of traits that any type may
-    // implement. A field's name may also equal the setter name of another field.
+    // implement. If a setter would have the name of another field, the setter gets a different name.
     const RESERVED: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
     let names: HashSet<&String> = named.iter().map(|field| &field.name).collect();
     let field = |NamedField { entry, name }: &NamedField<'_>| {
@@ -290,7 +290,8 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
     }
 }
 
-/// Key that identifies a PDO. Several PDOs may have the same mapping object if only one of them is assigned.
+/// Key that identifies a PDO: the index of the mapping object, and the position of the declaration. The index alone is
+/// not enough, because several PDOs may have the same mapping object if only one of them is assigned.
 type Declared = (u16, Span, u32);
 
 /// The models of a device's or module's PDOs.
@@ -324,8 +325,8 @@ impl PdoModel {
         method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
-    /// Returns statements that pack a PDO of more than one word. Long fields are stored as bytes. The other fields are
-    /// stored as bytes, too, if all fields fill whole bytes, which is fastest. Otherwise, the statements shift the
+    /// Returns statements that pack a PDO of more than one word. Long fields are stored as bytes. If all fields fill
+    /// whole bytes, the other fields are also stored as bytes, which is fastest. Otherwise, the statements shift the
     /// other fields into words and convert the words to bytes.
     pub(super) fn pack_long(&self) -> Vec<Doc> {
         let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
@@ -430,7 +431,7 @@ impl FieldModel {
         (!self.bits.is_multiple_of(8)).then_some(self.bits)
     }
 
-    /// Returns an expression for the position of the first bit within a process image.
+    /// Returns an expression for the position of the field's first bit within a process image.
     fn bit(&self) -> String {
         if self.offset == 0 {
             "self.bit".to_owned()
@@ -483,9 +484,9 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
     }
 }
 
-/// Returns the SDO writes that configure a PDO as the description states: disable, clear, map, count, type, enable (CiA
-/// 301 7.5.2.36). Writes to read-only communication parameters are left out. Returns no writes if the COB-ID is unknown
-/// or read-only.
+/// Returns the SDO writes that configure a PDO as the description states. They disable the PDO, write its mapping, set
+/// its transmission type and timers, and enable it again (CiA 301 7.5.2.36). Writes to read-only communication
+/// parameters are left out. Returns no writes if the COB-ID is unknown or read-only.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);

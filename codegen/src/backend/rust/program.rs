@@ -26,7 +26,7 @@ pub struct Program {
     pub driver: String,
     /// Bus of the program: CANopen, EtherCAT or Modbus.
     pub bus: Bus,
-    /// State machine that the program leads to its operating state, or the reason why it cannot.
+    /// State machine that the program leads to its operating state, or the reason why the program cannot do so.
     pub machine: Option<Result<ProgramMachine, NoTarget>>,
     /// Operations of CiA 402.
     pub cia402: Option<ProgramCia402>,
@@ -48,7 +48,8 @@ pub struct ProgramMachine {
     /// State to which the program leads the device: its operating state. No fault state is on the path from the state after
     /// power-on.
     pub target: String,
-    /// Behavior of a simulated device. `None` if `lexibus::sim` provides it, which applies to the objects of CiA 402.
+    /// Behavior of a simulated device. `None` for the controlword and statusword of CiA 402, whose behavior
+    /// `lexibus::sim` provides.
     pub simulation: Option<Simulation>,
 }
 
@@ -85,8 +86,10 @@ pub struct ProgramItem {
 /// Buses of a program, in order of preference.
 const BUSES: [RouteBus; 3] = [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus];
 
-/// Returns the elements for a program that accesses `device` on `bus`. Without `bus`, the program uses the first bus of CANopen,
-/// EtherCAT and Modbus on which the state machine, or otherwise a value, can be accessed. Returns `None` if there is no such bus.
+/// Returns the elements for a program that accesses `device` on `bus`. If `bus` is `None`, the program uses the first
+/// bus of CANopen, EtherCAT and Modbus on which it can lead a state machine to its operating state. If there is no such
+/// bus, the program uses the first bus on which it can access a state machine or, if there is none, a value. Returns
+/// `None` if the program can access neither on any bus.
 pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Program> {
     let options = RustOptions::default();
     let driver = device_names::device_name(device, file, None);
@@ -123,8 +126,8 @@ struct Parts<'p, 'a> {
 }
 
 impl Parts<'_, '_> {
-    /// Returns the first state machine with an operating state whose items can be accessed on a bus. Without such a machine,
-    /// returns the reason that concerns the first machine of the bus.
+    /// Returns the first state machine with an operating state whose items can be accessed on a bus. If there is no
+    /// such machine, returns the reason why the program does not use the first machine on the bus.
     fn machine(&self, types: &Types, bus: RouteBus) -> Option<Result<ProgramMachine, NoTarget>> {
         let machines = self.context.names.types.machines.iter().zip(&types.machines);
         let mut on_bus = machines.filter_map(|(named, model)| {
@@ -222,7 +225,8 @@ impl Parts<'_, '_> {
         })
     }
 
-    /// Returns the items whose type is a plain number, and the calls of their accessors. Numbers of sub-indices are left out.
+    /// Returns the items that are plain numbers, and the calls of their accessors. Sub-index 0 of objects with several
+    /// entries is left out, because it contains the number of sub-indices.
     fn calls(&self) -> impl Iterator<Item = (&Item, String)> {
         let is_count =
             |item: &Item, call: &str| call.contains('.') && item.object().is_some_and(|(_, sub_index)| sub_index == 0);
@@ -244,7 +248,8 @@ impl Parts<'_, '_> {
     }
 }
 
-/// Returns whether a device accepts a raw value, if it accepts only some of the values of the item.
+/// Returns whether a device accepts this raw value. Returns true if the description does not restrict the values that
+/// the device accepts.
 fn is_writable(item: &Item, number: i128) -> bool {
     let values = item.behavior.as_deref().map(|behavior| behavior.writable_values.as_slice()).unwrap_or_default();
     values.is_empty() || values.contains(&Value::Int(number))

@@ -34,7 +34,7 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
         Some(Scale::Fraction { bits, .. }) => {
             QuantityType { path: generic!("rt::Fraction", base, *bits), word: format!("Fraction{bits}Of{word}") }
         }
-        // The caller must apply a factor from another item, because no type of the runtime does this.
+        // No type of the runtime multiplies a value by the value of another item, so the program must do this.
         Some(Scale::TimesItem { .. }) => return None,
         Some(Scale::Exponent { base: 10, fraction: 0, .. }) => {
             QuantityType { path: generic!("rt::Exponential", base), word: format!("Exponential{word}") }

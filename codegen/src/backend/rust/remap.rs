@@ -139,7 +139,7 @@ fn word(index: u16, sub_index: u8, bits: u32) -> String {
     format!("0x{index:04X}_{sub_index:02X}{:02X}", bits & MAX_ENTRY)
 }
 
-/// Adds the mapping to each item that can be mapped. Returns whether at least one item can be mapped.
+/// Adds the mapping arguments to each item that can be mapped. Returns whether at least one item can be mapped.
 fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     let items = context.groups.iter().flat_map(|group| &group.items);
     let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();

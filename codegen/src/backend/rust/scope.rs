@@ -17,7 +17,7 @@ pub(super) enum ObjectBus {
 pub(super) struct Scope<'a> {
     pub bus: ObjectBus,
     pub groups: &'a [Group],
-    /// Position of the first group, as counted in IDs.
+    /// Number that IDs of items use for the first group.
     first_group: u32,
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
@@ -99,7 +99,7 @@ impl<'a> Scope<'a> {
         ValueType::of(self.base(ty))
     }
 
-    /// Returns the groups with their positions, as counted in IDs.
+    /// Returns the groups with the numbers that IDs of items use for them.
     pub fn positioned_groups(&self) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
         (self.first_group..).zip(self.groups)
     }

@@ -15,9 +15,10 @@ const MAX_TRANSITIONS: usize = 128;
 /// Reason why a new program does not lead a state machine to a state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoTarget {
-    /// No state without a fault has a name from which the compiler knows that the device operates.
+    /// No state except fault states has a name that the compiler recognizes as that of an operating state.
     Name,
-    /// No commands lead from the first state to the second one, or all of them lead through a fault. The states are variants.
+    /// No sequence of commands leads from the first state to the second one without entering a fault state. The states
+    /// are variants.
     Path(String, String),
 }
 
@@ -33,7 +34,7 @@ impl fmt::Display for NoTarget {
     }
 }
 
-/// A path to the operating state. The path enters no fault state, and is the same that a `Walker` of the runtime takes.
+/// A path to the operating state. The path enters no fault state, and is the path that a `Walker` of the runtime takes.
 /// States are names of variants.
 pub(super) struct Path<'m> {
     /// State after power-on.
@@ -66,11 +67,11 @@ impl<'m> Path<'m> {
         }
     }
 
-    /// Returns the state in which a device is that makes all automatic transitions on its path to the target. The device stays in
-    /// states in which it needs a command.
+    /// Returns the state that the device reaches from `state` by automatic transitions on its path to the target. The
+    /// device stays in the first state in which it needs a command.
     pub(super) fn settled(&self, state: &'m str) -> &'m str {
         let mut state = state;
-        // Each transition makes the distance shorter.
+        // The loop ends, because each transition reduces the distance to the target.
         while let Some(next) = self.automatic(state) {
             state = next;
         }

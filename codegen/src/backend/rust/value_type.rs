@@ -122,7 +122,7 @@ impl ValueType {
         }
     }
 
-    /// Returns the offset that a formula with `$NODEID` adds to the node-ID. Returns `None` for values that are no
+    /// Returns the offset that a formula with `$NODEID` adds to the node-ID. Returns `None` for values that are not
     /// formulas, and for offsets that do not fit in the type.
     pub(super) fn formula(self, value: &Value) -> Option<i128> {
         let (low, high) = self.integers()?;
@@ -193,7 +193,7 @@ impl ValueType {
     }
 
     /// Returns the expression of a `Range` that lists the allowed values and ranges. Returns `None` if the limits
-    /// contain no such list, or if the type cannot represent one of them.
+    /// contain no such list, or if the type cannot represent one of the listed values.
     fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Option<Doc> {
         let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;
         let one = |value: &Value| {

@@ -5,8 +5,8 @@ use thin_vec::ThinVec;
 use crate::ir::{Item, Limits, Value};
 use crate::text::glob;
 
-/// Returns the item with the values of one model. Returns `None` if its values do not differ between models, or if the
-/// model does not have the item.
+/// Returns the item with the default value and limits of one model. Returns `None` if these do not differ between
+/// models, or if the model does not have the item.
 pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     let differs = |variant: &&crate::ir::ItemVariant| {
         !variant.models.is_empty()

@@ -24,7 +24,7 @@ pub(super) struct WalkModel {
     pub reads_control: bool,
     /// Path of the constant of the item that contains the error code.
     pub code: Option<String>,
-    /// Bounds of the location types.
+    /// Trait bounds of the location types.
     pub bounds: Vec<Doc>,
 }
 
@@ -86,8 +86,8 @@ fn word<'c>(constants: &'c Constants<'_, '_>, reference: &ItemRef) -> Option<Con
     constants.integer(&|model| Some(model.id) == reference.id).filter(|constant| !constant.is_quantity)
 }
 
-/// Returns the documentation of the method. It links to the status item, the control item and the item that contains the
-/// error code. Without such an item, `code` is empty.
+/// Returns the documentation of the method. `status`, `control` and `code` are links to the status item, the control
+/// item and the item that contains the error code. If no item contains the error code, `code` is empty.
 fn documentation(machine: &StateMachine, status: &str, control: &str, code: &str) -> Vec<String> {
     let mut lines = vec![
         format!("Leads the state machine \"{}\" to the state `target`.", docs::escape(&machine.name)),

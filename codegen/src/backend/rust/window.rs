@@ -87,7 +87,7 @@ fn title(window: &Window) -> String {
     format!("{space} {} {}", if *is_write { "write" } else { "read" }, bus.word().to_lowercase())
 }
 
-/// Returns the window for one side of a binding on one bus. Returns `None` if the number or the value has no usable
+/// Returns the read or write window of a binding on one bus. Returns `None` if the number or the value has no usable
 /// address on this bus.
 fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
     let (_, _, bus, is_write) = key;

@@ -24,8 +24,8 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the problem in an example conversion, and a help text. The physical values differ by more than 1 LSB, or
-/// cannot be computed.
+/// Returns the problem in an example conversion, and a help text. The problem is that the physical values differ by
+/// more than 1 LSB, or that they cannot be computed.
 fn problem(
     device: &Device,
     item: &Item,

@@ -72,7 +72,7 @@ impl Request {
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
             problems.push(format!(
-                "covers {}, but no item ends at the end of the last one",
+                "covers {}, but the last register is not the end of an item",
                 count_of(quantity, "register")
             ));
         }

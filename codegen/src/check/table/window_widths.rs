@@ -51,9 +51,9 @@ fn width<'d>(
     }
 }
 
-/// Reports a window, or the procedure of a window, that writes the number before the value although the device clears the number
-/// after the transfer. Such a device starts the transfer when it receives the number. In a process image, the number and the value
-/// are sent together, so their order is not checked.
+/// Reports a window (or its procedure) that writes the number before the value, if the device clears the number after
+/// the transfer. Such a device starts the transfer when it receives the number. In a process image, the number and the
+/// value are sent together, so their order is not checked.
 fn order(
     context: &Context<'_>,
     side: &WindowSide,

@@ -22,9 +22,9 @@ pub struct MarkedSource<'a> {
 /// The marked part of a file.
 #[derive(Clone, Copy)]
 pub struct Mark {
-    /// Offset of the first byte: within the file and on the edge of a character.
+    /// Offset of the first byte: within the file and on a character boundary.
     pub start: usize,
-    /// Offset after the last byte: not before `start`, within the file and on the edge of a character.
+    /// Offset after the last byte: not before `start`, within the file and on a character boundary.
     pub end: usize,
     /// Line and column of `start`.
     pub from: Position,
@@ -76,7 +76,7 @@ pub fn line(source: &Source, number: u32) -> (&str, usize) {
     (line, (line.as_ptr() as usize).saturating_sub(source.text().as_ptr() as usize))
 }
 
-/// Returns the part of `line` to show. The part contains the offset `at`, which is on the edge of a character.
+/// Returns the part of `line` to show. The part contains the offset `at`, which is on a character boundary.
 pub fn shown(line: &str, at: usize) -> Range<usize> {
     if line.chars().nth(MAX_CHARS).is_none() {
         return 0..line.len();

@@ -18,8 +18,8 @@ const MAX_TEXT: usize = 2000;
 /// Width of the rendered text. The width exceeds any terminal window, so that the renderer does not shorten lines a second time.
 const WIDTH: usize = 10 * marked::MAX_CHARS;
 
-/// Character that ends the text `file:line:column`. The character is a noncharacter, which [`visible`] removes from the text of a
-/// file.
+/// Character that ends the text `file:line:column`. It is a Unicode noncharacter, which [`visible`] removes from the
+/// text of a file.
 const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
@@ -51,7 +51,8 @@ pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> Strin
 
 /// Renders the message, position and label of a diagnostic, without the marked lines, notes, help and fix.
 ///
-/// Use this form for a diagnostic that follows a similar one in full. [`render`] describes the other properties.
+/// Use this form if a similar diagnostic has already been rendered in full. In all other respects, the output is like that of
+/// [`render`].
 pub fn brief(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
     let origin = MarkedSource::of(diagnostic.span, sources).map(|MarkedSource { source, mark }| {
         let name = visible(source.name());
@@ -90,7 +91,8 @@ fn label_note(diagnostic: &Diagnostic) -> Option<Message<'static>> {
     (!label.is_empty()).then(|| Level::NOTE.message(paragraph(label)))
 }
 
-/// Returns the suggested replacement within the marked lines, or `None` if the lines are not shown in full.
+/// Returns the marked lines with the suggested replacement. Returns `None` if there is no replacement, if it is too long, or if
+/// the marked lines are not shown in full.
 fn suggestion(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Option<Group<'static>> {
     let (fix, location) = (diagnostic.fix.as_deref()?, location?);
     let window = Window::new(location.source, location.mark?);
@@ -103,7 +105,7 @@ fn suggestion(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Option
     Some(Level::HELP.secondary_title(title).element(snippet))
 }
 
-/// Returns the marked lines below the name of their file, or only the name for a whole file.
+/// Returns the marked lines below the name of their file, or only the name if the whole file is marked.
 fn quote(location: MarkedSource, label: &str) -> Element<'static> {
     let MarkedSource { source, mark } = location;
     let name = visible(source.name());
@@ -120,8 +122,8 @@ fn quote(location: MarkedSource, label: &str) -> Element<'static> {
     Snippet::source(window.text).line_start(window.first_line).path(origin).annotation(annotation).into()
 }
 
-/// Removes the line and column that the renderer appends to the file name, line and column. The appended numbers refer to the
-/// window instead of the file.
+/// Removes the line and column that the renderer appends to each origin. The origin already ends with the line and column in the
+/// file, and the appended numbers refer to the window.
 fn without_counted_origins(rendered: &str) -> String {
     let mut parts = rendered.split(END_OF_ORIGIN);
     let mut text = parts.next().unwrap_or_default().to_owned();
@@ -133,7 +135,7 @@ fn without_counted_origins(rendered: &str) -> String {
 
 /// The marked lines of a file, prepared for the renderer, which does not see other parts of the file.
 struct Window {
-    /// Marked lines, separated by line feeds. Long lines are shortened, and control characters are visible.
+    /// Marked lines, separated by line feeds. Long lines are shortened, and visible characters replace control characters.
     text: String,
     first_line: usize,
     /// Range of the marked part in `text`.
@@ -164,7 +166,7 @@ impl Window {
         window
     }
 
-    /// Appends a line. Extends the mark by the part of `marked`, a range of the file, that is on this line.
+    /// Appends a line. Extends the mark by the part of `marked` on this line. `marked` is a range of the file.
     fn push_line(&mut self, source: &Source, number: u32, marked: Range<usize>) {
         let (line, offset) = marked::line(source, number);
         let in_line = |at: usize| at.saturating_sub(offset).min(line.len());
@@ -212,7 +214,7 @@ fn push_visible(shown: &mut String, text: &str) {
         match c {
             '\t' => *shown += "    ",
             '\u{7f}' => shown.push('␡'),
-            // The control pictures have the same order as the control characters.
+            // The Unicode control pictures have the same order as the control characters.
             '\0'..='\u{1f}' => shown.push(char::from_u32(0x2400 + u32::from(c)).unwrap_or('�')),
             '\u{fdd0}'..='\u{fdef}' => shown.push('�'),
             _ if steers(c) => shown.push('�'),
@@ -309,7 +311,7 @@ mod tests {
         3 | SubNumber=0x012
           |           ++
         ");
-        // Without marked text, the renderer does not show the replacement.
+        // Without marked text, a help text contains the replacement.
         insta::assert_snapshot!(plain(&at(0, 0).fix("a\u{1b}b").help("correct it"), &file(OCTAL)), @r"
         warning[EDS020]: `012` is octal
         --> drive.eds

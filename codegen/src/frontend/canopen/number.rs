@@ -32,7 +32,7 @@ pub enum Parsed {
 pub enum Quirk {
     /// Octal number with a leading zero, whose digits have a different value in decimal.
     Octal,
-    /// Leading zero before digits that have the same value in octal and decimal, or that are not octal.
+    /// Leading zero, if the digits are not octal or have the same value in octal and decimal.
     LeadingZero,
     /// A hexadecimal suffix (`NNh`).
     HexSuffix,
@@ -188,7 +188,8 @@ fn c_suffix(text: &str) -> Number {
     }
 }
 
-/// Reads digits in the base `radix`, without a sign or separator. Returns `None` if the value needs more than 120 bits.
+/// Reads digits in the base `radix`, without a sign or separator. Returns `None` if `digits` is empty, has more than 40
+/// characters or contains an invalid digit, or if the value needs more than 120 bits.
 fn radix(digits: &str, radix: u32) -> Option<i128> {
     let bytes = digits.as_bytes();
     if bytes.is_empty() || bytes.len() > 40 {

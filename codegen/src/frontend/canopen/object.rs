@@ -29,7 +29,7 @@ pub struct ObjectType<'t> {
 }
 
 impl ObjectType<'_> {
-    /// Returns the object code of a sub-index: VAR or DOMAIN.
+    /// Returns the object code of a sub-index: VAR or DOMAIN. Reports any other object type.
     pub fn of_sub_index(&self, terms: &Terms, diagnostics: &mut Diagnostics) -> ObjectCode {
         match self.number {
             Some(2) => return ObjectCode::Domain,
@@ -73,7 +73,8 @@ pub fn object_code(
     by_content
 }
 
-/// Returns the data type with the code `code`. `defined` is the type that the file defines for this code.
+/// Returns the data type with the code `code`. `defined` is the type that the file defines for this code. Reports an
+/// unknown code, and returns raw bytes for it.
 pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &mut Diagnostics) -> Type {
     if let Some(ty) = Type::from_cia301(code).or(defined) {
         return ty;
@@ -135,8 +136,8 @@ pub fn sub_number(
     diagnostics.push(found.fix(described.to_string()));
 }
 
-/// Adds the type that an object in the data type area defines to `types`. Returns the data type code and the type. The
-/// type is an alias of a basic type, or raw bits.
+/// Adds to `types` the alias that a DEFTYPE or DEFSTRUCT object defines. Returns the data type code and the type to
+/// which the alias refers. Returns `None` for any other object, and reports such an object in the data type area.
 pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Diagnostics) -> Option<(u32, Type)> {
     let (index, code) = (group.index()?, group.object_code()?);
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {

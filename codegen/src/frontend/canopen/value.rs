@@ -110,7 +110,8 @@ impl Converter<'_> {
         }
     }
 
-    /// Checks a number against the range of its type. A bit pattern with the sign bit set becomes a negative number.
+    /// Checks a number against the range of its type. For a signed type, a hexadecimal number with the sign bit set
+    /// becomes a negative number. Reports any other number outside of the range.
     fn fit(&mut self, value: i128, hex: bool, text: &str, span: Span, ty: Type, role: Role) -> Value {
         let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
         if (low..=high).contains(&value) {
@@ -169,7 +170,8 @@ impl Converter<'_> {
         Value::NodeId(offset)
     }
 
-    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Stores any other text unchanged.
+    /// Reads a number with a zero fraction, such as `0.0`, for an integer type. Keeps any other text unchanged. Reports
+    /// the text in both cases.
     fn fraction(&mut self, text: &str, span: Span, ty: Type) -> Value {
         if let Some((whole, fraction)) = text.split_once('.') {
             if !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0') {
@@ -237,7 +239,7 @@ impl Converter<'_> {
                 self.unknown_formula(text, span);
                 raw(text)
             }
-            // A node-ID formula results in an integer, not in a real number.
+            // A node-ID formula defines an integer, so it is not a valid value of a real type.
             _ => self.illegal(text, span, ty),
         }
     }
@@ -282,7 +284,7 @@ impl Converter<'_> {
         }
     }
 
-    /// Reads a time as a 48-bit number. The milliseconds are in the lower 28 bits.
+    /// Reads a time as a 48-bit number. The milliseconds are in bits 0 to 27, and the days are in bits 32 to 47.
     fn time(&mut self, text: &str, span: Span, ty: Type) -> Value {
         let number = number::parse(text, self.aliases);
         self.quirk(number, text, span);
@@ -347,7 +349,7 @@ fn raw(text: &str) -> Value {
 fn finite(text: &str) -> Option<f64> {
     let numeric = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
     let value = numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())?;
-    // A nonzero number that the type rounds to zero is rejected.
+    // A nonzero number is rejected if its `f64` value is zero.
     let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
     let is_zero = !mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
     (value != 0.0 || is_zero).then_some(value)

@@ -56,7 +56,7 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
     group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
 }
 
-/// Returns the number of text bytes that each sub-index copies from its object.
+/// Returns the number of text bytes that are copied from the object to each sub-index.
 fn copied(reader: &Reader<'_, '_>, raw: &Raw, template: &Item) -> usize {
     let values = OF_A_VALUE.iter().filter_map(|&key| raw.get(key)).map(|entry| reader.doc.value(entry).len());
     let kept = template.extensions.iter().map(|extension| extension.key.len() + extension.value.len());

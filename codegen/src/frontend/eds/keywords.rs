@@ -7,7 +7,7 @@ use crate::source::Origin;
 use crate::syntax::ini::{Entry, Section};
 use crate::text::edit_distance;
 
-/// Keyword of an object. The discriminant is the position in [`Raw`].
+/// Keyword of an object. The discriminant is the position of the keyword's entry in [`Raw`].
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Key {
     ParameterName,
@@ -105,7 +105,7 @@ pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj]
 /// Entries of a section by keyword.
 pub(super) struct Raw {
     fields: [Option<Entry>; KEYS],
-    /// Entries with keywords that only the sub-index extensions of modules have.
+    /// Entries with keywords that occur only in the sections for sub-indices that a module adds.
     pub(super) more: [Option<Entry>; 2],
     pub(super) extensions: Extensions,
     pub(super) origin: Origin,
@@ -153,7 +153,7 @@ impl Reader<'_, '_> {
         raw
     }
 
-    /// Reports an entry whose unknown key differs in at most two letters from a keyword that the object lacks.
+    /// Reports an unknown key that differs in at most two letters from a keyword that the object lacks.
     fn misspelled(&mut self, entry: &Entry, raw: &Raw) {
         let key = self.doc.key(entry);
         if self.doc.is_comment(entry) {
@@ -162,7 +162,8 @@ impl Reader<'_, '_> {
         let distance = |name: &str| edit_distance(&name.to_ascii_lowercase(), &key.to_ascii_lowercase());
         let is_missing =
             |(name, keyword): &(&str, Key)| raw.get(*keyword).is_none() && name.len().abs_diff(key.len()) <= 2;
-        // The keywords of a DCF are usually missing, so only a key that differs in one letter is similar.
+        // An EDS normally has none of the keywords of a DCF. To avoid false reports, a key is similar to such a keyword
+        // only if it differs in at most one letter.
         let limit = |keyword: Key| if OF_A_CONFIGURATION.contains(&keyword) { 1 } else { 2 };
         let similar =
             NAMES.iter().copied().filter(is_missing).map(|(name, keyword)| (distance(name), limit(keyword), name));

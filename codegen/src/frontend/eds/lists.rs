@@ -42,8 +42,8 @@ impl Lists {
     }
 }
 
-/// Reads the numbered entries (`1=`, `2=` …) of a list, and compares their count with `count_key`. Sections with the
-/// same name form one list. The last entry applies if a number is repeated.
+/// Reads the numbered entries (`1=`, `2=` …) of a list, and compares their number with the value of `count_key`.
+/// Sections with the same name form one list. The last entry applies if a number is repeated.
 pub(super) fn numbered(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],
@@ -72,8 +72,8 @@ pub(super) fn numbered(
 
 const NO_GAP: &str = "number the entries from 1 without a gap";
 
-/// Returns the entries of a list whose keys are sub-indices, each with its sub-index. Sub-indices may be missing.
-/// Passes entries with keys other than sub-indices and `NrOfEntries` to `others`.
+/// Returns the entries of a list that have a sub-index as their key, each with this sub-index. The list may skip
+/// sub-indices. Passes all entries with other keys to `others`, except `NrOfEntries`.
 pub(super) fn by_sub_index(
     reader: &mut Reader<'_, '_>,
     section: &Section,
@@ -125,8 +125,8 @@ fn by_number(
 }
 
 /// Returns whether `entry` announces the correct number of entries. Reports an incorrect or hexadecimal number. The
-/// diagnostic about an incorrect number has no fix if the list has a gap. In this case, the announced number may be
-/// right and the numbering wrong.
+/// diagnostic about an incorrect number has no fix if the list has a gap. With a gap, the announced number may be
+/// correct and the numbering of the entries wrong.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));

@@ -123,8 +123,8 @@ impl<'a> Reader<'a, '_> {
         compact::refine(self, group, index, &sections.refinements);
     }
 
-    /// Stores entries as extensions if they have no meaning for the object. Leaves out empty entries, and counts and
-    /// flags of 0.
+    /// Reports entries that have no meaning for the object, and stores them as extensions. Ignores empty entries, and
+    /// counts and flags of 0.
     pub(super) fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(entry) = raw.get(key) else { continue };
@@ -158,7 +158,8 @@ impl<'a> Reader<'a, '_> {
         self.peek_number(raw.get(Key::ObjectType)).is_none_or(|code| code == 7)
     }
 
-    /// Adds a sub-index 0 with the value of the VAR to a VAR that has sub-indices but no sub-index 0.
+    /// Adds sub-index 0 to a VAR that has other sub-indices, but no sub-index 0. The new sub-index contains the value
+    /// of the VAR.
     fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw) {
         let mut item = self.item(index, 0, raw, ObjectCode::Var);
         item.name = group.name.clone();
@@ -282,8 +283,8 @@ impl<'a> Reader<'a, '_> {
         self.converter().value(text, span, ty, role)
     }
 
-    /// Returns the data type of an object or sub-index. Returns `None` if the data type is missing and the value needs
-    /// a data type.
+    /// Returns the data type of an object or sub-index. Returns `None` and reports an error if the data type is
+    /// invalid, or if it is missing and the value needs one.
     fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
         let (text, span) = match raw.get(Key::DataType) {
             Some(entry) => self.fixed(entry, Fixed::Number),

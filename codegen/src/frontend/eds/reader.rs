@@ -22,19 +22,19 @@ pub(super) struct Reader<'a, 'd> {
     pub orphan_sections: Vec<Section>,
     /// Number of modules that `[SupportedModules]` announces, and the span of the number.
     pub announced_modules: Option<(u32, Span)>,
-    /// Number of items created from CompactSubObj.
+    /// Number of items that were created from `CompactSubObj`.
     pub derived_items: usize,
     /// Remaining number of text bytes that may be copied into derived elements.
     pub copies_left: usize,
     pub copies_exceeded: bool,
-    /// Comments after values, collected until the element to which they belong is complete.
+    /// Comments after values. They are collected until the element that contains the values is complete.
     pub comments: Extensions,
     /// Span of the first flag that is a hexadecimal number, and the number of such flags. One diagnostic reports all
     /// hexadecimal flags, because a tool writes all flags in the same way.
     pub hex_flags: Option<(Span, usize)>,
 }
 
-/// Form of a value that is not free text. The form determines the text that may follow the value.
+/// Form of a value that is not free text. The form determines whether a comment may follow the value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fixed {
     /// Number or access type, often followed by a comment after `;`.
@@ -55,8 +55,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         Converter { diagnostics: self.diagnostics, aliases: self.aliases }
     }
 
-    /// Returns the value of an entry of fixed form, without comments and quotation marks. Adds the comments to
-    /// `comments`.
+    /// Returns the value of an entry that is not free text, without its comment and quotation marks. Adds the comment
+    /// to `comments`.
     pub(super) fn fixed(&mut self, entry: &Entry, form: Fixed) -> (&'a str, Span) {
         let text = self.doc.value(entry);
         let span = self.doc.value_span(entry);
@@ -91,7 +91,7 @@ impl<'a, 'd> Reader<'a, 'd> {
             _ => None,
         };
         if let Some((code, message)) = found {
-            // The span includes the blanks before the comment, so that the fix removes them.
+            // The span includes the spaces before the comment, so that the fix removes them.
             let marked = Span::new(rest.file, rest.start - (cut - kept.len()) as u32, rest.end);
             self.diagnostics
                 .push(Diagnostic::new(code, marked, message).label(format!("the value is `{kept}`")).fix(""));
@@ -159,12 +159,12 @@ impl<'a, 'd> Reader<'a, 'd> {
         number::parse(text, &[]).int()
     }
 
-    /// Reads a 32-bit number and reports any other text. Returns `None` for an empty value.
+    /// Reads a 32-bit number. Returns `None` for any other text, and reports this text unless it is empty.
     pub(super) fn u32_of(&mut self, entry: &Entry) -> Option<u32> {
         self.unsigned(entry, u32::MAX)
     }
 
-    /// Reads a number up to `max` and reports any other text. Returns `None` for an empty value.
+    /// Reads a number up to `max`. Returns `None` for any other text, and reports this text unless it is empty.
     pub(super) fn unsigned(&mut self, entry: &Entry, max: u32) -> Option<u32> {
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
@@ -185,7 +185,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         value
     }
 
-    /// Reads the index in an entry of a list and reports any other text. Returns `None` for an empty value.
+    /// Reads the index in an entry of a list. Returns `None` for any other text, and reports this text unless it is
+    /// empty.
     pub(super) fn index_of(&mut self, entry: &Entry) -> Option<u16> {
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
@@ -205,7 +206,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         index
     }
 
-    /// Returns the decimal number in the key of a list entry, or `None` if the key is not a number.
+    /// Returns the decimal number in the key of a list entry, or `None` if the key is not a number of at most 9 digits.
     pub(super) fn key_number(&self, entry: &Entry) -> Option<u32> {
         let key = self.doc.key(entry);
         (key.len() <= 9 && key.bytes().all(|byte| byte.is_ascii_digit())).then(|| key.parse().ok()).flatten()
@@ -298,8 +299,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Returns whether another `bytes` bytes of text may be copied. Only the first copy that exceeds the limit is
-    /// reported.
+    /// Subtracts `bytes` from the number of text bytes that may still be copied. Returns false if the remaining number
+    /// is too small, and reports this case only once.
     pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(bytes) {
             self.copies_left = left;

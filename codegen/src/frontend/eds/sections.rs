@@ -100,7 +100,8 @@ fn classify_object(name: &str) -> Option<(SectionKind, bool)> {
     if length == 6 && digits[4..].eq_ignore_ascii_case("Denotation") {
         length = 4;
     }
-    // `[DeviceInfo]` also starts with hexadecimal digits. An index has four digits, or more with leading zeros.
+    // At most eight digits are read as an index, because some files write leading zeros. Names such as `[DeviceInfo]`
+    // also start with hexadecimal digits, and are recognized by the text after these digits.
     if length == 0 || length > 8 {
         return None;
     }

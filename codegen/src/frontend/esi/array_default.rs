@@ -12,8 +12,8 @@ use crate::frontend::xml::Given;
 /// Selects the field to set: the default value, the minimum or the maximum.
 type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>>;
 
-/// Splits the default value and limits of each array between its elements. The first element of an array keeps its part
-/// of the value. Returns the parts of the other elements, by the position of the element in `entries`.
+/// Splits the default value and the limits of each array into one part per element. Stores the part of the first
+/// element in `subs`. Returns the parts of the other elements, by the position of the element in `entries`.
 ///
 /// For each entry, `of_entry` contains the position of its sub-item in `subs`.
 pub(super) fn split<'a>(
@@ -46,7 +46,8 @@ pub(super) fn split<'a>(
 }
 
 /// Shortens `whole` to the part of the first element and returns the parts of the `others` following elements. Each
-/// part has `digits` digits. Returns an empty list if `whole` does not have the length of the array.
+/// part has `digits` digits. Returns an empty list and leaves `whole` unchanged if `others` is 0, or if `whole` is not
+/// hexadecimal data with the length of the array.
 fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<RawValue<'a>> {
     let data = without_blanks(&whole.given);
     let text = data.text.as_ref();
@@ -68,8 +69,8 @@ fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     Given { text, span: given.span }
 }
 
-/// Returns the data of the element `number`, counted from 0. The result has the span of the whole value if the data is
-/// wrapped over several lines.
+/// Returns the data of the element `number`, counted from 0. The result has the span of the whole value if the value
+/// contains white space.
 fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
     let range = number * digits..(number + 1) * digits;
     let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;

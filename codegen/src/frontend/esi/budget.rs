@@ -1,5 +1,6 @@
-//! Limits the size of the copies that references to data types, vendors and files cause. A short reference can copy a
-//! large definition.
+//! Limits the number of items and text bytes that are copied because of references to data types, vendors and files.
+//! Without this limit, a small file could become a very large description, because a short reference can copy a large
+//! definition.
 
 use crate::limits;
 

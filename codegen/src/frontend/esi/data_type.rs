@@ -47,7 +47,7 @@ pub(super) struct RawField<'a> {
     pub info: RawInfo<'a>,
     pub comment: Option<Box<Names<'a>>>,
     pub origin: Origin,
-    /// Number of text bytes that each item created from this sub-item copies.
+    /// Number of text bytes that are copied from this sub-item to each item that is created from it.
     pub weight: usize,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
             "Comment" => reader.name(&tag, raw.comment.get_or_insert_default())?,
             "ArrayInfo" => raw.dimensions.push(dimension(reader, &tag)?),
             "SubItem" => {
-                // The large struct is filled after it was added to the list, which avoids a copy.
+                // The large struct is added to the list first and filled there, which avoids a copy.
                 raw.fields.push(RawField::default());
                 if let Some(last) = raw.fields.last_mut() {
                     field(reader, &tag, last)?;

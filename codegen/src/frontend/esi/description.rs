@@ -11,7 +11,7 @@ use crate::source::Span;
 pub(super) struct Description {
     pub catalog: Catalog,
     pub references: Vec<(Owner, Reference)>,
-    /// Types of PDO entries that the referenced files may define.
+    /// Types of PDO entries. The definitions of these types may be in the referenced files.
     pub entry_types: Vec<(Owner, EntryType)>,
     /// Devices and modules to which a referenced file was not copied because of the size limit.
     pub refused: HashSet<Owner>,
@@ -68,7 +68,7 @@ pub(super) struct OtherFiles {
     pub messages: Vec<CodeTable>,
 }
 
-/// Type of a PDO entry that the dictionary of its device or module does not define.
+/// Type of a PDO entry. The dictionary of its device or module does not define this type.
 #[derive(Debug)]
 pub(super) struct EntryType {
     /// Span of the PDO entry.

@@ -38,7 +38,7 @@ impl<'a> Dictionary<'a> {
                 _ => reader.unknown(&list)?,
             }
         }
-        // These lists are still in memory while the items are created from them.
+        // The unused capacity is freed, because the lists stay in memory while the items are created from them.
         self.types.shrink_to_fit();
         self.objects.shrink_to_fit();
         self.subs.shrink_to_fit();

@@ -115,13 +115,14 @@ fn sorted<'t, 'a>(
 
 /// Assignment of the sub-items of an object to the entries of its data type.
 pub(super) struct Matched {
-    /// Position of each entry's sub-item in the object, if the object has one.
+    /// For each entry, the position of its sub-item in the object; `None` if the object has no sub-item for the entry.
     pub of_entry: Vec<Option<usize>>,
     /// Positions of the sub-items that belong to no entry.
     pub extra: Vec<usize>,
 }
 
-/// Assigns each sub-item to the entry with the same name. Uses the position if the name is unknown or not unique.
+/// Assigns each sub-item to the entry with the same name. If the name is unknown or not unique, assigns the sub-item to
+/// the entry at the same position or to the next free entry.
 pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;

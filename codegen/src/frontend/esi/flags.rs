@@ -161,9 +161,9 @@ impl Flags {
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Returns the storage, the safety mapping, and the states with read or write access of a sub-item. A sub-item
-    /// without flags has the storage of its object. A sub-item without a safety mapping, or without access states, has
-    /// those of its object.
+    /// Returns the storage and the safety mapping of a sub-item, and the EtherCAT states in which it can be read or
+    /// written. A sub-item without flags has the storage of its object. If the sub-item declares no safety mapping or
+    /// no list of states, that of its object applies.
     pub fn behavior_or(&self, object: &Flags) -> Option<Box<Behavior>> {
         let stored = if self.given { self } else { object };
         let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));

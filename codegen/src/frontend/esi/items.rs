@@ -20,8 +20,8 @@ use crate::frontend::xml::Given;
 use crate::ir::{Access, Binding, Fact, FactOrigin, Group, GroupKind, Item, ObjectCode, Quantity, Rule, Type};
 use crate::text::brief;
 
-/// Converts the objects of a dictionary to groups, sorted by index. Adds types that are defined only by their names,
-/// such as `BITARR8`, to `types`.
+/// Converts the objects of a dictionary to groups, sorted by index. Adds to `types` the types that are defined only by
+/// their names, such as `BITARR8`.
 pub(super) fn build<'a>(
     reader: &mut Reader<'_, '_>,
     types: &mut Types<'_, 'a>,
@@ -29,7 +29,8 @@ pub(super) fn build<'a>(
     subs: &mut [RawSub<'a>],
     units: &[(u32, CompactString)],
 ) -> Vec<Group> {
-    // The objects are removed from the end of the list, so that the list needs less memory the more groups exist.
+    // The objects are removed from the end of the list, so that the list can be shortened while the groups are created.
+    // This reduces the peak memory use.
     objects.sort_by_key(|object| object.index);
     objects.reverse();
     let mut builder = Builder { types, units };
@@ -151,7 +152,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
-            // The large struct is filled after it was added to the list, which avoids a copy.
+            // The large struct is added to the list first and filled there, which avoids a copy.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
                 let part = parts.remove(&position).unwrap_or_default();
@@ -223,8 +224,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Adds the sub-items of an object that its data type does not define. The added sub-items get the sub-indices
-    /// after the last entry, and the type of the last entry.
+    /// Adds those sub-items of an object that the data type of the object does not define. The added sub-items get the
+    /// sub-indices after the last entry, and the type of the last entry.
     fn extra(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -371,7 +372,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Reports an object for which the file does not declare access rights, and records the rule that determines them.
+    /// Reports an object without declared access rights. Records that its items are read-only by a rule of the
+    /// compiler.
     fn access_given(&self, reader: &mut Reader<'_, '_>, group: &mut Group, flags: &Flags) {
         if flags.access.is_some() {
             return;

@@ -11,7 +11,7 @@ use crate::etg::type_name;
 use crate::frontend::xml::Given;
 use crate::ir::{Group, PdoEntry, PdoEntryKind, ProcessData, Type, TypeDef};
 
-/// Lowers the data types and objects of a device or module, and the PDOs whose entries use these types.
+/// Converts the data types, objects and PDOs of a device or module. The PDO entries use the data types.
 ///
 /// PDO entries whose type may be in a file of `other_files` are resolved later.
 pub(super) fn lower<'a>(

@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Option<Number> {
     hexadecimal(digits).map(|value| Number { value, hex: true, fault })
 }
 
-/// Reads the number after a sign: decimal digits, or hexadecimal digits with a prefix.
+/// Reads the text after the sign of a number: decimal digits, or hexadecimal digits with a prefix.
 fn signed(bytes: &[u8]) -> Option<i128> {
     match prefixed(bytes) {
         Some(digits) => hexadecimal(digits),
@@ -59,7 +59,8 @@ fn prefixed(bytes: &[u8]) -> Option<&[u8]> {
     }
 }
 
-/// Reads an unsigned decimal number. Returns `None` for a number with more than 64 bits, which no field can contain.
+/// Reads an unsigned decimal number. Returns `None` for any other text, and for a number with more than 64 bits, which
+/// no field can contain.
 fn decimal(digits: &[u8]) -> Option<u64> {
     if digits.is_empty() {
         return None;

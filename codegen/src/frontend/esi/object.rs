@@ -88,7 +88,7 @@ fn info<'a>(
 ) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         if tag.name == "SubItem" {
-            // The large struct is filled after it was added to the list, which avoids a copy.
+            // The large struct is added to the list first and filled there, which avoids a copy.
             subs.push(RawSub::default());
             if let Some(last) = subs.last_mut() {
                 sub_item(reader, &tag, last)?;

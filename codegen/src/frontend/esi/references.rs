@@ -87,7 +87,7 @@ pub(super) fn follow(
     entry_types(description, diagnostics);
 }
 
-/// Resolves the types of PDO entries that referenced files define.
+/// Resolves the types of PDO entries for which the type is defined in a referenced file.
 fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
     let Description { catalog, entry_types, refused, .. } = description;
     // The types of a file that was not copied remain unknown.

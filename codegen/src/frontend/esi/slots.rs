@@ -9,7 +9,7 @@ use crate::syntax::xml::Tag;
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slots: &mut Vec<Slot>) -> Read<SlotRules> {
     let mut rules = rules(reader, parent)?;
     let first = slots.len();
-    // A slot without an increment uses the increment of the `Slots` element, so increments are collected as options.
+    // Increments are collected as options. A slot without an increment uses the increment of the `Slots` element.
     let mut slot_increments = Vec::new();
     while let Some(tag) = reader.child(parent)? {
         match tag.name {

@@ -22,7 +22,7 @@ pub(super) struct Templates<'a> {
 
 pub(super) struct Template {
     pub origin: Origin,
-    /// Number of entries and bytes that each reference to the template copies.
+    /// Number of entries and bytes that are copied for each reference to the template.
     pub cost: Cost,
     /// True if the diagnostics of the template were already reported.
     pub used: Cell<bool>,

@@ -20,11 +20,11 @@ use crate::text::brief;
 #[derive(Default)]
 pub(super) struct Types<'t, 'a> {
     raw: &'t [RawType<'a>],
-    /// Enumeration values of each data type that has not been lowered.
+    /// Enumeration values of each data type. They are removed when the data type is converted.
     values: Vec<Vec<EnumValue>>,
     by_name: HashMap<&'t str, u32>,
     links: Links,
-    /// IR type for each data type of the file. An alias of a basic type has the basic type itself.
+    /// IR type for each data type of the file. For an alias of a basic type, this is the basic type itself.
     meaning: Vec<Type>,
     /// Types in the order of the file, followed by types that are defined only by their names.
     defs: Vec<TypeDef>,
@@ -207,7 +207,7 @@ impl<'t, 'a> Types<'t, 'a> {
         match known {
             Some((Basic::Type(basic), Spelling::Prefix)) if ty.bits.is_some() && bits(basic) != ty.bits => {}
             Some((Basic::Type(basic), spelling)) => {
-                // A name of another standard is right if the file defines it with the same size.
+                // A type name from another standard is not reported if the file declares the same length for it.
                 if ty.bits.is_none() || ty.bits != bits(basic) || spelling != Spelling::Alias {
                     spelled(reader.diagnostics, spelling, &ty.name, basic);
                 }
@@ -221,7 +221,7 @@ impl<'t, 'a> Types<'t, 'a> {
             }
             None => {}
         }
-        let message = format!("the data type `{}` defines only its name", brief(&ty.name.text));
+        let message = format!("the definition of the data type `{}` contains only its name", brief(&ty.name.text));
         reader.diagnostics.push(
             Diagnostic::new(&codes::UNRESOLVED_TYPE, ty.name.span.or(ty.origin.span), message)
                 .label("kept as raw bytes")
@@ -280,8 +280,8 @@ impl<'t, 'a> Types<'t, 'a> {
         (Shape::Array { element, dimensions }, bits.or(ty.bits))
     }
 
-    /// Returns an array type for an alias whose name ends with `ARR`. The length of the alias must be that of at least
-    /// two elements of the base type, without a remainder.
+    /// Returns an array type for an alias whose name ends with `ARR`. The length of the alias must be a multiple of the
+    /// length of the base type, and at least twice this length.
     fn array_without_info(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Option<Shape> {
         let (size, element) = (ty.bits?, self.bits(base).filter(|&bits| bits > 0)?);
         let count = size / element;
@@ -457,7 +457,7 @@ impl<'t, 'a> Types<'t, 'a> {
     }
 }
 
-/// Reports the name of a basic type that is not in the tables of ETG.1000.6.
+/// Reports the name of a basic type if the tables of ETG.1000.6 do not contain this name.
 fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, ty: Type) {
     let code = match spelling {
         Spelling::Standard => return,

@@ -138,8 +138,8 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     Value::Int(value)
 }
 
-/// Converts a text that is not an integer to an integer type. Drops a fraction of zero. Any other text is stored
-/// unchanged.
+/// Reads and reports a text that is not an integer, although its type is an integer type. A number with a zero
+/// fraction, such as `5.0`, becomes an integer. Any other text is kept unchanged.
 fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
     let given = &raw.given;
     let whole = given.text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));

@@ -28,8 +28,7 @@ pub(super) enum DataType {
 pub(super) enum StringType {
     Visible,
     Octet,
-    /// String in another encoding or with a header. The string is read as octets, and the contained text is the name of
-    /// its IR type.
+    /// String in another encoding or with a header, with the name of its type in the IR. The string is read as octets.
     Named(&'static str),
 }
 

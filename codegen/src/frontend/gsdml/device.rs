@@ -114,7 +114,8 @@ impl<'a> Reader<'a, '_> {
                 Ok(())
             }
             "ApplicationRelations" => {
-                // GSDML V1.0 and V2.0 define this element as a child of the device access point, not of the interface.
+                // In GSDML V1.0 and V2.0, `ApplicationRelations` is a child of the device access point, not of the
+                // interface.
                 let mut kept = Submodule::default();
                 self.application_relations(tag, Some(settings), &mut kept)?;
                 settings.attributes.append(&mut kept.attributes);

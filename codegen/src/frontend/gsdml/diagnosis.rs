@@ -11,7 +11,8 @@ use crate::ir::{
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
-/// Names for a list of codes: the attribute that contains the code, and the tables with their columns.
+/// Names for a list of codes: the attribute that contains the code, and the tables of codes and extended codes, each
+/// with its columns.
 struct List {
     code: &'static str,
     table: &'static str,
@@ -20,7 +21,8 @@ struct List {
     extended_columns: &'static [&'static str],
 }
 
-/// Code list of channel errors. The first column of the table of extended errors is the error type of the parent.
+/// Code list of channel errors. In the table of extended errors, the first column is the error type to which the
+/// extended error belongs.
 static CHANNEL_DIAGNOSIS: List = List {
     code: "ErrorType",
     table: "channel_diagnosis",
@@ -29,7 +31,8 @@ static CHANNEL_DIAGNOSIS: List = List {
     extended_columns: &["error_type", "maintenance_alarm_state", "api", "add_value"],
 };
 
-/// Code list of process alarms. The first column of the table of extended reasons is the reason of the parent.
+/// Code list of process alarms. In the table of extended reasons, the first column is the reason to which the extended
+/// reason belongs.
 static PROCESS_ALARMS: List = List {
     code: "Reason",
     table: "process_alarms",

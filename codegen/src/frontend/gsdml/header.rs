@@ -8,7 +8,7 @@ use crate::ir::{Catalog, CompactString, Documentation, Extension};
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Tag;
 
-/// Number of header text bytes that are copied to each device without using the copy budget.
+/// Maximum number of text bytes in a header that are copied to each device without reducing the budget for copies.
 const MAX_FREE_TEXTS: usize = 1024;
 
 /// Facts that apply to all devices of a file.
@@ -17,7 +17,7 @@ pub(super) struct Header {
     vendor_id: Option<u32>,
     vendor_name: CompactString,
     device_id: Option<u32>,
-    /// Description of the device family, with a placeholder for the text.
+    /// Placeholder for the description of the device family; see `text_references`.
     description: Option<Box<Documentation>>,
     family: (CompactString, CompactString),
     /// Version of the GSDML schema, and the span of the version.

@@ -228,7 +228,8 @@ impl Layout {
         }
     }
 
-    /// Converts PROFIsafe trailers to data if other data items follow them. A trailer must be at the end of the data.
+    /// Converts and reports PROFIsafe trailers that other data items follow. A trailer must be at the end of the data,
+    /// so such a trailer becomes data.
     fn trailers_to_data(&mut self, reader: &mut Reader<'_, '_>) {
         for (at, origin) in std::mem::take(&mut self.trailers) {
             let Some(item) = self.items.get_mut(at) else { continue };

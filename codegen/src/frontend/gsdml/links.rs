@@ -52,7 +52,7 @@ pub(super) struct Links<'a> {
     ids: HashMap<(ElementKind, Cow<'a, str>), (u32, Span)>,
     modules: Vec<(usize, Given<'a>, SlotNumbers)>,
     submodules: Vec<(Owner, Given<'a>, SlotNumbers)>,
-    /// References that are only checked: the target must exist, but the IR does not resolve the reference.
+    /// References that are only checked: the target must exist, but the reference is not part of the IR.
     others: Vec<(ElementKind, Given<'a>)>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Links<'a> {
         self.submodules.push((owner, target, places));
     }
 
-    /// Adds a reference whose target must exist, but that the IR does not resolve.
+    /// Adds a reference that is only checked: the target must exist, but the reference is not part of the IR.
     pub fn mention(&mut self, kind: ElementKind, target: &Given<'a>) {
         self.others.push((kind, target.clone()));
     }

@@ -9,7 +9,8 @@ use crate::ir::Numbers;
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
-    /// Reads a decimal number up to `max`. Reports any other text, but still reads a hexadecimal number.
+    /// Reads a decimal number up to `max`. Reports any other text, and returns `None` unless the text is a hexadecimal
+    /// number up to `max`.
     pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;

@@ -60,7 +60,7 @@ impl<'a> Reader<'a, '_> {
             return Ok(());
         }
         if matches!(location.data_type, Some(DataType::String(_))) {
-            // Blanks around the default value of a string belong to the string.
+            // Spaces around the default value of a string belong to the string.
             given = self.attribute_with_blanks(tag, "DefaultValue")?;
         }
         item.default = self.default_value(&given, location.number(), location.bits);

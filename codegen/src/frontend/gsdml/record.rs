@@ -67,7 +67,7 @@ impl<'a> Reader<'a, '_> {
         while let Some(tag) = self.child(parent)? {
             match tag.name {
                 "Ref" => {
-                    // The large struct is filled after it was added to the list, which avoids a copy.
+                    // The large struct is added to the list first and filled there, which avoids a copy.
                     items.push(Item::new(Binding::Record { index: record.index, bit_offset: 0, bits: 0 }));
                     if let Some(item) = items.last_mut() {
                         self.parameter(&tag, record.index, item)?;

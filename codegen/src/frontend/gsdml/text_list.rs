@@ -23,8 +23,8 @@ pub(super) struct TextList<'a> {
     primaries: usize,
     languages: Vec<CompactString>,
     seen: HashMap<CompactString, Span>,
-    /// Position of the entry that the next text or reference probably belongs to. The texts of all languages and most
-    /// references have the same order.
+    /// Position of the entry to which the next text or reference probably belongs, because the texts of all languages
+    /// and most references have the same order.
     next: usize,
 }
 
@@ -157,8 +157,8 @@ impl<'a> TextList<'a> {
             .label("the primary language is used instead");
         let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last));
         let translated = |entry: &Entry<'a>| last(entry).is_some_and(|last| last.language == language);
-        // The search covers only one entry more than the language has texts, because a file may have many languages
-        // with one text each.
+        // Among the first `count + 1` entries, at least one has no text in this language, so no further entries are
+        // searched. This keeps the search fast if a file has many languages with one text each.
         let mut near = self.entries.iter().take(count + 1);
         if let Some(first) = near.find(|entry| entry.primary.is_some() && !translated(entry)) {
             diagnostic = diagnostic.note_at(first.span, "first text without a translation");
@@ -212,7 +212,7 @@ impl<'a> TextList<'a> {
     /// Returns the text of an entry, and its translations.
     fn finish(&self, entry: &Entry<'a>) -> (CompactString, Texts) {
         let mut texts = Vec::new();
-        // Two lists for the same language usually contain the same texts.
+        // A language with two lists usually has each text twice, so repeated texts are removed.
         let is_repeated = self.seen.len() < self.languages.len();
         let mut seen = HashSet::new();
         let mut chain = entry.translations;
@@ -246,7 +246,7 @@ fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Text
         reader.unknown(tag)?;
         return Ok(None);
     }
-    // Leading and trailing blanks belong to the text.
+    // Leading and trailing spaces belong to the text.
     let [id, value] = reader.attributes_with_blanks(tag, ["TextId", "Value"])?;
     reader.no_children(tag)?;
     if !reader.require(tag, &id, "TextId", "left out because references need an ID") {

@@ -1,6 +1,6 @@
 //! References to the texts at the end of a file.
 //!
-//! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A blank and a suffix may
+//! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A space and a suffix may
 //! follow the number. `resolve` replaces placeholders with texts.
 
 use compact_str::{format_compact, CompactString, ToCompactString};
@@ -27,7 +27,7 @@ impl<'a> TextReferences<'a> {
 
 /// Returns a placeholder for the text of `placeholder` followed by `suffix`.
 pub(super) fn with_suffix(placeholder: &str, suffix: &str) -> CompactString {
-    // A placeholder is the number of a reference. Without the blank, digits at the start of the suffix would be read as a part of this
-    // number.
+    // A placeholder is the number of a reference. Without the space, digits at the start of the suffix would be read as
+    // a part of this number.
     format_compact!("{placeholder} {suffix}")
 }

@@ -92,7 +92,7 @@ impl<'a> Types<'a> {
         self.items.push(item);
     }
 
-    /// Returns the enumeration that the `ValueItem` called `target` defines over the integer type `base`.
+    /// Returns the enumeration that the `ValueItem` called `target` defines, with the underlying integer type `base`.
     pub fn enumeration(&mut self, target: Given<'a>, base: Type) -> Type {
         let key = (target.text.clone(), base);
         if let Some(&id) = self.enumerations.get(&key) {

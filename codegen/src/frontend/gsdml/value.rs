@@ -139,7 +139,8 @@ fn boolean(text: &str) -> Option<Value> {
     }
 }
 
-/// Reads an integer in an allowed or default value. Also returns whether the text consists only of decimal digits.
+/// Reads an integer in an allowed or default value. Also returns whether the number is decimal; if not, it is
+/// hexadecimal.
 fn whole(text: &str) -> Option<(i128, bool)> {
     if let Ok(value) = text.parse::<i64>() {
         return Some((value.into(), true));

@@ -61,7 +61,8 @@ fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
     }
 }
 
-/// Reads an integer in a value list. Also accepts a fraction of zero, and hexadecimal digits after `0x`.
+/// Reads an integer in a value list. Also accepts a number with a zero fraction, such as `7.0`, and hexadecimal digits
+/// after `0x`.
 fn whole(text: &str) -> Option<i128> {
     let text = text.trim();
     if let Ok(value) = text.parse::<i64>() {

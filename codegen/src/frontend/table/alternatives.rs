@@ -1,4 +1,5 @@
-//! Reads keys whose value has alternative forms: a factor or a rule, values or bits.
+//! Reads keys whose value can have one of two forms: a scale is a factor or a rule, and a condition contains values or
+//! bits.
 
 use toml::de::DeValue;
 

@@ -81,7 +81,8 @@ impl Rows {
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
     }
 
-    /// Reports a list with more default values than the row has items, and a name that several items share.
+    /// Reports a list that has more default values than the row has items. Also reports a name without `{n}` or `{n+1}`
+    /// if the row has several items.
     pub(super) fn each_has_one(&self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, count: u32) {
         // An array has a default value for each of its elements.
         let is_array = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).is_some_and(|ty| ty.elements.is_some());
@@ -252,16 +253,16 @@ impl Rows {
             if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
                 let needed = match repeat.count {
                     0 | 1 => format!("the type needs {needed}"),
-                    _ => format!("one item needs {needed} and all items need {all}"),
+                    _ => format!("one repetition needs {needed} and all repetitions need {all}"),
                 };
                 let registers = count_of(printed, "register");
-                let message = format!("the row names {registers} of {unit} bits, but {needed}");
+                let message = format!("the row has {registers} of {unit} bits, but {needed}");
                 reader
                     .diagnostics
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
             }
         }
-        // The range of register numbers determines the length of a type without a length.
+        // A type without a length has the length of the range of register numbers.
         let printed = last.map(|last| (last - first).saturating_add(1).saturating_mul(unit));
         let bits = bits.or(printed.filter(|_| repeat.count == 1));
         let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, bits, unit));

@@ -14,7 +14,7 @@ use crate::ir::{Availability, Condition, ElementRef, Type};
 /// Availability of an element as the table declares it.
 pub(super) struct GivenAvailability<'t> {
     pub models: Option<&'t Vec<At<String>>>,
-    /// First firmware version that has the element, and first firmware version that does not have it.
+    /// First firmware version that has the element, and first later firmware version that no longer has it.
     pub versions: [Option<&'t str>; 2],
     pub replaced_by: Option<&'t str>,
     pub buses: Option<&'t Vec<At<String>>>,

@@ -106,7 +106,7 @@ impl Definitions {
         integer(reader, base)
     }
 
-    /// Returns the type under aliases, bit fields, enumerations and scaled types.
+    /// Returns the basic type on which an alias, a bit field, an enumeration or a scaled type is based.
     pub fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
         // The types form no cycle, because each type refers only to earlier types.

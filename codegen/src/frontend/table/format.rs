@@ -501,7 +501,7 @@ tables! {
         /// Modbus table of the registers: `holding`, `input`, `coil` or `discrete`.
         #[cfg_attr(test, schemars(transform = schema::words("holding input coil discrete")))]
         pub table: Option<At<String>>,
-        /// First register number in the manual.
+        /// Printed register number of the wire address 0; the wire address is `reg` - `first` + `add`.
         pub first: Option<i64>,
         /// Offset that is added to the register number to get the wire address.
         pub add: Option<i64>,
@@ -1163,9 +1163,9 @@ tables! {
         pub when: Option<Conditions>,
         /// Approximate time in ms until a late reply arrives.
         pub reply_time: Option<u32>,
-        /// Message after which the reply has this form, if several messages have identical requests.
+        /// Earlier message that selects the reply of this message, if several messages have identical requests.
         pub after: Option<At<String>>,
-        /// Whether the reply also has this form after power-on.
+        /// Whether the device also sends this reply after power-on.
         pub default: bool,
         /// Message that the device sends instead of the reply if it refuses the request.
         pub error: Option<At<String>>,
@@ -1214,7 +1214,8 @@ tables! {
         pub order: Option<At<String>>,
         /// Physical value of the raw value 0.
         pub offset: Option<f64>,
-        /// Name of a field: the value is the number of bytes from the named field to the end of the frame.
+        /// Name of a field: the value is the number of bytes from the named field to the end of the message data, without
+        /// checksum and end byte.
         pub counts: Option<At<String>>,
         /// Request field that the reply repeats; with `part`, the reply repeats only some bytes.
         pub echo: Option<At<String>>,
@@ -1232,13 +1233,13 @@ tables! {
         pub pad: Option<u8>,
         /// Group of fields that is repeated.
         pub repeat: Option<RepeatTable>,
-        /// Whether the field contains all bytes that follow in the frame.
+        /// Whether the field contains all further bytes of the message data, without checksum and end byte.
         pub rest: bool,
     }
 
     /// Group of fields that is repeated in a message.
     pub struct RepeatTable {
-        /// Field that contains the number of repetitions. Default: the group is repeated to the end of the frame.
+        /// Field that contains the number of repetitions. Default: the group is repeated to the end of the message data.
         pub count: Option<At<String>>,
         /// Maximum number of repetitions.
         pub max: Option<u16>,

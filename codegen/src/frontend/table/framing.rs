@@ -46,7 +46,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
     }
 }
 
-/// Reports conflicts between the special bytes of the framing.
+/// Reports conflicts between the start, end and escape bytes of the frames.
 fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
     let framing = &table.value;
     let special = [("start", framing.start), ("end", framing.end), ("escape", framing.escape)];

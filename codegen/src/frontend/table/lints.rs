@@ -50,8 +50,8 @@ fn capital(reader: &mut Reader<'_, '_>, span: Span) {
 const DIGITS: &str =
     "compare the number and its type with the manual: a digit was doubled or lost, or the type is wrong";
 
-/// Reports the key of a value if it has more hexadecimal digits than the integer type of the values. Types of less than 8 bits
-/// are not checked.
+/// Reports a key that has more hexadecimal digits than the integer type `base` needs. Types of less than 8 bits are not
+/// checked.
 pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
     let Some(bits) = base.bits().filter(|&bits| bits >= 8) else { return };
     let needed = bits.div_ceil(4) as usize;
@@ -167,7 +167,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
             _ => (after, offset(Some(at + 2))),
         };
         let (Some(expected), true) = (neighbors.0, neighbors.0 == neighbors.1) else { continue };
-        // Another check already reported the object of this row if the neighboring rows follow the rule of the space.
+        // If the neighboring rows follow the rule of the space, another check already reported the object of this row.
         let by_rule = row.rule == Some(row.number.wrapping_add(expected));
         let is_member = [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|at| printed.get(at));
         let is_member = is_member.clone().count() > 0 && is_member.into_iter().all(|other| row.is_near(other));

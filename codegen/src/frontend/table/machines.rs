@@ -18,8 +18,7 @@ fn text(at: &At<String>) -> CompactString {
 }
 
 /// Reads a state machine. Reports transitions with unknown states or commands. A command may also be the name of a
-/// message. Returns `false` if the machine exceeds `budget`. After a return value of `false`, the caller must ignore
-/// all further machines.
+/// message. Returns `false` if the machine exceeds `budget`. In this case, the caller must ignore all further machines.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,

@@ -1,4 +1,4 @@
-//! Register numbers that manuals print instead of item names or in texts: "replaced by register 10015".
+//! Register numbers that manuals print in texts, or in place of item names, such as "replaced by register 10015".
 
 use std::collections::BTreeSet;
 
@@ -46,7 +46,7 @@ pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str,
     true
 }
 
-/// Reports register numbers in texts that belong to no register of the table.
+/// Reports register numbers that a text mentions, but that no row of the table has.
 pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: &Device) {
     if list.is_empty() {
         return;

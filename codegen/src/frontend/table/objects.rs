@@ -66,7 +66,7 @@ fn affordable(reader: &mut Reader<'_, '_>, rows: &mut Rows, objects: Objects, ro
     Objects { indices: (first, first), subs: subs.map(|(first, _)| (first, first)) }
 }
 
-/// Returns whether a row describes an object as a whole, whose values are its sub-entries.
+/// Returns whether a row describes a whole object, whose values are in its sub-entries.
 fn has_no_value(row: &Row) -> bool {
     let has_subs = row.code.as_ref().is_some_and(|code| matches!(code.value.as_str(), "array" | "record"));
     has_subs && row.bits.is_none() && row.values.is_none()

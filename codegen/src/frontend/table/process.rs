@@ -94,7 +94,7 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
     Some(pdo)
 }
 
-/// Compares the lengths of a PDO that the manual prints with the length of the entries.
+/// Compares the lengths that the manual prints for a PDO with the length of all its entries.
 fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
     let Some(printed) = &table.length else { return };
     let (index, bits) = (pdo.mapping_index, pdo.bits());

@@ -57,7 +57,8 @@ impl Mistake {
     }
 }
 
-/// Returns the entries of a table. `expected` names the expected value in the error for any other value.
+/// Returns the entries of a table, or an error for any other value. `expected` describes the expected table in the
+/// error message.
 pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n DeTable<'a>, Mistake> {
     match node.get_ref() {
         DeValue::Table(table) => Ok(table),

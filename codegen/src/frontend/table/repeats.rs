@@ -1,4 +1,4 @@
-//! Limits the items that rows create and the texts that they copy from defaults and units.
+//! Limits the number of items that rows create, and the size of the texts that rows copy from defaults and units.
 
 use std::fmt::{Debug, Write};
 
@@ -15,7 +15,7 @@ use crate::source::Span;
 pub(super) struct Repeats {
     /// Remaining number of items; `None` after the first excess was reported.
     left: Option<usize>,
-    /// Sizes of the defaults of the file and of the chapter, as numbers of items.
+    /// Size of the defaults in the file, and of the defaults in the current chapter, converted to a number of items.
     defaults: [usize; 2],
 }
 
@@ -51,8 +51,8 @@ impl Repeats {
         count < 2 || self.take(reader, (count - 1).saturating_mul(items(row)), span)
     }
 
-    /// Subtracts a number of items from the budget. Returns false and reports the first row that exceeds the limit, if
-    /// the budget is too small.
+    /// Subtracts a number of items from the budget. Returns false if the budget is too small. Only the first row for
+    /// which the budget is too small is reported.
     fn take(&mut self, reader: &mut Reader<'_, '_>, items: usize, span: Span) -> bool {
         if items == 0 {
             return true;
@@ -72,12 +72,13 @@ impl Repeats {
     }
 }
 
-/// Returns the size of the texts in a row as a number of items.
+/// Returns the size of the texts in a row, converted to a number of items.
 fn items(row: &Row) -> usize {
     beyond(length(row))
 }
 
-/// Returns the size of the value ranges that each item stores value by value, as a number of items.
+/// Returns the size of the value ranges in a row, converted to a number of items. Each item stores every value of these
+/// ranges separately.
 fn expanded(row: &Row) -> usize {
     let has_range =
         |list: &[Literal]| list.iter().any(|literal| matches!(literal, Literal::Text(text) if text.contains("..")));
@@ -91,7 +92,7 @@ fn expanded(row: &Row) -> usize {
         / ROW_BYTES_PER_ITEM
 }
 
-/// Returns the number of items that a text of `length` bytes counts as, after the free bytes of a row are subtracted.
+/// Converts the length of a text in bytes to a number of items. The first [`MAX_FREE_ROW_BYTES`] bytes do not count.
 fn beyond(length: usize) -> usize {
     length.saturating_sub(MAX_FREE_ROW_BYTES) / ROW_BYTES_PER_ITEM
 }

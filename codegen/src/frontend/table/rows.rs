@@ -35,9 +35,10 @@ pub(super) struct Rows {
     pub numbered: Vec<Numbered>,
     /// Diagnostics that rows and definitions allow, with the spans in which they are allowed.
     pub allowed: Vec<(Span, &'static Code)>,
-    /// Statements of other sections of the manual about objects that have sub-entries, by the index of the object.
+    /// Statements that other sections of the manual make about objects with sub-entries, each with the index of the
+    /// object.
     pub summaries: Vec<(u16, Summaries)>,
-    /// Limit for the items that rows create, and for the texts that they copy.
+    /// Budget for the items that rows create, and for the texts that rows copy.
     pub repeats: Repeats,
 }
 
@@ -101,16 +102,16 @@ impl Rows {
         }
     }
 
-    /// Reports an item without access rights.
+    /// Reports an item whose access rights are not declared.
     pub fn no_access(&self, reader: &mut Reader<'_, '_>, named: Named<'_>) {
-        let message = format!("`{}` has no access rights", brief(named.name));
+        let message = format!("the access rights of `{}` are not declared", brief(named.name));
         let diagnostic = Diagnostic::new(&codes::ACCESS_NOT_GIVEN, reader.span(named.key), message);
         reader
             .diagnostics
             .push(diagnostic.label("read-only").help("add `access` to the row, or to `defaults` for all rows"));
     }
 
-    /// Returns the type of a row. Reports a missing type as an error.
+    /// Returns the type of a row. Reports a missing or unknown type.
     pub fn ty(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row) -> Option<Type> {
         let written = row.ty.as_ref().and_then(|ty| {
             let found = types::named(&ty.value);

@@ -68,7 +68,7 @@ fn linear(factor: f64, offset: f64) -> Option<Scale> {
     (factor != 1.0 || offset != 0.0).then_some(Scale::Linear { factor, offset })
 }
 
-/// Checks that a factor is finite and not 0. Otherwise, no raw value has a physical value.
+/// Checks that a factor is finite and not 0. With any other factor, values cannot be converted.
 fn number(what: &str, factor: f64) -> Result<f64, String> {
     if factor.is_finite() && factor != 0.0 {
         return Ok(factor);

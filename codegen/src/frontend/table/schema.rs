@@ -3,8 +3,8 @@
 //! The module is compiled for unit tests only, so that the compiler does not depend on `schemars`. The test below compares the
 //! schema with the file [`super::SCHEMA`].
 //!
-//! The types in `format` derive the schema. This module adds the allowed words, the grammars of keys, and options in place of
-//! values.
+//! The schema is derived from the types in `format`. This module adds the allowed words, the grammars of keys, and
+//! options in place of values.
 
 use std::path::Path;
 
@@ -107,7 +107,8 @@ pub(super) fn types(schema: &mut Schema) {
     });
 }
 
-/// Allows a number, or a text that matches `grammar`. In the grammar, `#` stands for a number.
+/// Allows a non-negative integer, a text that matches `grammar`, or a text that begins with `$` and a lower-case
+/// letter. In the grammar, `#` stands for a number.
 pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| {
         let grammar = format!(r"^ *({}|\$[a-z].*) *$", grammar.replace('#', NUMBER));
@@ -153,7 +154,7 @@ pub(super) const BITS: &str = r"\[?#((\.\.|-)#)?\]?";
 pub(super) const BITS_OF_BYTES: &str = r"(#:)?\[?#((\.\.|-)#)?\]?";
 pub(super) const VALUES: &str = r"[-+]?#(\.\.=?[-+]?#)?";
 
-/// Names of the buses, separated by blanks.
+/// Names of the buses, separated by spaces.
 pub(super) const BUSES: &str = "canopen ethercat modbus profinet serial";
 pub(super) const PURPOSES: &str = "mailbox_out mailbox_in outputs inputs";
 pub(super) const CHECKS: &str = "xor sum lrc crc8 crc16";

@@ -1,4 +1,4 @@
-//! Compares a row with the statements of other sections of the manual about the row.
+//! Compares a row with the statements that other sections of the manual make about the same value or object.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
-/// Statements of other sections of the manual about a row.
+/// Statements that other sections of the manual make about the value or object of a row.
 pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
 
-/// Compares an item with the statements of other sections about its row.
+/// Compares an item with the statements in the key `summary` of its row.
 pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given: &Summaries, item: &Item) {
     let is_domain = definitions.underlying(item.ty) == Type::Domain;
     for summary in &given.value.0 {
@@ -30,9 +30,9 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
     }
 }
 
-/// Compares objects that have sub-entries with the statements of other sections. Name, object code and number of
-/// sub-indices are those of the object. All other facts of a statement apply to each sub-entry except sub-index 0, and
-/// only the first sub-entry that differs is reported.
+/// Compares objects that have sub-entries with the statements of other sections. The name, the object code and the
+/// number of sub-indices in a statement are compared with those of the object. All other facts are compared with each
+/// sub-entry except sub-index 0, and only the first sub-entry that differs is reported.
 pub(super) fn objects(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,
@@ -65,7 +65,9 @@ fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, messa
     let found = found
         .help("write the correct fact in the row, record the other fact in a `doubt`, and allow this code on the row");
     reader.diagnostics.push(match &summary.cite {
-        Some(cite) => found.note(format!("`summary` cites the manual with `cite = {}`", cited(cite))),
+        Some(cite) => {
+            found.note(format!("the fact in `summary` comes from this place in the manual: `cite = {}`", cited(cite)))
+        }
         None => found,
     });
 }

@@ -23,7 +23,7 @@ use crate::text::{brief, similar, standard_and_clause};
 /// Maximum number of names that a message lists if no name is similar.
 const MAX_LISTED: usize = 12;
 
-/// Number of diagnostics after which messages suggest no names.
+/// Number of diagnostics after which messages no longer suggest names.
 const MAX_HELPED: usize = 1000;
 
 /// Byte range in the file: offset of the first byte, and offset after the last byte.
@@ -73,7 +73,8 @@ impl<'a> Reader<'a, '_> {
         errors.is_empty().then(|| table.into_inner())
     }
 
-    /// Reads a value as the type `T` and reports errors. Unknown keys are removed, so that the other keys can be read.
+    /// Reads a value as the type `T` and reports errors. An unknown key is removed, or replaced with the most similar
+    /// known key, so that the other keys can be read.
     pub fn piece<T: Read>(&mut self, mut node: Node<'a>) -> Option<T> {
         // Each attempt finds only one unknown key.
         for attempt in 0..=MAX_UNKNOWN_KEYS {
@@ -203,7 +204,8 @@ impl<'a> Reader<'a, '_> {
         Origin { span: self.span(at), line: self.source.line_at(at.start) }
     }
 
-    /// Returns a span that messages can show. An empty span is replaced with that of the character before it.
+    /// Returns a span that messages can show: an empty span is replaced with the span of the last character before it
+    /// that is not white space.
     fn visible(&self, span: Span) -> Span {
         let before =
             self.source.text().get(..span.start as usize).and_then(|text| text.trim_end().char_indices().last());

@@ -12,8 +12,8 @@ const SYMBOLS: [&str; 90] = [
 /// Unit symbols that contain `°` or `µ`.
 const SIGNS: [&str; 13] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm", "µS", "µg"];
 
-/// Returns whether the format knows a unit symbol, or a product, quotient or power of known symbols such as `rev/s²`. All other
-/// units must be defined in `[units]` of the table.
+/// Returns whether `symbol` is a known unit symbol, or a product, quotient or power of known symbols such as `rev/s²`.
+/// All other units must be defined in `[units]` of the table.
 ///
 /// ```
 /// use lexibus_codegen::frontend::table::is_unit;

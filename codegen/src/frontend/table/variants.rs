@@ -17,7 +17,8 @@ impl Rows {
         let Some(list) = &row.variants else { return };
         let base = self.definitions.underlying(item.ty);
         item.variants = list.iter().map(|given| self.variant(reader, given, base)).collect();
-        // On Modbus, a type of another length occupies a different number of registers.
+        // On Modbus, a type of another length occupies a different number of registers, so this number is calculated
+        // again.
         let Some(bits) = item.type_on(Bus::Modbus).bits().filter(|_| item.type_on(Bus::Modbus) != item.ty) else {
             return;
         };
@@ -75,7 +76,8 @@ impl Rows {
         found
     }
 
-    /// Returns the type of a variant, which must be an integer of another length.
+    /// Returns the type of a variant. Reports the type unless the item and the variant both have an integer type or
+    /// `bool`.
     fn other_type(&self, reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) -> Option<Type> {
         let is_integer = |ty: &Type| matches!(ty, Type::Integer(1..=64) | Type::Unsigned(1..=64) | Type::Boolean);
         let found = types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty);

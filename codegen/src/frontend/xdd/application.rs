@@ -164,8 +164,8 @@ pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &st
     reader.report(&codes::DANGLING_REFERENCE, given.span, message, "the reference is ignored");
 }
 
-/// Registers the position of an element by uniqueID. Reports a repeated uniqueID, for which the first element takes
-/// precedence.
+/// Registers the position of an element by uniqueID. Reports a repeated uniqueID, which then identifies the first
+/// element.
 pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_>, position: usize) {
     if given.is_missing() {
         return;

@@ -6,8 +6,8 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CompactString, Device, Extension};
 use crate::syntax::xml::Tag;
 
-/// Reads the attributes of a profile body. A file has two profile bodies. The first value applies if both have an
-/// attribute.
+/// Reads the attributes of a profile body. A file has two profile bodies. If both bodies have the same attribute, the
+/// value in the first body applies.
 pub(super) fn body<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     const NAMES: [&str; 12] = [
         "fileName",

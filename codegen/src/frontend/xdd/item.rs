@@ -16,7 +16,8 @@ use crate::ir::{
 };
 use crate::source::Span;
 
-/// Facts that a sub-object takes from its object: the object's parameter, and the type of the component.
+/// Facts that a sub-object takes from its object: the parameter of the object, and the type that the type of the object
+/// defines for the sub-object.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
@@ -183,7 +184,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Returns an enumeration of the allowed values if all of them have labels, otherwise `ty`.
+    /// Returns an enumeration of the allowed values if `ty` is an integer type and the parameter allows only single
+    /// values with labels. Otherwise, returns `ty`.
     fn enumeration(&mut self, ty: Type, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>) -> Type {
         let (Some(allowed), Some(position)) = (allowed, view.position) else { return ty };
         let labeled = allowed.ranges.is_empty() && allowed.values.iter().all(|(_, texts)| !texts.labels.is_empty());
@@ -228,7 +230,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         item.limits = Limits { low, high: self.typed(high, ty, Role::Limit), ..Limits::default() }.into();
     }
 
-    /// Returns the minimum and the maximum of all allowed ranges and values.
+    /// Returns the minimum and the maximum of all allowed ranges and values, or no limits if a bound is missing or is
+    /// not a number.
     fn hull(&mut self, allowed: &'p Allowed<'a>, ty: Type) -> Limits {
         let single = allowed.values.iter().map(|(given, _)| (Some(given), Some(given)));
         let ranges = allowed.ranges.iter().map(|range| (range.low.non_empty(), range.high.non_empty()));

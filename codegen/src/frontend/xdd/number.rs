@@ -6,7 +6,7 @@ use crate::frontend::canopen::number;
 use crate::frontend::xml::Given;
 
 impl Reader<'_, '_> {
-    /// Reads a number up to `max` and reports any other text.
+    /// Reads a number up to `max`. Reports any other text.
     pub fn unsigned(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;

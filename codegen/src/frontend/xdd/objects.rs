@@ -50,7 +50,7 @@ pub(super) fn build<'a>(
     Ok(())
 }
 
-/// Attributes of an object or sub-object. The discriminant is the position in [`Raw`].
+/// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw`].
 #[derive(Clone, Copy)]
 pub(super) enum Key {
     Index,
@@ -263,7 +263,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.sub_number(group, object);
     }
 
-    /// Adds a sub-index 0 with the value of the VAR to a VAR that has sub-objects but no sub-index 0.
+    /// Adds sub-index 0 to a VAR that has other sub-objects, but no sub-index 0. The new sub-object contains the value
+    /// of the VAR.
     fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw<'a>, view: &View<'p, 'a>) {
         let mut item = self.item(index, 0, raw, view, ObjectCode::Var, None);
         item.name = group.name.clone();
@@ -271,8 +272,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         group.items.insert(0, item);
     }
 
-    /// Stores attributes as extensions if they have no meaning for the object, except a PDO mapping of `no` and a count
-    /// of `0`.
+    /// Reports attributes that have no meaning for the object, and stores them as extensions. Ignores a PDO mapping of
+    /// `no` and a count of `0`.
     fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(given) = raw.get(key) else { continue };
@@ -344,7 +345,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "value of objFlags").unwrap_or(0)
     }
 
-    /// Returns the type that the type of the object defines for a sub-object.
+    /// Returns the type of a sub-object, as the type of its object defines it.
     fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
         let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
         match &self.types.get(at as usize)?.shape {

@@ -20,12 +20,12 @@ pub struct Given<'a> {
 }
 
 impl<'a> Given<'a> {
-    /// Returns the value of an attribute, including surrounding blanks.
+    /// Returns the value of an attribute, including surrounding white space.
     pub fn of_attribute(attribute: &Attribute<'a>, diagnostics: &mut Diagnostics) -> Self {
         Given { text: attribute.value(diagnostics), span: attribute.marked_span() }
     }
 
-    /// Removes surrounding blanks from the text and its span.
+    /// Removes surrounding white space from the text. The span stays the same.
     #[inline]
     pub fn trimmed(self) -> Self {
         let is_blank = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_whitespace);

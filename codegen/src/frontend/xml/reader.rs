@@ -22,8 +22,8 @@ pub trait Format {
     const STANDARD: &'static str;
     /// Diagnostic code for an element or attribute that the standard does not define.
     const UNKNOWN: &'static Code;
-    /// Attributes with their elements that the standard defines, and for which the IR has no field. They become extensions, and are not
-    /// reported as unknown.
+    /// Pairs of an element and an attribute that the standard defines, but for which the IR has no field. Such an
+    /// attribute becomes an extension, and is not reported as unknown.
     const KEPT: &'static [(&'static str, &'static str)] = &[];
     /// Elements whose contents the front end reads. A similar unknown name is reported as misspelled.
     const ELEMENTS: &'static [&'static str];
@@ -114,7 +114,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.attributes_with(tag, names, Self::given)
     }
 
-    /// Returns the values of the attributes `names` with surrounding blanks. All other attributes become extensions.
+    /// Returns the values of the attributes `names` with surrounding white space. All other attributes become
+    /// extensions.
     pub fn attributes_with_blanks<const N: usize>(&mut self, tag: &Tag<'a>, names: [&str; N]) -> Read<[Given<'a>; N]> {
         self.attributes_with(tag, names, |reader, attribute| Given::of_attribute(attribute, reader.diagnostics))
     }
@@ -135,8 +136,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         Ok(found)
     }
 
-    /// Returns the value of an attribute with surrounding blanks. The other attributes of the element must have been
-    /// read before.
+    /// Returns the value of an attribute with surrounding white space. The other attributes of the element must have
+    /// been read before.
     pub fn attribute_with_blanks(&mut self, tag: &Tag<'a>, name: &str) -> Read<Given<'a>> {
         let given = |reader: &mut Self, attribute: &_| Given::of_attribute(attribute, reader.diagnostics);
         let [given] = self.select(tag, [name], given, |_, _| {})?;

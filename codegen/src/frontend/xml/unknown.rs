@@ -1,5 +1,5 @@
-//! Elements and attributes that the standard or the IR does not define. Such elements and attributes become extensions,
-//! and are reported on request.
+//! Elements and attributes that the standard does not define, or for which the IR has no field. They become extensions.
+//! Those that the standard does not define are reported if the user enables the diagnostic.
 
 use compact_str::{format_compact, CompactString};
 

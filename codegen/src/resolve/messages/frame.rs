@@ -12,8 +12,8 @@ pub(crate) struct Frame {
     pub constants: BTreeMap<usize, u8>,
     /// Minimum length of the data in bits.
     pub min_bits: usize,
-    /// Length in bits with the maximum number of repetitions. Repeated fields without a declared maximum count once.
-    /// For other fields with a variable length, the minimum length counts.
+    /// Length of the data in bits with the maximum number of repetitions. Repeated fields without a declared maximum count once,
+    /// and other fields with a variable length count with their minimum length.
     pub max_bits: usize,
     /// True if the frame can be longer than `min_bits`.
     pub is_open: bool,
@@ -107,7 +107,7 @@ impl Reader<'_, '_> {
                 self.times = outer.saturating_mul(max.map_or(1, usize::from));
                 self.frame.is_open = true;
                 self.fields(fields);
-                // Repeated fields may also be absent, so they do not count toward the minimum length.
+                // Repeated fields may be absent, so they do not count toward the minimum length.
                 self.frame.min_bits = before;
                 self.times = outer;
             }

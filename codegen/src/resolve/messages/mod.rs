@@ -1,4 +1,5 @@
-//! Layout of the frames of a command protocol: a sequence of steps. At most one step has a variable length.
+//! Layout of the frames of a command protocol: a sequence of steps. At most one step has a variable length, in addition to one
+//! list with a count.
 //!
 //! | file | subject |
 //! |---|---|

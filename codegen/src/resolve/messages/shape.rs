@@ -48,7 +48,8 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
 
-/// Returns which messages depend, directly or indirectly, on a message that cannot determine the meaning of a reply.
+/// Returns, for each message, whether the meaning of its reply depends on an earlier message, but no message with
+/// generated code can determine this meaning.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let mut selectors: HashMap<&str, usize> = HashMap::new();
     let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();

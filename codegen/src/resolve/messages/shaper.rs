@@ -236,8 +236,8 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Checks that at most one step has a variable length. Also checks that a counted list comes after its count and before
-/// the step with a variable length.
+/// Checks that the steps contain at most one counted list and at most one other step with a variable length. The counted list
+/// must come after its count and before the other step.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);

@@ -25,7 +25,7 @@ fn all() -> &'static [Profile] {
     PROFILES.get_or_init(|| STORED.iter().filter_map(|text| stored::read(text)).collect())
 }
 
-/// Completes all devices and modules of `catalog`.
+/// Applies the profiles to the devices, modules and submodules of `catalog`.
 pub(crate) fn apply(catalog: &mut Catalog) {
     let Catalog { files, devices, modules, submodules, types, .. } = catalog;
     // A file that is not in the catalog's list of files is an overlay.
@@ -65,8 +65,8 @@ fn is_device_of(device: &Device, profile: &Profile) -> bool {
     follows(&numbers, &device.groups, profile)
 }
 
-/// Returns whether a device or module follows a profile. The device or module declares the profile, or it has the object that
-/// identifies the profile and declares no other profile.
+/// Returns whether a device or module follows a profile: it declares the profile, or it has the object that identifies the
+/// profile and declares no other profile except `MODULAR`. Only the object identifies a profile without a number.
 fn follows(numbers: &[u32], groups: &[Group], profile: &Profile) -> bool {
     if profile.api.is_some() {
         return false;

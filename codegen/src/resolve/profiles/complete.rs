@@ -335,12 +335,12 @@ fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&
     true
 }
 
-/// Returns the letters and digits of a name in lower case. Names that only differ in other characters have the same Rust name.
+/// Returns the letters and digits of a name in lower case. Two names with the same letters and digits have the same Rust name.
 fn letters(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Returns whether the name of a submodule contains the name of a telegram without a further digit.
+/// Returns whether the name of a submodule contains the name of a telegram that no further digit follows.
 fn is_called(name: &str, telegram: &str) -> bool {
     let (name, telegram) = (name.to_lowercase(), telegram.to_lowercase());
     let mut matches = name.match_indices(telegram.as_str());

@@ -28,9 +28,9 @@ pub(crate) struct Profile {
     pub signals: Vec<Signal>,
     /// Telegrams of submodules, each in one direction.
     pub telegrams: Vec<Telegram>,
-    /// Types with the names of bits and values that objects and signals have.
+    /// Types that name the bits and values of objects and signals.
     pub types: Vec<TypeDef>,
-    /// Code tables and state machines of all devices, with their ambiguities.
+    /// Code tables and state machines of devices that follow the profile, with the ambiguities of each.
     pub codes: Vec<(CodeTable, Doubts)>,
     pub machines: Vec<(StateMachine, Doubts)>,
 }

@@ -1,7 +1,7 @@
 //! Profiles as text: the fields of each structure in order, each followed by a tab. Each element of a list starts on a new line.
 //!
-//! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. The test writes the
-//! files with `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib resolve::profiles::stored`.
+//! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. To write the files, run
+//! `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib resolve::profiles::stored`.
 
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{

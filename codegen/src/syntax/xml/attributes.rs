@@ -43,7 +43,7 @@ impl<'a> Attribute<'a> {
         }
     }
 
-    /// Returns the value with references resolved and blanks normalized (XML 1.0, 3.3.3).
+    /// Returns the value with references resolved and white space normalized (XML 1.0, 3.3.3).
     pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
         if self.plain {
             return Cow::Borrowed(self.raw);
@@ -60,7 +60,8 @@ pub struct Attributes<'a> {
     file: FileId,
     /// The first names of the tag, up to [`limits::MAX_COMPARED_EXTENSIONS`], to detect duplicates.
     seen: SmallVec<[&'a str; 16]>,
-    /// Bits of the marks of the names in `seen`. Two different names rarely have the same mark.
+    /// Bit mask of the names in `seen`. Each name sets one of 64 bits, which depends on its first byte and its length.
+    /// A name whose bit is not set is no duplicate, so `seen` need not be searched.
     marks: u64,
 }
 
@@ -102,7 +103,7 @@ impl<'a> Iterator for Attributes<'a> {
         let Some(name) = Name::of(self.rest).filter(|_| blanks > 0) else { return self.no_name(blanks) };
         let (full, name_span) = (&self.rest[..name.length], self.span(name.length));
         self.advance(name.length);
-        // The usual case without blanks around the equals sign is handled first.
+        // The usual case without white space around the equals sign is handled first.
         if self.rest.starts_with("=\"") {
             self.advance(2);
             return self.value(full, name, name_span, b'"');
@@ -145,7 +146,7 @@ impl<'a> Attributes<'a> {
     fn no_name(&mut self, blanks: usize) -> Option<Result<Attribute<'a>, Error>> {
         let length = self.rest.bytes().take_while(|&byte| !is_blank(byte) && byte != b'=').count();
         if blanks == 0 {
-            return self.fail(self.span(length), "there is no blank before this attribute");
+            return self.fail(self.span(length), "there is no space before this attribute");
         }
         self.fail(self.span(length.max(1)), "this is not an attribute name")
     }

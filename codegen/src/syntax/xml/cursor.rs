@@ -259,14 +259,15 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips markup that begins at `start` with an opening of `opening` bytes, and ends with the text `end`.
+    /// Skips markup that begins at `start` with a delimiter of `opening` bytes, and ends with the delimiter `end`.
     fn skip_to(&mut self, end: &str, start: usize, opening: usize, missing: &str) -> Result<(), Error> {
         let after = scan::after(self.text.as_bytes(), start + opening, end);
         self.at = after.ok_or_else(|| malformed(self.span(start, start + 1), missing))?;
         Ok(())
     }
 
-    /// Returns the text of a CDATA section. A document type declaration is skipped.
+    /// Reads the declaration at `start`. Returns the text of a CDATA section, or skips a document type declaration and
+    /// returns `None`.
     fn declaration(&mut self, start: usize) -> Result<Option<Text<'a>>, Error> {
         const CDATA: &str = "<![CDATA[";
         if self.text[start..].starts_with(CDATA) {
@@ -282,7 +283,7 @@ impl<'a> Cursor<'a> {
         Ok(None)
     }
 
-    /// Returns the text up to the next `<`, including blanks.
+    /// Returns the text up to the next `<`, including white space.
     fn text_to_tag(&mut self) -> Result<Text<'a>, Error> {
         let rest = &self.text.as_bytes()[self.at..];
         let length = scan::find_near(b'<', rest).unwrap_or(rest.len());
@@ -292,7 +293,7 @@ impl<'a> Cursor<'a> {
         Ok(text)
     }
 
-    /// Returns an error if text is outside the root element.
+    /// Returns an error if the text at `span` is outside the root element.
     fn inside(&self, span: Span) -> Result<(), Error> {
         if !self.open.is_empty() {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Decodes references and blanks in attribute values and text.
+//! Resolves references and normalizes white space in attribute values and text.
 
 use std::borrow::Cow;
 
@@ -7,14 +7,14 @@ use memchr::{memchr, memchr2};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// The rule by which blanks and line ends are normalized.
+/// The rule by which white space is normalized, including line ends.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Blanks {
     /// In text, line ends become LF.
     Text,
     /// In CDATA, line ends become LF and references are not resolved.
     Cdata,
-    /// In attribute values, each blank and each line end becomes a space.
+    /// In attribute values, each white-space character and each line end becomes a space.
     Attribute,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn decode<'a>(raw: &'a str, span: Span, blanks: Blanks, diagnostics: 
     Cow::Owned(value)
 }
 
-/// Maximum length of an entity name that is searched after an `&`.
+/// Maximum number of bytes after an `&` in which the end of an entity name is searched.
 const MAX_ENTITY_NAME: usize = 64;
 
 /// Returns the character of the reference at the start of `text`, and the length of the reference. The character is

@@ -56,7 +56,7 @@ pub struct Tag<'a> {
     pub depth: usize,
     /// True if the tag is an empty-element tag (`<empty/>`).
     pub empty: bool,
-    /// Text between the name and the end of the tag, which contains the attributes.
+    /// The attributes as written in the file: the text between the name and the end of the tag.
     pub(super) attributes: &'a str,
     pub(super) attributes_at: u32,
 }

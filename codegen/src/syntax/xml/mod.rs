@@ -1,8 +1,9 @@
 //! A cursor over the events of an XML document, with positions and the path of open elements.
 //!
-//! [`Cursor::read`] returns the start of an element, its end (also for `<empty/>`), and text. The cursor skips comments,
-//! processing instructions, declarations and blank text. Names exclude the namespace prefix. Attributes are parsed on request,
-//! and values are decoded on use, so skipping a part of a document allocates nothing.
+//! [`Cursor::read`] returns the start of an element, its end (also for `<empty/>`), and text. The cursor skips
+//! comments, processing instructions, declarations, and text that contains only white space. Names exclude the
+//! namespace prefix. Attributes are parsed on request, and values are decoded on use, so skipping a part of a document
+//! allocates nothing.
 //!
 //! A reader iterates over children with [`Cursor::child`], which skips the unread rest of the previous child:
 //!

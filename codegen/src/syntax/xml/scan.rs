@@ -11,11 +11,12 @@ pub(super) struct Name {
     colon: Option<usize>,
 }
 
-/// First byte after the ASCII punctuation marks that can follow a name.
+/// Minimum value of the bytes that never end a name, such as letters.
 const LETTER: u8 = b'@';
 
 impl Name {
-    /// Returns the name at the start of `text`, up to a blank or punctuation; `None` if there is none.
+    /// Returns the name at the start of `text`, up to white space, a quotation mark or one of the characters `=/><&`.
+    /// Returns `None` if `text` does not start with a name.
     pub fn of(text: &str) -> Option<Self> {
         let bytes = text.as_bytes();
         let starts = |byte: u8| byte.is_ascii_alphabetic() || byte >= 0x80 || matches!(byte, b'_' | b':');
@@ -27,7 +28,7 @@ impl Name {
             match byte {
                 b' ' | b'\t' | b'\n' | b'\r' | b'=' | b'/' | b'>' | b'"' | b'\'' | b'<' | b'&' => break,
                 b':' if colon.is_none() => colon = Some(length),
-                // Letters are above all punctuation marks, so eight letters are skipped at once.
+                // Bytes from `LETTER` upward never end a name, so up to eight such bytes are skipped at once.
                 LETTER.. => {
                     if let Some(word) = bytes.get(length..length + 8) {
                         let others = words::less(words::word(word), LETTER);
@@ -52,7 +53,7 @@ pub(super) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\n' | b'\r')
 }
 
-/// Returns the offset of the first non-blank byte at or after `at`.
+/// Returns the offset of the first byte at or after `at` that is not white space.
 pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
     let rest = bytes.get(at..).unwrap_or(&[]);
     at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())

@@ -5,7 +5,7 @@ use compact_str::CompactString;
 /// Code of one construct: its text on one line, with marked positions for line breaks.
 ///
 /// The members of a list are either all on one line or each on a separate line. As in Oppen's algorithm, a list is on
-/// one line only if the text up to the next break position also fits.
+/// one line only if the text that follows it, up to the next break position, also fits.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
@@ -26,8 +26,8 @@ pub(super) enum Mark {
     Next,
     /// Ends a list, struct literal or list of numbers.
     Close,
-    /// A position that ends the text whose width decides whether the previous list fits on the line. The line is never
-    /// broken at this position.
+    /// Ends the text that must fit on the line together with the preceding list. The line is never broken at this
+    /// position.
     Stop,
     /// A position where the line is broken if the following text does not fit. A line break replaces the space at this
     /// position.
@@ -40,7 +40,7 @@ pub trait Piece {
     fn put(&self, to: &mut Doc);
 }
 
-/// The piece for [`Mark::Stop`]. It ends the text that must fit on the line, but the line is never broken there.
+/// The piece for [`Mark::Stop`], which ends the text that must fit on the line together with the preceding list.
 #[derive(Clone, Copy)]
 pub struct Stop;
 
@@ -219,7 +219,7 @@ macro_rules! generic {
 
 pub(in crate::backend::rust) use {call, generic, seq};
 
-/// Creates literals of constants, which consist of numbers, paths, structs, lists and calls.
+/// Creates the values of constants from numbers, paths, structs, lists and calls.
 pub struct Data;
 
 impl Data {

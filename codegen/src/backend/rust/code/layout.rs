@@ -120,9 +120,9 @@ impl Printer<'_, '_> {
         self.column = self.indent;
     }
 
-    /// Returns the width that a construct would have on one line. The text after the construct is included up to the
-    /// next break position outside of later lists. Returns `usize::MAX` if the width exceeds [`MARGIN`], or if a struct
-    /// in the construct needs several lines.
+    /// Returns the width that a construct would have on one line. The width includes the text after the construct, up
+    /// to the next break position that is not inside a later list. Returns `usize::MAX` if the width exceeds
+    /// [`MARGIN`], or if a struct in the construct needs several lines.
     fn width(&self, position: usize) -> usize {
         let (mut depth, mut is_inside) = (0_usize, true);
         let marks = self.doc.marks().get(position..).unwrap_or_default();

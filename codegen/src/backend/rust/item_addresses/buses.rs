@@ -1,4 +1,4 @@
-//! The buses on which an item has an address. These buses determine the Rust type of the item's location.
+//! The buses on which an item can be accessed. These buses determine the Rust type of the item's location.
 
 use crate::backend::rust::code::{seq, Doc};
 use crate::backend::rust::route::{PathKind, Route, RouteBus, RouteKind};
@@ -12,13 +12,13 @@ impl Buses {
         Buses(std::array::from_fn(|at| routes[at].kind()))
     }
 
-    /// Returns whether the item of the location has no address on any bus.
+    /// Returns whether the item of the location cannot be accessed on any bus.
     pub fn is_empty(self) -> bool {
         self == Buses::default()
     }
 
-    /// Returns whether all accesses use the item's own address without a conversion, and no bus allows fewer accesses
-    /// than the item.
+    /// Returns whether all accesses use the item's own address without a conversion, and each bus allows all accesses
+    /// that the item allows.
     pub fn is_direct(self) -> bool {
         self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }

@@ -13,7 +13,8 @@ pub(in crate::backend::rust) struct Maker {
 }
 
 impl ItemAddresses<'_> {
-    /// Returns the name of the object constructors and the object address, if the item has no other address.
+    /// If an object is the only address of the item, returns the name of the constructors for this object, and its
+    /// index and sub-index.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
         let routed = self.routed();
         if !routed.is_simple() {
@@ -57,7 +58,8 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Returns whether all routes are direct and no address is in an image or slave controller.
+    /// Returns whether all routes are direct, and no address is in a process image or in the memory of a slave
+    /// controller.
     fn is_simple(&self) -> bool {
         self.image.is_none() && self.esc.is_none() && self.buses().is_direct()
     }

@@ -85,7 +85,7 @@ fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) 
     })
 }
 
-/// Returns whether an item has no variants and its addresses are neither indirect, in a process image nor in the memory
+/// Returns whether an item has no variants, and none of its addresses is indirect, in a process image or in the memory
 /// of a slave controller.
 fn is_plain(item: &Item) -> bool {
     let is_address =

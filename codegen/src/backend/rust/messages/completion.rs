@@ -51,7 +51,7 @@ pub(super) fn expression(
 /// A polling condition: the name of the polled bit, the mask, and the expected value.
 type Polled<'c> = (Option<&'c str>, Option<u64>, Option<&'c Value>);
 
-/// The first polling condition for each field.
+/// The first polling condition for each item, keyed by the name of the item.
 pub(super) type Conditions<'c> = HashMap<&'c str, Polled<'c>>;
 
 pub(super) fn conditions(device: &Device) -> Conditions<'_> {

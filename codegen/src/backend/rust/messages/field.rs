@@ -141,7 +141,7 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
         }
         other => {
             let ty = other.path("super::");
-            // Signed bits are read as an unsigned number.
+            // The base type of a bit field is unsigned, even if the type of the item is signed.
             let base = match &other {
                 FieldType::Named(..) => context.enumeration(item.ty).map_or(base, |named| named.ty),
                 _ => base,

@@ -6,7 +6,7 @@ use crate::backend::rust::docs;
 use crate::ir::{Device, Framing};
 use crate::resolve::messages::{Shaped, Step};
 
-/// Size of the buffer for data without a maximum length.
+/// Assumed length in bytes of a part of the data without a maximum length.
 const UNBOUNDED_LENGTH: u32 = 256;
 
 /// Returns the expression of the framing constant. Returns `None` if frames have no end byte, or if the runtime does

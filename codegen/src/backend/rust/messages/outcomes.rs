@@ -49,7 +49,7 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
     all
 }
 
-/// Returns the name of a machine's constant if several machines have effects.
+/// Returns the name of a machine's constant, for devices with effects for several machines.
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
     let name_request = NameRequest { name: &name, fallback: String::new(), suffix: "machine".to_owned() };

@@ -28,7 +28,8 @@ pub(in super::super) struct ProtocolModel {
     pub rules: Vec<RuleModel>,
     pub messages: Vec<MessageModel>,
     pub parameters: Option<ParametersModel>,
-    /// Types of the requests that a simulated device can distinguish, and whether each borrows from the data.
+    /// Types of the requests that a simulated device can distinguish, and whether each type borrows from the message
+    /// data.
     pub requests: Vec<(String, bool)>,
     pub request_derives: Vec<String>,
     pub calls: Vec<CallModel>,
@@ -151,7 +152,7 @@ impl ProtocolModel {
         self.calls.iter().any(|call| call.after.is_none() && !call.is_selector)
     }
 
-    /// Returns whether any distinguishable request borrows from the data.
+    /// Returns whether any distinguishable request borrows from the message data.
     pub(in super::super) fn requests_borrow(&self) -> bool {
         self.requests.iter().any(|(_, borrows)| *borrows)
     }

@@ -25,8 +25,8 @@ pub(in crate::backend::rust) struct NamedType {
 }
 
 impl NamedType {
-    /// Creates a type with the base type `ty` and without a name. Returns `None` if neither Rust nor the runtime has an
-    /// integer like `ty`.
+    /// Creates a type with the base type `ty` and without a name. Returns `None` if neither Rust nor the runtime has a
+    /// corresponding integer type.
     fn with_base(ty: Type) -> Option<Self> {
         let (base, native) = ValueType::of(ty).number()?;
         Some(NamedType { name: String::new(), base, native, ty, bits: ty.bits()? })

@@ -3,7 +3,7 @@
 use crate::backend::rust::cia402::{Cia402Model, FunctionModel};
 use crate::backend::rust::code::{call, generic, line, open, seq, Code, MARGIN};
 
-/// Writes the method of the device's type `device`.
+/// Writes the method of the type `device` that returns the CiA 402 operations.
 pub(super) fn method(code: &mut Code, device: &str, model: &Cia402Model) {
     code.docs(&model.docs);
     let result = generic!("rt::cia402::Drive", "'_", "C", seq![device, "<()>"]);

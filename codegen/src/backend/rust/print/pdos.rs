@@ -108,7 +108,7 @@ fn configuration(code: &mut Code, pdo: &PdoModel) {
     code.close("}");
 }
 
-/// Writes a constant that fails to compile unless packing an unpacked PDO returns the original bits.
+/// Writes a constant that causes a compile error if unpacking and packing a PDO changes any of its covered bits.
 fn proof(code: &mut Code, pdo: &PdoModel) {
     open!(code, "const _: () = {");
     line!(code, "let word = ", pdo.covered, ";");

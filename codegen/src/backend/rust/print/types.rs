@@ -71,7 +71,8 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     }
 }
 
-/// Writes the conversions to the number and, if every number has a variant, from the number.
+/// Writes the conversion to the number and, if the enumeration has the variant `Unknown`, the conversion from any
+/// number.
 fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
     let (name, native) = (&enumeration.name, enumeration.native);
     open!(code, "impl core::convert::From<", name, "> for ", native, " {");
@@ -88,7 +89,8 @@ fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
     }
 }
 
-/// Writes `PartialEq`, `Eq` and `Hash`, which use the numbers of the value and of another value.
+/// Writes `PartialEq`, `Eq` and `Hash`. `raw` and `other` are the expressions for the numbers of the two compared
+/// values.
 pub(in crate::backend::rust) fn equality(code: &mut Code, name: &str, gate: &[String], [raw, other]: [&str; 2]) {
     code.lines(gate);
     open!(code, "impl core::cmp::PartialEq for ", name, " {");
@@ -208,7 +210,7 @@ fn machine_state(code: &mut Code, machine: &MachineModel, states: &PatternsModel
     code.close("}");
 }
 
-/// Writes the type of states or commands, and its names. `noun` is `states` or `commands`.
+/// Writes the type of states or commands, and the names of its variants. `noun` is `states` or `commands`.
 fn patterns(code: &mut Code, patterns: &PatternsModel, noun: &str) {
     let name = &patterns.name;
     code.docs(&patterns.docs);
@@ -262,7 +264,7 @@ fn getter(code: &mut Code, patterns: &PatternsModel, getter: &str, noun: &str) {
     code.close("}");
 }
 
-/// Writes the function that returns the first of the patterns that match.
+/// Writes the function that returns the first matching pattern.
 fn decoder<'p>(code: &mut Code, model: &PatternsModel, patterns: impl Iterator<Item = &'p PatternModel>) {
     open!(code, "pub const fn from_raw(raw: ", model.native, ") -> Option<Self> {");
     for pattern in patterns {

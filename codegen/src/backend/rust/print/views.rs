@@ -18,8 +18,8 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     });
 }
 
-/// Writes the view of a PDO. Process images of this device, and of other devices in the file, create views. The fields
-/// of the view must therefore be visible there.
+/// Writes the view of a PDO. The process images of this device, and those of other devices in the file, create views.
+/// The fields of the view must therefore be visible in the modules of the process images.
 pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_several: bool) {
     let visibility = if is_one_of_several { "pub(in super::super)" } else { "pub(super)" };
     code.docs(&pdo.view_docs);

@@ -19,7 +19,7 @@ const ERRORS: &str = "channel_diagnosis";
 /// extends.
 const EXTENDED: &str = "extended_channel_diagnosis";
 
-/// Key of a channel error: the application process (API) whose profile defines it, and the error type.
+/// Key of a channel error: the application process identifier (API) of the profile that defines it, and the error type.
 type Key = (u32, u16);
 
 /// Returns the channel errors in the description as elements of a table. The list contains each channel error only

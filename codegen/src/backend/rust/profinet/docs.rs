@@ -5,7 +5,7 @@ pub(super) use super::super::docs::sentence;
 use super::super::docs;
 use crate::ir::{Documentation, Value};
 
-/// Converts a text to one line of Markdown without markup. The result is empty if no character can be shown.
+/// Escapes a text of one line so that Markdown shows it literally. The result is empty if no character can be shown.
 pub(super) fn escape(text: &str) -> String {
     docs::escape(text).trim().to_owned()
 }

@@ -14,7 +14,7 @@ const WORD: u32 = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FieldPosition {
     pub byte: u32,
-    /// Number of less significant bits in the same byte or number.
+    /// Number of bits that are less significant than the field in the same byte or number.
     pub bit: u32,
     pub bits: u32,
 }

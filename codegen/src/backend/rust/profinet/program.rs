@@ -1,4 +1,4 @@
-//! The modules and submodules that a program plugs into a device access point. New drive crates use them.
+//! The modules and submodules that the program in a new drive crate plugs into a device access point.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,10 @@ use crate::ir::{Catalog, Direction, IoData, ModuleUse, Numbers, Submodule, Submo
 /// The generated elements with which a program exchanges data with a PROFINET device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProfinetProgram {
-    /// Number of submodules and of modules without submodules that the slot plan must hold.
+    /// Number of places in the slot plan: one for each submodule, and one for each module without submodules.
     pub places: usize,
-    /// Module that the program plugs, and its slot. `None` if the default modules have cyclic data, or no module has.
+    /// Module that the program plugs, and its slot. `None` if the program exchanges the data of a default module, or if
+    /// no module has cyclic data.
     pub plugged: Option<(u16, String)>,
     /// Whether the program also plugs the submodule whose data it exchanges.
     pub plugs_submodule: bool,
@@ -107,7 +108,8 @@ impl<'s> Plan<'s> {
         }
     }
 
-    /// Returns a module with its fixed submodules, and on request also its default submodules, and the name of the module.
+    /// Returns a module and its name. The module has its fixed submodules and, if `with_defaults` is set, its default
+    /// submodules.
     fn module(&self, usage: &ModuleUse, with_defaults: bool) -> Option<(Slot<'s>, &'s str)> {
         let (module, name) = self.scope.modules.get(&usage.module.0)?;
         let plugged = submodules(&module.submodules, with_defaults);
@@ -115,8 +117,8 @@ impl<'s> Plan<'s> {
         Some((slot, name))
     }
 
-    /// Plugs the first module with cyclic data into a free slot that accepts it. The data are those of a fixed submodule or, if there
-    /// is none, of a submodule that is also plugged.
+    /// Plugs the first module with cyclic data into a free slot that accepts it. If no fixed submodule of the module
+    /// has cyclic data, also plugs a submodule that has cyclic data.
     fn plug(&mut self) -> Option<Exchange> {
         let AccessPoint { device, settings, .. } = self.point;
         for usage in &device.modules {
@@ -191,8 +193,9 @@ impl<'s> Plan<'s> {
     }
 }
 
-/// Returns the lengths of a submodule in the input frame and in the output frame, in bytes. Each data have a provider status, and a
-/// consumer status in the opposite direction. A submodule without data has inputs of length 0.
+/// Returns the lengths of a submodule in the input frame and in the output frame, in bytes. The data of each direction
+/// have a provider status in the same frame, and a consumer status in the frame of the opposite direction. A submodule
+/// without data has inputs of length 0.
 fn lengths(submodule: &Submodule) -> (u64, u64) {
     let (provider, consumer) = submodule.status_lengths;
     let (provider, consumer) = (u64::from(provider), u64::from(consumer));
@@ -204,7 +207,7 @@ fn lengths(submodule: &Submodule) -> (u64, u64) {
     (inputs, outputs)
 }
 
-/// Returns the fixed submodules, and on request also the default submodules, by subslot.
+/// Returns the fixed submodules and, if `with_defaults` is set, the default submodules, by subslot.
 fn submodules(uses: &[SubmoduleUse], with_defaults: bool) -> Subslots {
     let mut plugged = Subslots::new();
     for usage in uses {

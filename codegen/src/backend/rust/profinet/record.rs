@@ -22,8 +22,8 @@ const MAX_NAME: usize = 32;
 /// Maximum length of a field's name.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names that further constants of a record must not have: keywords, and the constants and methods that all records
-/// have.
+/// Names that the constants for fields of a record must not have: keywords, and the constants and methods that all
+/// records have.
 const RESERVED_CONSTANTS: [&str; 8] =
     ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
 

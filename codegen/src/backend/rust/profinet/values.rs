@@ -14,8 +14,8 @@ use crate::names::{self, Case, NameRequest};
 /// Names that variants must not have: the keyword `Self`, and `Unknown`, the variant for unlisted values.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
-/// Names that enumerations must not have. The generated code uses these names of the prelude, or clippy would mistake a
-/// method for a constructor.
+/// Names that enumerations must not have. Either the generated code uses the name from the prelude, or clippy would
+/// mistake a method for a constructor.
 const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
 /// The enumerations of a catalog that generated code uses.

@@ -20,7 +20,7 @@ use crate::source::{FileId, Source, Span};
 use crate::text::glob;
 use crate::text::{brief, similar};
 
-/// Applies the overlay `source` to the devices or modules in `catalog` that it selects.
+/// Applies the overlay `source` to those devices or modules in `catalog` that the overlay selects.
 pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let first = diagnostics.list().len();
     let mut reader = Reader::new(source, file, diagnostics);
@@ -124,7 +124,8 @@ impl<'o> Applied<'o> {
         effect
     }
 
-    /// Resolves the names in rows and definitions among the items that the overlay changes.
+    /// Looks up the names in rows and definitions among the items of the module or submodule, and reports unknown
+    /// names.
     fn resolve(&mut self, reader: &mut Reader<'_, '_>, groups: &mut Vec<Group>, types: &mut Vec<TypeDef>) {
         let mut device = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
         self.resolve_in(reader, &device);
@@ -193,7 +194,7 @@ impl<'o> Applied<'o> {
         self.resolve_in(reader, device);
     }
 
-    /// Returns the change that a definition on a line of the overlay makes.
+    /// Returns the change that the definition on the line `line` of the overlay makes.
     fn change(&self, reader: &Reader<'_, '_>, line: u32) -> Change {
         let why = self.patcher.overlay.head.value.why.as_deref().unwrap_or_default().into();
         Change { file: file_name(reader), line, why }
@@ -407,8 +408,8 @@ impl<'c> ObjectSet<'c> {
     }
 }
 
-/// Merges the last table of codes into an earlier table with the same name. The row of the last table applies if both
-/// tables contain a code. The overlay is recorded as the origin of a new table, or of changed rows.
+/// Merges the last table of codes into an earlier table with the same name. If both tables contain a code, the row of
+/// the last table applies. The overlay is recorded as the origin of a new table, or of changed rows.
 fn merge(tables: &mut Vec<CodeTable>, change: &Change) {
     let Some(last) = tables.pop() else { return };
     let Some(table) = tables.iter_mut().find(|table| table.name == last.name) else {

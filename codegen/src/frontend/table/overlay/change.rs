@@ -363,7 +363,7 @@ impl RowPatcher<'_> {
     }
 }
 
-/// A change by an overlay, for the origins of the changed facts.
+/// A change that an overlay makes. The origin of each changed fact is created from this struct.
 pub(super) struct Change {
     /// File name of the overlay, without folders.
     pub file: CompactString,
@@ -374,18 +374,19 @@ pub(super) struct Change {
 }
 
 impl Change {
-    /// Returns the origin of a changed fact. `replaces` is true if the description states another fact.
+    /// Returns the origin of a changed fact. `replaces` is true if the description declares another value for the fact.
     pub fn origin(&self, replaces: bool) -> FactOrigin {
         let row = OverlayOrigin { file: self.file.clone(), line: self.line, replaces, why: self.why.clone() };
         FactOrigin::Overlay(Box::new(row))
     }
 
-    /// Records the origins of the facts of an item that a row changed. `is_type` is true if the row has a type. An assumed access
-    /// right stays an assumption.
+    /// Records the overlay row as the origin of the facts that it changed in an item. `is_type` is true if the row has
+    /// a type. Access rights that are an assumption keep their origin.
     fn record(&self, item: &mut Item, before: &Item, is_type: bool) {
         for fact in Fact::ALL {
             let is_other = matches!(fact, Fact::Type if !is_type) || matches!(fact, Fact::Meaning if is_type);
-            // The row can state the same value as a rule.
+            // The row may declare the value that a rule of the compiler assumed. The fact then has a new origin, but
+            // its old value.
             let was_by_rule = matches!(before.origins.get(fact), Some(FactOrigin::Rule(_)));
             let is_stated_now = was_by_rule && item.origins.get(fact).is_none();
             let is_changed = fact.differs(item, before) || is_stated_now;
@@ -396,7 +397,8 @@ impl Change {
         }
     }
 
-    /// Records the origins of the facts of an item that a row added. Facts from a rule of the compiler keep their origins.
+    /// Records the overlay row as the origin of all facts in an item that it added. Facts that already have an origin,
+    /// such as a rule of the compiler, keep this origin.
     fn record_new(&self, item: &mut Item) {
         for fact in Fact::ALL {
             if fact.is_stated(item) && item.origins.get(fact).is_none() {
@@ -461,7 +463,7 @@ fn exists(groups: &[Group], objects: Objects) -> bool {
     })
 }
 
-/// Restores the earlier text and translations of an item's documentation after a row without `doc` changed the item.
+/// Restores the text and translations that the documentation had before a row without `doc` changed the item.
 fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Documentation>) {
     let Some(before) = before else { return };
     match documentation {
@@ -472,7 +474,7 @@ fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Do
     }
 }
 
-/// Adds the reason for a change to the description.
+/// Adds the reason for a change to the documentation of the changed element.
 fn explain(what: &str, why: &str, documentation: &mut Option<Box<Documentation>>) {
     let documentation = documentation.get_or_insert_default();
     if !documentation.text.is_empty() {
