@@ -33,7 +33,7 @@ fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
             format!("{} on {}", number(binding), buses.join(", "))
         }
         Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),
-        Binding::Object { .. } | Binding::Parameter { .. } | Binding::Ascii(_) => number(binding),
+        Binding::Object { .. } | Binding::Parameter(_) | Binding::Ascii(_) => number(binding),
     };
     // An indirect access adds no search term, because its number is that of a register or parameter, which already is a
     // search term.
@@ -70,7 +70,7 @@ pub fn number(binding: &Binding) -> String {
         }
         Binding::Record { index, bit_offset, .. } => format!("record 0x{index:04X} bit {bit_offset}"),
         Binding::Image(image) => format!("{} bit {}", image.image, image.bit_offset),
-        Binding::Parameter { space, code } => format!("{space} 0x{code:04X}"),
+        Binding::Parameter(parameter) => format!("{} 0x{:04X}", parameter.space, parameter.code),
         Binding::Ascii(name) => name.to_string(),
         Binding::EscMemory { address, .. } => format!("memory 0x{address:04X}"),
         Binding::Indirect(window) => format!("{} 0x{:04X}", window.space, window.number),
@@ -89,7 +89,7 @@ pub fn bus(binding: &Binding) -> &'static str {
         Binding::Register(_) => "Modbus",
         Binding::Record { .. } => "PROFINET",
         Binding::Image(_) => "Process image",
-        Binding::Parameter { .. } => "Serial",
+        Binding::Parameter(_) => "Serial",
         Binding::Ascii(_) => "ASCII",
         Binding::EscMemory { .. } => "Slave controller",
         Binding::Indirect(_) => "Window",

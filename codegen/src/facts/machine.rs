@@ -1,28 +1,28 @@
 //! States with a special meaning in state machines.
 
-use crate::ir::{StateMachine, Transition};
+use crate::ir::{StateMachine, StateRef, Transition};
 
-/// Returns the names of the fault states. These are the states that the source lists, the states to which automatic transitions from
+/// Returns the fault states. These are the states that the source lists, the states to which automatic transitions from
 /// any state lead, and the states that follow the latter automatically. Automatic transitions from any state are reactions to faults.
 /// A listed state can end automatically without a fault, so its successors are not added.
-pub fn fault_states(machine: &StateMachine) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
+pub fn fault_states(machine: &StateMachine) -> Vec<&StateRef> {
+    let mut faults: Vec<&StateRef> = Vec::new();
     loop {
         let is_entered = |transition: &&Transition| {
-            let from = transition.from.as_deref();
+            let from = transition.from.as_ref();
             transition.command.is_none()
-                && from.is_none_or(|from| names.contains(&from))
-                && !names.contains(&transition.to.as_str())
+                && from.is_none_or(|from| faults.contains(&from))
+                && !faults.contains(&&transition.to)
         };
         let Some(transition) = machine.transitions.iter().find(is_entered) else { break };
-        names.push(&transition.to);
+        faults.push(&transition.to);
     }
     for fault in &machine.faults {
-        if !names.contains(&fault.as_str()) {
-            names.push(fault);
+        if !faults.contains(&fault) {
+            faults.push(fault);
         }
     }
-    names
+    faults
 }
 
 /// Returns whether a state is "Operation enabled" of CiA 402, in which the drive is energized.

@@ -40,7 +40,7 @@ pub fn row_of(item: &Item) -> &str {
         Binding::Ascii(name) => Some(name.as_str()),
         _ => None,
     });
-    let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter { .. });
+    let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter(_));
     ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
 }
 

@@ -197,9 +197,9 @@ fn binding(b: &mut Bytes<'_>, around: &Around<'_>) -> Binding {
     match b.within(0..=11) {
         0 | 1 => Binding::Object { buses: b.pick(around.buses), index: b.within(0x2000..=0x2020), sub_index: b.any() },
         2..=5 => Binding::Register(Box::new(register(b))),
-        6 => Binding::Parameter { space: names::of(b, around.spaces), code: b.pick(&[0, 1, 255, u32::MAX]) },
+        6 => Binding::parameter(&names::of(b, around.spaces), b.pick(&[0, 1, 255, u32::MAX])),
         7 => Binding::Image(Box::new(ImageBinding {
-            image: names::of(b, around.images),
+            image: names::of(b, around.images).into(),
             bit_offset: b.within(0..=80),
             bits: b.within(0..=70),
             ty: b.maybe(4, types::basic),

@@ -1,7 +1,8 @@
 //! Random serial protocols: requests and replies, parameter spaces and framing.
 
 use lexibus_codegen::ir::{
-    CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace, Value,
+    CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace, SpaceRef,
+    Value,
 };
 use lexibus_codegen::source::Origin;
 
@@ -49,7 +50,7 @@ fn message(b: &mut Bytes<'_>, around: &Around<'_>, known: &[CompactString]) -> M
         accepted_when: b.few(6, 2, condition),
         names: names::texts(b),
         availability: b.maybe(6, availability).map(Box::new),
-        accepted_in: b.few(6, 2, names::name),
+        accepted_in: b.few(6, 2, |b| names::name(b).into()),
         examples: b.few(8, 1, example),
         documentation: names::documentation(b),
         doubts: names::doubts(b),
@@ -113,7 +114,7 @@ fn value(b: &mut Bytes<'_>, around: &Around<'_>, before: &[CompactString]) -> Me
 
 /// Returns a field with a parameter number, usually followed by its value.
 fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
-    let space = names::of(b, around.spaces);
+    let space = SpaceRef::from(names::of(b, around.spaces));
     let code = MessageField::ItemCode { space: space.clone(), bits: b.pick(&[8, 16, 32, 12, 33]) };
     match b.within(0..=4) {
         0 => vec![code],

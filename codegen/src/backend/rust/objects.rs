@@ -144,7 +144,7 @@ fn aliases(item: &Item) -> Vec<String> {
             let printed = register::printed(register);
             vec![printed.split('–').next().unwrap_or_default().to_owned()]
         }
-        Binding::Parameter { code, .. } => vec![code.to_string(), format!("0x{code:04X}")],
+        Binding::Parameter(parameter) => vec![parameter.code.to_string(), format!("0x{:04X}", parameter.code)],
         Binding::Object { index, .. } => index_aliases(*index).into(),
         _ => Vec::new(),
     };
