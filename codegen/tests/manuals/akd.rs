@@ -297,8 +297,8 @@ fn the_drives_state_machine() {
         for (line, cells) in rows(&manual, first, first + last) {
             for pair in cells.chunks(2) {
                 let bit: u8 = pair[0].parse().expect("a bit");
-                let is_here = |entry: &&BitFieldEntry| (entry.offset..entry.offset + entry.bits).contains(&bit);
-                let found: Vec<_> = fields.iter().filter(is_here).collect();
+                let contains_bit = |entry: &&BitFieldEntry| (entry.offset..entry.offset + entry.bits).contains(&bit);
+                let found: Vec<_> = fields.iter().filter(contains_bit).collect();
                 assert!(!found.is_empty(), "line {line} {bit}");
                 let cites = |entry: &&BitFieldEntry| cited(entry.documentation.as_deref()).contains(&line);
                 let by_mode = pair[1].contains("Modalità di funzionamento specifica") && name == "ControlWord";

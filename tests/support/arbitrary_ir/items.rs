@@ -176,8 +176,8 @@ fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
 pub fn chapter(b: &mut Bytes<'_>, around: &Around<'_>) -> Group {
     let kind = if b.one_in(4) { GroupKind::Image { length: b.within(0..=40) } } else { GroupKind::Chapter };
     let items = b.list(9, |b| {
-        let own = binding(b, around);
-        let mut item = item(b, around, own);
+        let first = binding(b, around);
+        let mut item = item(b, around, first);
         if around.is_table && b.one_in(8) {
             (item.name, item.ty) = (names::of_window(b), b.pick(&[Type::Unsigned(16), Type::Integer(32)]));
         }

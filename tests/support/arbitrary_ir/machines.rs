@@ -16,7 +16,7 @@ use super::values;
 pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactString]) -> StateMachine {
     let (states, commands) = (b.list(6, pattern), b.list(6, pattern));
     let [state_names, command_names]: [Vec<CompactString>; 2] =
-        [&states, &commands].map(|list| list.iter().map(|own| own.name.clone()).collect());
+        [&states, &commands].map(|list| list.iter().map(|pattern| pattern.name.clone()).collect());
     let transitions = b.list(6, |b| Transition {
         number: b.maybe(2, |b| b.within(0..=16)),
         from: b.maybe(2, |b| names::of(b, &state_names).into()),

@@ -16,9 +16,9 @@ use super::values;
 pub fn messages(b: &mut Bytes<'_>, around: &Around<'_>, most: usize) -> Vec<Message> {
     let mut messages: Vec<Message> = Vec::new();
     for _ in 0..b.within(0..=most) {
-        let known: Vec<CompactString> = messages.iter().map(|own| own.name.clone()).collect();
-        let own = message(b, around, &known);
-        messages.push(own);
+        let known: Vec<CompactString> = messages.iter().map(|message| message.name.clone()).collect();
+        let message = message(b, around, &known);
+        messages.push(message);
     }
     messages
 }
@@ -77,11 +77,11 @@ fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]
     let asked = request.map(fields).unwrap_or_default();
     let mut frame: Vec<MessageField> = Vec::new();
     for _ in 0..b.within(0..=5) {
-        let own = fields(&frame);
+        let names_of_fields = fields(&frame);
         match b.within(0..=15) {
             0..=2 => frame.push(MessageField::Constant(b.list(3, Bytes::any))),
             3 => frame.extend(bits(b)),
-            4..=8 => frame.push(value(b, around, &own)),
+            4..=8 => frame.push(value(b, around, &names_of_fields)),
             9 if request.is_some() => {
                 let bytes = b.maybe(4, |b| (0, b.within(0..=1)));
                 frame.push(MessageField::Echo { field: names::of(b, &asked), bytes });
@@ -157,7 +157,7 @@ pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString])
 
 /// Returns a framing. One of the message fields is the station address.
 pub fn framing(b: &mut Bytes<'_>, messages: &[Message]) -> Framing {
-    let requested: Vec<CompactString> = messages.iter().flat_map(|own| fields(&own.request)).collect();
+    let requested: Vec<CompactString> = messages.iter().flat_map(|message| fields(&message.request)).collect();
     Framing {
         start: b.maybe(2, Bytes::any),
         end: b.maybe(2, Bytes::any),

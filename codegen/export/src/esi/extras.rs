@@ -91,8 +91,8 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, se
     let list = device.extensions.as_slice();
     let states = times(context, settings, &STATE_TIMES);
     let mailbox = times(context, settings, &MAILBOX_TIMES);
-    let has_own = CONTROLLER.iter().chain(&LAST).chain([&CURRENT]).any(|key| find(list, key).is_some());
-    if states.is_empty() && mailbox.is_empty() && !has_own {
+    let has_elements = CONTROLLER.iter().chain(&LAST).chain([&CURRENT]).any(|key| find(list, key).is_some());
+    if states.is_empty() && mailbox.is_empty() && !has_elements {
         return;
     }
     xml.open("Info");

@@ -1,5 +1,6 @@
 //! State machines: states that a status word encodes, and commands that a controlword encodes.
 
+use crate::facts::number::hex;
 use std::collections::HashMap;
 
 use super::bit_field::BitFieldModel;
@@ -130,8 +131,8 @@ pub(super) fn models(
         let machine = named.machine;
         let patterns = |name, list, item, methods| patterns(context, name, list, item, methods, bit_fields, options);
         // States that are values of an enumeration already have a Rust type.
-        let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
-        let mut states = patterns(&named.states, own_states, &machine.status_item, [&named.getter, &named.constructor]);
+        let bit_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
+        let mut states = patterns(&named.states, bit_states, &machine.status_item, [&named.getter, &named.constructor]);
         let mut commands = patterns(
             &named.commands,
             &machine.commands,
@@ -347,8 +348,7 @@ fn patterns(
     }
     let name_requests = names::numbered(list.iter().map(|(_, pattern)| pattern.name.as_str()), "pattern");
     let names = names::unique(&name_requests, &["Self"], Case::Pascal);
-    let hexadecimal =
-        |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };
+    let hexadecimal = |number: u32| if number == 0 { "0".to_owned() } else { hex(number) };
     let pattern = |(&(position, definition), name): (&(u32, &Pattern), String)| {
         let (mask, value) = (hexadecimal(definition.mask), hexadecimal(definition.value));
         let plain = definition.name.replace('_', " ");

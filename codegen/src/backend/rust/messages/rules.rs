@@ -3,6 +3,7 @@
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
+use crate::facts::number::hex;
 use crate::ir::{Device, ParameterSpace, SpaceRef, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{numbered, Step};
@@ -107,8 +108,7 @@ fn lengths(context: &Context<'_>, device: &Device, space: &SpaceRef) -> Vec<Stri
             _ => spans.push((code, code, length)),
         }
     }
-    let one =
-        |(first, last, length): &(u32, u32, u32)| format!("({first:#X}, {last:#X}, {length})").replace("0X", "0x");
+    let one = |&(first, last, length): &(u32, u32, u32)| format!("({}, {}, {length})", hex(first), hex(last));
     spans.iter().map(one).collect()
 }
 
