@@ -22,7 +22,8 @@ pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
     let devices = if b.one_in(5) { 2 } else { 1 };
     let devices = (0..devices).map(|_| device(b, format, modules.len())).collect();
     let graphics = b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) });
-    Catalog { devices, modules, graphics, extensions: names::extensions(b), ..Catalog::default() }
+    let vendor_names = names::texts(b);
+    Catalog { devices, modules, graphics, vendor_names, extensions: names::extensions(b), ..Catalog::default() }
 }
 
 fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {

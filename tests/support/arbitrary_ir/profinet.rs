@@ -28,6 +28,8 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
         submodules,
         code_tables: b.list(2, machines::code_table),
         unit_diagnoses: b.list(2, |b| unit_diagnosis(b, &types)),
+        vendor_names: names::texts(b),
+        descriptions: names::texts(b),
         types,
         families: b.few(2, 2, |b| Family {
             id: names::name(b),
