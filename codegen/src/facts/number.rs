@@ -1,7 +1,9 @@
 //! Numbers in hexadecimal notation, and ranges of numbers.
 
-use super::words::ALLOWED_SHOWN;
 use crate::ir::Numbers;
+
+/// Maximum number of allowed values in a sentence.
+pub const ALLOWED_SHOWN: usize = 16;
 
 /// Formats a byte or a sub-index: `0x0F`.
 pub fn hex8(number: impl Into<i128>) -> String {

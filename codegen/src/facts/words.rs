@@ -1,6 +1,6 @@
 //! Sentences about elements of the IR for all kinds of documentation.
 
-use super::number::{hex, hex16};
+use super::number::{hex, hex16, ALLOWED_SHOWN};
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
 use crate::ir::{
@@ -44,9 +44,6 @@ pub fn row_of(item: &Item) -> &str {
     let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter(_));
     ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
 }
-
-/// Maximum number of allowed values in a sentence.
-pub const ALLOWED_SHOWN: usize = 16;
 
 /// Maximum number of sections in a citation.
 const SECTIONS_NAMED: usize = 3;
