@@ -182,13 +182,13 @@ fn create(name: &str, description: &Path, options: &[&str]) -> PathBuf {
     assert!(created.status.success(), "{}", text(&created));
     let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("the manifest");
     let git = "{ git = \"https://github.com/lexibus/lexibus\" }";
-    let mut own = manifest.replace(
+    let mut local = manifest.replace(
         &format!("lexibus-codegen = {git}"),
         &format!("lexibus-codegen = {{ path = {:?} }}", root().join("codegen")),
     );
-    own = own.replace(&format!("lexibus = {git}"), &format!("lexibus = {{ path = {:?} }}", root()));
-    assert!(!own.contains("git ="), "{own}");
-    std::fs::write(folder.join("Cargo.toml"), own).expect("a manifest");
+    local = local.replace(&format!("lexibus = {git}"), &format!("lexibus = {{ path = {:?} }}", root()));
+    assert!(!local.contains("git ="), "{local}");
+    std::fs::write(folder.join("Cargo.toml"), local).expect("a manifest");
     // An empty `rustfmt.toml` selects the default settings instead of those of this workspace.
     std::fs::write(folder.join("rustfmt.toml"), "").expect("settings");
     std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
@@ -265,8 +265,8 @@ fn enable_leads_to_the_operating_state_and_through_no_fault_state() {
         return;
     }
     let test = folder.join("tests/simulated.rs");
-    let own = std::fs::read_to_string(&test).expect("the tests");
-    std::fs::write(&test, own + ALARM_TEST).expect("a test");
+    let text = std::fs::read_to_string(&test).expect("the tests");
+    std::fs::write(&test, text + ALARM_TEST).expect("a test");
     try_out(&folder, 3, &["state: Operating"]);
 }
 
@@ -292,10 +292,10 @@ fn no_command_causes_an_alarm() -> Result<(), Box<dyn Error>> {
 fn without_an_operating_state_there_is_no_enable() {
     let table = temporary().join("nameless.toml");
     let nameless = PRESS.replace("operating", "phase");
-    let without_way = PRESS.replace("to = \"operating\"", "to = \"ready\"");
+    let without_path = PRESS.replace("to = \"operating\"", "to = \"ready\"");
     let faulty = PRESS.replace("[\"alarm\"]", "[\"alarm\", \"operating\"]");
     for (text, reason) in [
-        (without_way, "no commands lead from `Off` to `Operating` without a fault"),
+        (without_path, "no commands lead from `Off` to `Operating` without a fault"),
         (faulty, "no state without a fault has"),
         (nameless, "no state without a fault has a name such as"),
     ] {

@@ -129,7 +129,7 @@ pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
         for source in &options.overlays {
             let file = FileId(compilation.sources.len() as u32);
             frontend::apply_overlay(source, file, catalog, &mut compilation.diagnostics);
-            catalog.files.push(file_info(source, Format::Table));
+            catalog.files.push(file_info(source, Format::OF_OVERLAYS));
             compilation.sources.push(source.clone());
         }
         let profiles = if options.no_profiles { Profiles::Ignored } else { Profiles::Applied };

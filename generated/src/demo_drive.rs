@@ -4,7 +4,7 @@
 
 use ::lexibus as rt;
 const _: () = rt::interface::assert_version(1);
-/// Identity of Lexibus Demo Drive: vendor, product and revision.
+/// Identity of Lexibus Demo Drive: vendor, product and revision. Vendor ID from object 0x1018.
 pub const IDENTITY: rt::Identity = rt::Identity {
     vendor_id: Some(0x00000000),
     product_code: Some(0x00004021),

@@ -2107,7 +2107,7 @@ pub mod objects {
         /// Ready: 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::ready`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x01,
@@ -2117,7 +2117,7 @@ pub mod objects {
         /// Mode: 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2000,
             0x02,
@@ -2127,7 +2127,7 @@ pub mod objects {
         /// Referenced: 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::referenced`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x03,
@@ -2137,7 +2137,7 @@ pub mod objects {
         /// Position: 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::position`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
             0x2000,
             0x04,
@@ -2147,7 +2147,7 @@ pub mod objects {
         /// Overflow: 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::overflow`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x05,
@@ -2157,7 +2157,7 @@ pub mod objects {
         /// Quality: 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::quality`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
             0x2000,
             0x06,
@@ -2167,7 +2167,7 @@ pub mod objects {
         /// Speed: 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::speed`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
             0x2000,
             0x07,
@@ -2240,7 +2240,7 @@ pub mod objects {
         /// Limit: 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2001Accessors::limit`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2001,
             0x01,
@@ -2250,7 +2250,7 @@ pub mod objects {
         /// Mode: 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
         /// Accessor: [`Object2001Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2001,
             0x02,
@@ -2260,7 +2260,7 @@ pub mod objects {
         /// Current: 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
         /// Accessor: [`Object2001Accessors::current`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
-        /// Access rights from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
         pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
             0x2001,
             0x03,
@@ -2304,7 +2304,7 @@ pub mod objects {
     ///
     /// Bits from CiA 402, 10.3.1.
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     ///
     /// Description from CiA 402, 10.3.1.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_coe_object(
@@ -2334,7 +2334,7 @@ pub mod objects {
     ///
     /// Values from CiA 402, 10.3.8.
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     ///
     /// Description from CiA 402, 10.3.8.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::flagged_coe_object(
@@ -2346,7 +2346,7 @@ pub mod objects {
     /// Position: 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`position`](super::Ax1::position). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     pub const POSITION: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x6064,
         0x00,
@@ -2356,7 +2356,7 @@ pub mod objects {
     /// Velocity: 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`velocity`](super::Ax1::velocity). Mapped in [`ActualValues`](super::pdo::ActualValues).
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     pub const VELOCITY: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x606C,
         0x00,
@@ -2368,7 +2368,7 @@ pub mod objects {
     ///
     /// Actual torque, relative to the rated torque.
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     ///
     /// Unit from CiA 402, 17.3.7.
     ///
@@ -2384,7 +2384,7 @@ pub mod objects {
     /// Target position: 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
     /// Accessor: [`target_position`](super::Ax1::target_position). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x607A,
         0x00,
@@ -2396,7 +2396,7 @@ pub mod objects {
     ///
     /// Torque offset: added to the target torque, relative to the rated torque.
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     ///
     /// Unit from CiA 402, object 60B2h of CiA 402-2.
     ///
@@ -2412,7 +2412,7 @@ pub mod objects {
     /// Target velocity: 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
     /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Access rights from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     pub const TARGET_VELOCITY: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x60FF,
         0x00,

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use askama::Template;
 use lexibus_codegen::compile::{self, Compilation, Options, NOTHING_TO_GENERATE};
-use lexibus_codegen::ir::{Catalog, Device, Format};
+use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
 
@@ -99,23 +99,23 @@ pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Fai
     let device = only_device(catalog, description)?;
     let package = Package { library: name.replace('-', "_"), title: title(device, name), catalog };
     let mut files = Files::default();
-    match format {
-        Format::Gsdml if new.bus.is_some() => {
-            return Err(Failure::Usage("a GSDML file describes a device on PROFINET: leave out --bus".into()));
+    match format.is_of_profinet() {
+        true if new.bus.is_some() => {
+            return Err(Failure::Usage("the file describes a device on PROFINET: leave out --bus".into()));
         }
-        Format::Gsdml => profinet::write(&package, &mut files)?,
-        _ => objects::write(&package, device, new.bus, &mut files)?,
+        true => profinet::write(&package, &mut files)?,
+        false => objects::write(&package, device, new.bus, &mut files)?,
     }
     let file = copy_sources(&compilation, &mut files)?;
     let manifest = Manifest {
         name,
         description: literal(&format!("Driver for {}", package.title)),
-        format: feature(format, device),
+        format: if device.messages.is_empty() { format.feature() } else { "messages" },
         is_in_workspace: is_in_workspace(&folder),
     };
     files.text("Cargo.toml", render(&manifest)?);
     let device = new.device.as_ref().map(|device| literal(&device.to_string()));
-    files.text("build.rs", render(&BuildScript { file, device, has_table: format != Format::Gsdml })?);
+    files.text("build.rs", render(&BuildScript { file, device, has_table: !format.is_of_profinet() })?);
     files.create(&folder)?;
     let (shown, argument) = (folder.display(), shell::argument(&folder.to_string_lossy()));
     crate::say(&format!("{shown}: created a drive crate. Try it with: cd {argument} && cargo run --example simulated"));
@@ -132,8 +132,8 @@ fn check_name(name: &str) -> Result<(), Failure> {
     let is_word = name.starts_with(|first: char| first.is_ascii_alphabetic())
         && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_');
     let library = name.replace('-', "_");
-    let is_taken = RESERVED.contains(&library.as_str()) || lexibus_codegen::names::escaped(&library) != library;
-    match (is_word, is_taken) {
+    let is_reserved = RESERVED.contains(&library.as_str()) || lexibus_codegen::names::escaped(&library) != library;
+    match (is_word, is_reserved) {
         (true, false) => Ok(()),
         (true, true) => Err(Failure::Usage(format!("`{name}` is a reserved name: choose another name for the crate"))),
         (false, _) => Err(Failure::Usage(format!(
@@ -189,18 +189,6 @@ fn relative(file: &str, folder: &str) -> Option<String> {
     };
     let parts: Vec<String> = inside.components().map(part).collect::<Option<_>>()?;
     Some(parts.join("/")).filter(|path| !path.is_empty())
-}
-
-/// Returns the cargo feature of `lexibus-codegen` for a description.
-fn feature(format: Format, device: &Device) -> &'static str {
-    match format {
-        Format::Eds | Format::Dcf => "eds",
-        Format::Xdd => "xdd",
-        Format::Esi => "esi",
-        Format::Gsdml => "gsdml",
-        Format::Table if device.messages.is_empty() => "table",
-        Format::Table => "messages",
-    }
 }
 
 /// Returns whether a folder above `folder` is the root of a Cargo workspace.

@@ -21,12 +21,12 @@ struct Row {
     severity: Severity,
     count: usize,
     files: usize,
-    first: Place,
+    first: Location,
 }
 
-/// Position of a diagnostic. A diagnostic about a whole file has no line and no column.
+/// Location of a diagnostic. A diagnostic about a whole file has no line and no column.
 #[derive(Serialize)]
-struct Place {
+struct Location {
     file: Option<String>,
     line: Option<u32>,
     column: Option<u32>,
@@ -40,7 +40,7 @@ struct Line<'a> {
     severity: Severity,
     count: usize,
     files: usize,
-    first: &'a Place,
+    first: &'a Location,
 }
 
 impl Statistics {
@@ -50,7 +50,7 @@ impl Statistics {
         for diagnostic in diagnostics {
             let code = diagnostic.code;
             let row = self.0.entry(code.id).or_insert_with(|| {
-                let first = Place::of(diagnostic, sources);
+                let first = Location::of(diagnostic, sources);
                 Row { code, severity: diagnostic.severity, count: 0, files: 0, first }
             });
             row.count += diagnostic.occurrences();
@@ -108,13 +108,13 @@ impl Statistics {
     }
 }
 
-impl Place {
+impl Location {
     fn of(diagnostic: &Diagnostic, sources: &[Source]) -> Self {
-        let place = MarkedSource::of(diagnostic.span, sources);
-        let from = place.and_then(|place| place.mark).map(|mark| mark.from);
-        Place {
+        let marked = MarkedSource::of(diagnostic.span, sources);
+        let from = marked.and_then(|marked| marked.mark).map(|mark| mark.from);
+        Location {
             // In all output formats, replace control characters in paths, because a terminal would interpret them.
-            file: place.map(|place| printable(place.source.name()).into_owned()),
+            file: marked.map(|marked| printable(marked.source.name()).into_owned()),
             line: from.map(|from| from.line),
             column: from.map(|from| from.column),
         }

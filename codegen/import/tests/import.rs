@@ -165,7 +165,7 @@ fn lists_of_objects_and_parameters() {
     assert_eq!(objects.groups[0].items[1].object(), Some((0x2000, 1)));
     assert_eq!(item(&objects, "Device type").default, Some(Value::Int(0x192)));
     let parameters = device("Parameter number,Name,Type,Access\n58,Ramp,u16,rw\n");
-    assert!(matches!(item(&parameters, "Ramp").bindings[0], Binding::Parameter { code: 58, .. }));
+    assert!(matches!(&item(&parameters, "Ramp").bindings[0], Binding::Parameter(parameter) if parameter.code == 58));
 }
 
 #[test]

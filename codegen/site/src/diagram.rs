@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 use super::words::readable;
 use lanes::{Lanes, Ports};
-use lexibus_codegen::ir::{StateMachine, Transition};
+use lexibus_codegen::ir::{StateMachine, StateRef, Transition};
 
 /// Minimum width of a state's box in pixels.
 const WIDTH: u32 = 220;
@@ -110,7 +110,7 @@ impl<'m> Plan<'m> {
     fn new(machine: &'m StateMachine, patterns: &'m [String]) -> Option<Self> {
         let edges = edges(machine);
         let any = machine.states.len();
-        let initial = machine.initial.as_ref().and_then(|name| position(machine, name));
+        let initial = machine.initial.as_ref().and_then(position);
         let first = initial.unwrap_or(edges.first()?.from);
         let rows = rows(any, first, &edges);
         let is_drawn = |at: usize| rows.get(at).is_some_and(Option::is_some);
@@ -200,19 +200,19 @@ pub(super) fn number(position: usize, transition: &Transition) -> String {
     transition.number.map_or_else(|| (position + 1).to_string(), |number| number.to_string())
 }
 
-fn position(machine: &StateMachine, name: &str) -> Option<usize> {
-    machine.states.iter().position(|state| state.name == name)
+fn position(state: &StateRef) -> Option<usize> {
+    Some(state.id?.0 as usize)
 }
 
 /// Returns the edges between states. The pseudo-state "any state" has the position after the last state.
 fn edges(machine: &StateMachine) -> Vec<Edge> {
     let from = |transition: &Transition| match &transition.from {
-        Some(name) => position(machine, name),
+        Some(state) => position(state),
         None => Some(machine.states.len()),
     };
     let mut edges: Vec<Edge> = Vec::new();
     for (at, transition) in machine.transitions.iter().enumerate() {
-        let (Some(from), Some(to)) = (from(transition), position(machine, &transition.to)) else { continue };
+        let (Some(from), Some(to)) = (from(transition), position(&transition.to)) else { continue };
         let known = edges.iter().position(|edge| (edge.from, edge.to) == (from, to));
         let edge = known.unwrap_or_else(|| {
             edges.push(Edge { from, to, numbers: Vec::new(), commands: Vec::new() });

@@ -9,7 +9,8 @@ use super::link::{self, Relation};
 use super::requests::{self, Request};
 use super::tools;
 use super::words::{self, PLAIN};
-use lexibus_codegen::facts::words::{capital, row_of, sentence, ALLOWED_SHOWN};
+use lexibus_codegen::facts::number::ALLOWED_SHOWN;
+use lexibus_codegen::facts::words::{capital, row_of, sentence};
 use lexibus_codegen::facts::{address, item, types};
 use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
 

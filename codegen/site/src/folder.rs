@@ -117,26 +117,26 @@ impl<'a> Folder<'a> {
         let many = modules.files.len().min(1)..modules.files.len();
         let list = only.is_none().then(|| (first.clone(), self.name.clone()));
         let shared = Rc::new(Links::new(shared, many));
-        let here = Common { modules: &modules, path: String::new(), list, shared };
+        let common = Common { modules: &modules, path: String::new(), list, shared };
         let languages_of_modules = languages_of_modules(catalog);
         if let Some(device) = only {
-            self.device((0, String::new()), device, catalog, &languages_of_modules, &here);
+            self.device((0, String::new()), device, catalog, &languages_of_modules, &common);
         } else {
-            let there = here.from(&format!("{ROOT}/{}/", self.home));
+            let of_folder = common.from(&format!("{ROOT}/{}/", self.home));
             let notes = twins::notes(catalog).into_iter().enumerate();
             for (at, note) in notes.filter_map(|(at, note)| Some((at, note?))) {
                 let device = &catalog.devices[at];
                 self.open(self.addresses.device(device, &(self.name.clone(), at)));
-                self.device((at, note), device, catalog, &languages_of_modules, &there);
+                self.device((at, note), device, catalog, &languages_of_modules, &of_folder);
             }
             self.open(self.home.clone());
         }
         self.listed.first = format!("{}/{first}", self.home);
         self.listed.shared =
-            here.shared.all().map(|(file, title)| (format!("{}/{file}", self.home), title.clone())).collect();
+            common.shared.all().map(|(file, title)| (format!("{}/{file}", self.home), title.clone())).collect();
         let title = only.map_or_else(|| self.name.clone(), title);
         let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
-        let frame = self.frame(title, device_pages, &here, languages(&catalog.devices, &languages_of_modules));
+        let frame = self.frame(title, device_pages, &common, languages(&catalog.devices, &languages_of_modules));
         self.module_pages(&modules, &frame);
         for ((file, _), groups) in diagnostics.iter().zip(&groups) {
             self.page(&frame, file, Content::Diagnostics(groups));

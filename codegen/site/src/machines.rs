@@ -133,7 +133,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
     let anchor = names.anchor(&machine.name);
     let mut of_states = Names::within(&anchor);
     let states = machine.states.iter().map(|state| {
-        let class = match faults.contains(&state.name.as_str()) {
+        let class = match faults.iter().any(|fault| **fault == state.name) {
             true => "fault",
             false if is_energized(&state.name) => "energized",
             false => "",
@@ -150,7 +150,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
         items: Vec::new(),
         doubts: entry::about(&device.doubts, SubjectKind::Machine, &machine.name, manual),
         diagram: diagram::diagram(machine, &patterns),
-        initial: machine.initial.as_deref().map(readable),
+        initial: machine.initial.as_ref().map(|state| readable(state)),
         states,
         commands: commands.collect(),
         anchor,
@@ -175,7 +175,7 @@ fn named(pattern: &Pattern, width: u32, anchor: String) -> Named {
 fn transition_row(position: usize, transition: &Transition) -> TransitionRow {
     TransitionRow {
         number: number(position, transition),
-        from: transition.from.as_deref().map(readable),
+        from: transition.from.as_ref().map(|state| readable(state)),
         to: readable(&transition.to),
         command: transition.command.as_ref().map_or_else(|| AUTOMATIC.to_owned(), |command| readable(command)),
         facts: PLAIN.description(transition.documentation.as_deref()).join(" "),

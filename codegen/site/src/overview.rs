@@ -82,6 +82,7 @@ fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {
     let identity = &device.identity;
     let hex = |number: Option<u32>| number.map(hex32).unwrap_or_default();
+    let origins = PLAIN.identity_origins(identity).join(" ");
     let all = [
         ("Vendor", identity.vendor_name.to_string()),
         ("Product", identity.product_name.to_string()),
@@ -89,6 +90,7 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
         ("Vendor-ID", hex(identity.vendor_id)),
         ("Product code", hex(identity.product_code)),
         ("Revision", hex(identity.revision_number)),
+        ("Origin", origins),
     ];
     all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }

@@ -145,9 +145,11 @@ impl Index {
         for device in &self.devices {
             first.devices.push(Device { pages: Vec::new(), ..device.clone() });
             for page in &device.pages {
-                let (own, others) = page.entries.split_at(usize::from(page.kind == DEVICE).min(page.entries.len()));
+                let (of_device, others) =
+                    page.entries.split_at(usize::from(page.kind == DEVICE).min(page.entries.len()));
                 let others = others.iter().filter(|entry| chosen.remove(entry));
-                let entries: Vec<usize> = own.iter().chain(others).map(|entry| first.copy(self, *entry)).collect();
+                let entries: Vec<usize> =
+                    of_device.iter().chain(others).map(|entry| first.copy(self, *entry)).collect();
                 if let (Some(device), false) = (first.devices.last_mut(), entries.is_empty()) {
                     device.pages.push(Page { entries, ..page.clone() });
                 }

@@ -10,10 +10,10 @@ use crate::source::Span;
 use crate::text::{brief, count_of, more, numbered};
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    for item in context.owner.items() {
+    for (_, id, item) in context.owner.identified() {
         replacement(context.device, item, diagnostics);
         let Some(alias) = item.related.as_ref().and_then(|related| related.same_as.as_ref()) else { continue };
-        let Some(other) = context.device.referred(alias).filter(|other| !std::ptr::eq(*other, item)) else { continue };
+        let Some(other) = context.device.referred(alias).filter(|_| alias.id != Some(id)) else { continue };
         let differences = differences(context.owner, item, other);
         if let Some((first, others)) = differences.split_first() {
             let names = format!("`{}` and `{}`", brief(&item.name), brief(alias));

@@ -5,16 +5,16 @@ use std::cmp::Ordering;
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::{compare, version};
-use crate::ir::{stated, Availability, Device, Item, Shape};
+use crate::ir::{stated, Availability, Device, Item, ItemId, Shape};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
-    for item in owner.items() {
+    for (_, id, item) in owner.identified() {
         let Some(availability) = item.availability.as_deref() else { continue };
         window(&format!("`{}`", brief(&item.name)), availability, item.origin.span, diagnostics);
-        replacement(device, item, availability, diagnostics);
+        replacement(device, id, item, availability, diagnostics);
     }
     for (_, definition) in stated::types(&device.types) {
         let windows: Vec<_> = match &definition.shape {
@@ -64,12 +64,13 @@ fn window(what: &str, availability: &Availability, span: Span, diagnostics: &mut
     }
 }
 
-fn replacement(device: &Device, item: &Item, availability: &Availability, diagnostics: &mut Diagnostics) {
+fn replacement(device: &Device, id: ItemId, item: &Item, availability: &Availability, diagnostics: &mut Diagnostics) {
     let replaced_by = availability.replaced_by.as_ref();
-    let Some(other) = replaced_by.and_then(|other| device.item(other.id?.item()?)) else { return };
+    let Some(other_id) = replaced_by.and_then(|other| other.id?.item()) else { return };
+    let Some(other) = device.item(other_id) else { return };
     let span = item.origin.span;
     let name = brief(&item.name);
-    if std::ptr::eq(other, item) {
+    if other_id == id {
         diagnostics.push(codes::FIRMWARE_WINDOW.at(span, format!("`{name}` replaces itself")));
         return;
     }

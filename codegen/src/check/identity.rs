@@ -2,14 +2,16 @@
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::resolve::IdentityNumber;
+use crate::ir::IdentityNumber;
+use crate::resolve::identity_in_object;
 
 /// Reports numbers in object 0x1018 that differ from the identity of the device. The number 0 is ignored, because tools fill
 /// unused fields with 0.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     for number in IdentityNumber::ALL {
-        let (Some(stated), Some((value, span))) = (number.stated(device), number.in_object(device)) else { continue };
+        let in_object = identity_in_object(device, number);
+        let Some((stated, (value, span))) = device.identity.number(number).zip(in_object) else { continue };
         if stated != value && value != 0 {
             let name = number.name();
             let message = format!("the {name} is {value:#x} in object 0x1018, but {stated:#x} in the device identity");

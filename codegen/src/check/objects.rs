@@ -31,7 +31,7 @@ pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 /// Returns the objects that the description file describes, including the fixed objects of modules.
 fn described<'a>(context: &Context<'a>) -> impl Iterator<Item = (u16, &'a Group)> {
-    let fixed = context.device.own_modules(context.modules).flat_map(|module| &module.fixed_objects);
+    let fixed = context.device.accepted_modules(context.modules).flat_map(|module| &module.fixed_objects);
     let all = context.device.groups.iter().chain(fixed).filter(|group| !group.origin.is_derived());
     all.filter_map(|group| Some((group.index()?, group)))
 }

@@ -1,5 +1,6 @@
 //! Addresses of items on each bus.
 
+use super::number::hex16;
 use super::register;
 use super::words::bus_name;
 use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
@@ -27,14 +28,16 @@ pub fn addresses(item: &Item, tables: &[ModbusTable]) -> Vec<Address> {
 fn address(binding: &Binding, item: &Item, tables: &[ModbusTable]) -> Address {
     let text = match binding {
         Binding::Register(register) => return register_address(register, item, tables),
-        Binding::Record { index, bit_offset, bits } => format!("record 0x{index:04X}, {}", bits_of(*bit_offset, *bits)),
-        Binding::EscMemory { address, length } => format!("0x{address:04X}, {length} bytes"),
+        Binding::Record { index, bit_offset, bits } => {
+            format!("record {}, {}", hex16(*index), bits_of(*bit_offset, *bits))
+        }
+        Binding::EscMemory { address, length } => format!("{}, {length} bytes", hex16(*address)),
         Binding::Indirect(window) => {
             let buses: Vec<&str> = window.buses.iter().map(bus_name).collect();
             format!("{} on {}", number(binding), buses.join(", "))
         }
         Binding::Image(image) => format!("{}, {}", image.image, bits_of(image.bit_offset, image.bits)),
-        Binding::Object { .. } | Binding::Parameter { .. } | Binding::Ascii(_) => number(binding),
+        Binding::Object { .. } | Binding::Parameter(_) | Binding::Ascii(_) => number(binding),
     };
     // Indirect access adds no search term: the window uses the number of a register or parameter, which is already a search term.
     let lookup = if matches!(binding, Binding::Indirect(_)) { String::new() } else { text.clone() };
@@ -68,18 +71,18 @@ pub fn number(binding: &Binding) -> String {
             let bit = register.bit_offset.map(|bit| format!(".{bit}")).unwrap_or_default();
             format!("{} {}{bit}", table(register.space), register::wire_address(register.address))
         }
-        Binding::Record { index, bit_offset, .. } => format!("record 0x{index:04X} bit {bit_offset}"),
+        Binding::Record { index, bit_offset, .. } => format!("record {} bit {bit_offset}", hex16(*index)),
         Binding::Image(image) => format!("{} bit {}", image.image, image.bit_offset),
-        Binding::Parameter { space, code } => format!("{space} 0x{code:04X}"),
+        Binding::Parameter(parameter) => format!("{} {}", parameter.space, hex16(parameter.code)),
         Binding::Ascii(name) => name.to_string(),
-        Binding::EscMemory { address, .. } => format!("memory 0x{address:04X}"),
-        Binding::Indirect(window) => format!("{} 0x{:04X}", window.space, window.number),
+        Binding::EscMemory { address, .. } => format!("memory {}", hex16(*address)),
+        Binding::Indirect(window) => format!("{} {}", window.space, hex16(window.number)),
     }
 }
 
 /// Returns index and sub-index: `0x6040:00`.
 pub fn object(index: u16, sub_index: u8) -> String {
-    format!("0x{index:04X}:{sub_index:02X}")
+    format!("{}:{sub_index:02X}", hex16(index))
 }
 
 /// Returns the bus or buses of an address. For an address that belongs to no single bus, returns the kind of address.
@@ -89,7 +92,7 @@ pub fn bus(binding: &Binding) -> &'static str {
         Binding::Register(_) => "Modbus",
         Binding::Record { .. } => "PROFINET",
         Binding::Image(_) => "Process image",
-        Binding::Parameter { .. } => "Serial",
+        Binding::Parameter(_) => "Serial",
         Binding::Ascii(_) => "ASCII",
         Binding::EscMemory { .. } => "Slave controller",
         Binding::Indirect(_) => "Window",

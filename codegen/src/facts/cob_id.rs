@@ -1,5 +1,6 @@
 //! COB-IDs: identifiers of CAN frames with flags (CiA 301, 7.5.2.5 and 7.5.2.35).
 
+use super::number::hex;
 use crate::ir::{Direction, Item, Value};
 
 /// Bits 31 and 30, whose meaning depends on the object.
@@ -78,8 +79,8 @@ pub fn text(value: &Value, kind: CobId) -> Option<String> {
     }
     let mut text = match (is_of_node, raw & mask) {
         (true, 0) => "$NODEID".to_owned(),
-        (true, identifier) => format!("$NODEID+0x{identifier:X}"),
-        (false, identifier) => format!("0x{identifier:X}"),
+        (true, identifier) => format!("$NODEID+{}", hex(identifier)),
+        (false, identifier) => hex(identifier),
     };
     let [bit_31, bit_30] = kind.flags();
     let flags = [(BIT_31, bit_31, "bit 31"), (BIT_30, bit_30, "bit 30"), (EXTENDED, Some("29-bit identifier"), "")];

@@ -15,7 +15,7 @@ pub fn title(device: &Device) -> &str {
 pub fn family<'d>(catalog: &'d Catalog, device: &'d Device) -> &'d str {
     let group = device.ethercat.as_ref().map(|settings| &settings.group).filter(|group| !group.is_empty());
     if let Some(group) = group {
-        let named = catalog.families.iter().find(|family| family.id == *group && !family.name.is_empty());
+        let named = group.id.and_then(|id| catalog.families.get(id.0 as usize));
         return named.map_or(group, |family| &family.name);
     }
     device.profinet.as_ref().map_or("", |settings| match settings.family.1.as_str() {

@@ -1,5 +1,6 @@
 //! Name, default value, range, unit and PDO mapping of an item.
 
+use super::number::hex;
 use super::physical::{shown_unit, Physical};
 use super::types;
 use super::words::PLAIN;
@@ -126,7 +127,7 @@ fn number(value: &Value, ty: Type) -> String {
 /// Formats a number. Large unsigned numbers are hexadecimal, because most of them are bit patterns, addresses and signatures.
 pub fn integer(number: i128, is_unsigned: bool) -> String {
     match number {
-        0x1_0000.. if is_unsigned => format!("0x{number:X}"),
+        0x1_0000.. if is_unsigned => hex(number),
         _ => number.to_string(),
     }
 }

@@ -1,28 +1,28 @@
 //! States with a special meaning in state machines.
 
-use crate::ir::{StateMachine, Transition};
+use crate::ir::{StateMachine, StateRef, Transition};
 
-/// Returns the names of the fault states. An automatic transition from any state is a reaction to a fault, so its target and the
+/// Returns the fault states. An automatic transition from any state is a reaction to a fault, so its target and the
 /// states that follow the target automatically are fault states. The states that the source lists as fault states are added
 /// without their successors, because a device can leave a fault state automatically.
-pub fn fault_states(machine: &StateMachine) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
+pub fn fault_states(machine: &StateMachine) -> Vec<&StateRef> {
+    let mut faults: Vec<&StateRef> = Vec::new();
     loop {
         let is_entered = |transition: &&Transition| {
-            let from = transition.from.as_deref();
+            let from = transition.from.as_ref();
             transition.command.is_none()
-                && from.is_none_or(|from| names.contains(&from))
-                && !names.contains(&transition.to.as_str())
+                && from.is_none_or(|from| faults.contains(&from))
+                && !faults.contains(&&transition.to)
         };
         let Some(transition) = machine.transitions.iter().find(is_entered) else { break };
-        names.push(&transition.to);
+        faults.push(&transition.to);
     }
     for fault in &machine.faults {
-        if !names.contains(&fault.as_str()) {
-            names.push(fault);
+        if !faults.contains(&fault) {
+            faults.push(fault);
         }
     }
-    names
+    faults
 }
 
 /// Returns whether a state is "Operation enabled" of CiA 402, in which the drive is energized.

@@ -1,21 +1,28 @@
 //! Numbers in hexadecimal notation, and ranges of numbers.
 
-use super::words::ALLOWED_SHOWN;
 use crate::ir::Numbers;
 
-/// Formats a byte of a frame: `0x1F`.
-pub fn hex8(number: u8) -> String {
-    format!("0x{number:02X}")
+/// Maximum number of allowed values in a sentence.
+pub const ALLOWED_SHOWN: usize = 16;
+
+/// Formats a byte or a sub-index: `0x0F`.
+pub fn hex8(number: impl Into<i128>) -> String {
+    format!("0x{:02X}", number.into())
 }
 
 /// Formats an index, an address or an API number: `0x6040`.
-pub fn hex16(number: impl Into<u32>) -> String {
+pub fn hex16(number: impl Into<i128>) -> String {
     format!("0x{:04X}", number.into())
 }
 
 /// Formats a vendor ID, a product code, a revision number or an ident number: `0x00000539`.
-pub fn hex32(number: u32) -> String {
-    format!("0x{number:08X}")
+pub fn hex32(number: impl Into<i128>) -> String {
+    format!("0x{:08X}", number.into())
+}
+
+/// Formats a mask or another number without leading zeros: `0xF`.
+pub fn hex(number: impl Into<i128>) -> String {
+    format!("0x{:X}", number.into())
 }
 
 /// Formats the bytes of a frame or a value: `02 1B FF`.

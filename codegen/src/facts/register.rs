@@ -1,5 +1,6 @@
 //! Addresses on Modbus: printed addresses and wire addresses.
 
+use super::number::hex16;
 use crate::ir::{Bus, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 impl RegisterSpace {
@@ -44,7 +45,7 @@ pub fn wire(register: &RegisterBinding) -> String {
 /// Formats a wire address. Addresses with more than four digits are hexadecimal.
 pub fn wire_address(address: u16) -> String {
     if address > 9999 {
-        format!("0x{address:04X}")
+        hex16(address)
     } else {
         address.to_string()
     }

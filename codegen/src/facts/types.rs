@@ -1,5 +1,6 @@
 //! Types of values: basic types, and names of types in tables.
 
+use super::number::hex;
 use crate::ir::owner::Owner;
 use crate::ir::{Type, TypeDef, TypeId};
 
@@ -37,7 +38,7 @@ pub fn numbers(first: i128, last: Option<i128>) -> String {
 fn number(number: i128) -> String {
     match number {
         0..=255 => number.to_string(),
-        256.. => format!("{number} (0x{number:X})"),
+        256.. => format!("{number} ({})", hex(number)),
         _ => number.to_string(),
     }
 }

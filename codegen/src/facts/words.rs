@@ -1,11 +1,12 @@
 //! Sentences about elements of the IR for all kinds of documentation.
 
+use super::number::{hex, hex16, ALLOWED_SHOWN};
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
 use crate::facts::{address, cob_id};
 use crate::ir::{
     Access, Availability, Behavior, Binding, Bus, Buses, CiteUnit, CompactString, Condition, Device, Direction,
-    Documentation, Doubt, ElementId, Fact, FactOrigin, FactOrigins, Group, Item, ItemVariant, Limits, LocalText,
-    Manual, Quantity, Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
+    Documentation, Doubt, ElementId, Fact, FactOrigin, FactOrigins, Group, Identity, Item, ItemVariant, Limits,
+    LocalText, Manual, Quantity, Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
 
 /// Writes sentences in the format of an output. All texts of the source are escaped.
@@ -40,12 +41,9 @@ pub fn row_of(item: &Item) -> &str {
         Binding::Ascii(name) => Some(name.as_str()),
         _ => None,
     });
-    let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter { .. });
+    let is_row = |binding: &Binding| matches!(binding, Binding::Register(_) | Binding::Parameter(_));
     ascii.or_else(|| item.bindings.iter().any(is_row).then_some(item.name.as_str())).unwrap_or_default()
 }
-
-/// Maximum number of allowed values in a sentence.
-pub const ALLOWED_SHOWN: usize = 16;
 
 /// Maximum number of sections in a citation.
 const SECTIONS_NAMED: usize = 3;
@@ -139,6 +137,8 @@ pub fn origin_name(origin: &FactOrigin) -> String {
         FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs without a description".to_owned(),
         FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
         FactOrigin::Rule(Rule::MissingKey) => "the rule for missing or unknown attributes".to_owned(),
+        FactOrigin::Rule(Rule::IdentityObject) => "object 0x1018".to_owned(),
+        FactOrigin::Rule(Rule::ObjectContents) => "the rule for missing or wrong object types".to_owned(),
         FactOrigin::Rule(Rule::CompactObject) => "the rule for compact sub-indices".to_owned(),
         FactOrigin::PrintedName => "the name in the manual".to_owned(),
     }
@@ -149,6 +149,7 @@ pub fn fact_name(fact: Fact) -> &'static str {
     match fact {
         Fact::Name => "name",
         Fact::Addresses => "addresses",
+        Fact::ObjectType => "object type",
         Fact::Type => "type",
         Fact::Meaning => "bits and values",
         Fact::Access => "access rights",
@@ -267,7 +268,7 @@ impl Words<'_> {
         match condition.mask {
             None => format!("{name} is {}", self.values(&condition.values)),
             Some(mask) => {
-                let mask = self.escaped(&format!("& 0x{mask:X}"));
+                let mask = self.escaped(&format!("& {}", hex(mask)));
                 let values: Vec<String> = condition.values.iter().map(|value| self.bits(value)).collect();
                 format!("{name} {mask} is {}", values.join(" or "))
             }
@@ -278,7 +279,7 @@ impl Words<'_> {
     fn bits(&self, value: &Value) -> String {
         match value.as_int().and_then(|number| u64::try_from(number).ok()) {
             Some(0) => "0".to_owned(),
-            Some(number) => format!("0x{number:X}"),
+            Some(number) => hex(number),
             None => self.value(value),
         }
     }
@@ -303,7 +304,7 @@ impl Words<'_> {
         match step {
             Step::Write(item, to) => format!("Write {} to {}.", value(to), name(item)),
             Step::WriteBits(item, mask, to) => {
-                format!("Write {} to the bits 0x{mask:X} of {}.", self.bits(to), name(item))
+                format!("Write {} to the bits {} of {}.", self.bits(to), hex(*mask), name(item))
             }
             Step::WriteArgument(item, argument) => format!("Write {} to {}.", name(argument), name(item)),
             Step::Read(item) => format!("Read {}.", name(item)),
@@ -311,7 +312,9 @@ impl Words<'_> {
                 let limit = limit.map(|limit| format!(", for at most {limit} ms")).unwrap_or_default();
                 let condition = match *mask {
                     u64::MAX => format!("{} is {}", name(item), value(to)),
-                    mask => format!("{} {} is {}", name(item), self.escaped(&format!("& 0x{mask:X}")), self.bits(to)),
+                    mask => {
+                        format!("{} {} is {}", name(item), self.escaped(&format!("& {}", hex(mask))), self.bits(to))
+                    }
                 };
                 format!("Wait until {condition}{limit}.")
             }
@@ -357,7 +360,7 @@ impl Words<'_> {
     /// Formats a value that refers to an object, a PDO or a mapping: `0x1701`, `0x60410010`.
     fn reference(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         match value.as_int() {
-            Some(number @ 0x1000..=0xFFFF_FFFF) => format!("0x{number:04X}"),
+            Some(number @ 0x1000..=0xFFFF_FFFF) => hex16(number),
             _ => raw(value),
         }
     }
@@ -519,6 +522,12 @@ impl Words<'_> {
         self.sentences_about(&group.origins)
     }
 
+    /// Returns the origin of an object's object type, if the description does not state it.
+    pub fn object_type_origin(&self, group: &Group) -> Option<String> {
+        let origin = group.origins.get(Fact::ObjectType)?;
+        Some(self.origin_sentence(&capital(fact_name(Fact::ObjectType)), origin))
+    }
+
     /// Returns a sentence about the origin of facts: `Unit from overlay pump.toml:12 instead of the description.`
     fn origin_sentence(&self, facts: &str, origin: &FactOrigin) -> String {
         let replaces = matches!(origin, FactOrigin::Overlay(row) if row.replaces);
@@ -593,21 +602,30 @@ impl Words<'_> {
         self.sentences_about(&item.origins)
     }
 
+    /// Returns the origins of those identity numbers that do not come from the header of the description: `Product code from object
+    /// 0x1018.`
+    pub fn identity_origins(&self, identity: &Identity) -> Vec<String> {
+        self.sentences(identity.origins.iter().map(|(number, origin)| (number.name(), origin)))
+    }
+
     fn sentences_about(&self, origins: &FactOrigins) -> Vec<String> {
+        let is_elsewhere = |fact: Fact, origin: &FactOrigin| match origin {
+            FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
+            FactOrigin::Standard(_) => matches!(fact, Fact::Meaning | Fact::Description),
+            FactOrigin::Overlay(_) | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
+        };
+        let all = Fact::ALL.into_iter().filter_map(|fact| Some((fact, origins.get(fact)?)));
+        let shown = all.filter(|(fact, origin)| !is_elsewhere(*fact, origin));
+        self.sentences(shown.map(|(fact, origin)| (fact_name(fact), origin)))
+    }
+
+    /// Returns a sentence for each origin, with the names of its facts.
+    fn sentences<'f>(&self, facts: impl Iterator<Item = (&'static str, &'f FactOrigin)>) -> Vec<String> {
         let mut groups: Vec<(&FactOrigin, Vec<&str>)> = Vec::new();
-        for fact in Fact::ALL {
-            let Some(origin) = origins.get(fact) else { continue };
-            let is_elsewhere = match origin {
-                FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
-                FactOrigin::Standard(_) => matches!(fact, Fact::Meaning | Fact::Description),
-                FactOrigin::Overlay(_) | FactOrigin::Rule(_) | FactOrigin::PrintedName => false,
-            };
-            if is_elsewhere {
-                continue;
-            }
+        for (fact, origin) in facts {
             match groups.iter_mut().find(|(known, _)| *known == origin) {
-                Some((_, facts)) => facts.push(fact_name(fact)),
-                None => groups.push((origin, vec![fact_name(fact)])),
+                Some((_, facts)) => facts.push(fact),
+                None => groups.push((origin, vec![fact])),
             }
         }
         let sentence =

@@ -1,8 +1,8 @@
 //! Access rights, bindings, units, storage and availability of items.
 
 use super::{
-    Buses, CompactString, Condition, Documentation, Doubts, ElementRef, ItemRef, ProcedureRef, Scale, Texts, Type,
-    Value,
+    Buses, CompactString, Condition, Documentation, Doubts, ElementRef, GivenRef, ImageRef, ItemRef, ProcedureRef,
+    Scale, SpaceRef, Texts, Type, Value, VariantRef,
 };
 use crate::source::{Origin, Span};
 
@@ -122,12 +122,7 @@ pub enum Binding {
     /// Bits of a fixed process image.
     Image(Box<ImageBinding>),
     /// A parameter of a parameter space. Messages transfer the value of the parameter.
-    Parameter {
-        /// Name of the parameter space.
-        space: CompactString,
-        /// Number of the parameter in its parameter space.
-        code: u32,
-    },
+    Parameter(Box<ParameterBinding>),
     /// A parameter of an ASCII protocol, identified by its name.
     Ascii(CompactString),
     /// A memory range of an EtherCAT slave controller (ESC).
@@ -164,6 +159,11 @@ impl Binding {
     /// Creates the address of an entry of a CANopen object dictionary.
     pub fn canopen(index: u16, sub_index: u8) -> Self {
         Binding::Object { buses: ObjectBuses::CANOPEN, index, sub_index }
+    }
+
+    /// Creates the address of a parameter of a parameter space.
+    pub fn parameter(space: &str, code: u32) -> Self {
+        Binding::Parameter(Box::new(ParameterBinding { space: space.into(), code }))
     }
 
     /// Creates the address of an entry of the object dictionary of an EtherCAT slave.
@@ -261,8 +261,8 @@ pub enum RegisterSpace {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageBinding {
-    /// Name of the process image.
-    pub image: CompactString,
+    /// The process image.
+    pub image: ImageRef,
     /// Bit offset of the item in the process image.
     pub bit_offset: u32,
     /// Length of the item in bits.
@@ -270,6 +270,16 @@ pub struct ImageBinding {
     /// Data type in the process image, if it differs from the item's type.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
+}
+
+/// The address of an item in a parameter space.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ParameterBinding {
+    /// The parameter space.
+    pub space: SpaceRef,
+    /// Number of the parameter in its parameter space.
+    pub code: u32,
 }
 
 /// Indirect access through a window: the number of the parameter is written to one item, and another item transfers its value.
@@ -342,10 +352,10 @@ pub struct Conversion {
     pub value: Option<f64>,
     /// Unit of the physical value, if it differs from the item's unit.
     pub unit: Option<CompactString>,
-    /// Names and values of the machine constants that the example uses.
-    pub given: Vec<(CompactString, f64)>,
+    /// The machine constants that the example uses, and their values.
+    pub given: Vec<(GivenRef, f64)>,
     /// Model whose constants the example uses.
-    pub model: Option<CompactString>,
+    pub model: Option<VariantRef>,
     /// Value of the item that the scale factor depends on.
     pub by: Option<f64>,
     /// Description of the example from the source.
@@ -361,10 +371,10 @@ pub struct Conversion {
 pub struct MachineUnit {
     /// Symbol of the machine unit.
     pub unit: CompactString,
-    /// Names of the machine constants by which the physical value is multiplied.
-    pub times: Vec<CompactString>,
-    /// Names of the machine constants by which the physical value is divided.
-    pub over: Vec<CompactString>,
+    /// Machine constants by which the physical value is multiplied.
+    pub times: Vec<GivenRef>,
+    /// Machine constants by which the physical value is divided.
+    pub over: Vec<GivenRef>,
 }
 
 /// A machine constant that the device does not store, such as the pitch of a lead screw.
@@ -376,7 +386,7 @@ pub struct GivenNumber {
     /// Unit symbol of the machine constant.
     pub unit: CompactString,
     /// Models that define the constant, and its value on each model.
-    pub models: Vec<(CompactString, Value)>,
+    pub models: Vec<(VariantRef, Value)>,
     /// Description of the machine constant from the source.
     pub documentation: Option<Box<Documentation>>,
     /// Ambiguities in the source about the machine constant, with the assumptions made.

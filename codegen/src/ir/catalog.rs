@@ -30,6 +30,12 @@ pub struct Catalog {
     pub families: Vec<Family>,
     /// Pictures that devices and modules refer to.
     pub graphics: Vec<Graphic>,
+    /// Name of the vendor in other languages.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Texts::is_empty"))]
+    pub vendor_names: Texts,
+    /// Description of the device family in other languages than that of [`Header::description`](super::Header::description).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Texts::is_empty"))]
+    pub descriptions: Texts,
     /// Facts about the catalog that have no field in the IR.
     pub extensions: Extensions,
 }
@@ -73,6 +79,9 @@ pub struct LocalText {
 }
 
 /// A key with a value, for a fact that has no field in the IR.
+///
+/// The compiler does not interpret extensions. An export to the format of the source writes an extension back at the position that
+/// its key names, with an unchanged value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extension {

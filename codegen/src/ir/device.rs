@@ -1,9 +1,9 @@
 //! Devices: identity, file header, bus settings and content.
 
 use super::{
-    CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, Framing, Group, Item,
-    Message, Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine,
-    SubmoduleUse, Texts, TypeDef, Value,
+    CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, FactOrigin, Framing,
+    Group, Item, Message, Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot,
+    StateMachine, SubmoduleUse, Texts, TypeDef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -102,7 +102,7 @@ impl Device {
     }
 
     /// Returns the modules that the device accepts. `modules` contains all modules of the catalog.
-    pub fn own_modules<'m>(&self, modules: &'m [Module]) -> impl Iterator<Item = &'m Module> + use<'m, '_> {
+    pub fn accepted_modules<'m>(&self, modules: &'m [Module]) -> impl Iterator<Item = &'m Module> + use<'m, '_> {
         self.modules.iter().filter_map(|accepted| modules.get(accepted.module.0 as usize))
     }
 
@@ -139,6 +139,48 @@ pub struct Identity {
     pub serial_number: Option<u32>,
     /// Further identity numbers with their names, such as the module ident number of a PROFINET device access point.
     pub others: Vec<(CompactString, u32)>,
+    /// Origins of the numbers that do not come from the header of the description.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub origins: Vec<(IdentityNumber, FactOrigin)>,
+}
+
+/// A number in the identity object 0x1018.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum IdentityNumber {
+    /// Vendor ID (sub-index 1).
+    VendorId,
+    /// Product code (sub-index 2).
+    ProductCode,
+    /// Revision number (sub-index 3).
+    RevisionNumber,
+}
+
+impl IdentityNumber {
+    /// All identity numbers.
+    pub const ALL: [IdentityNumber; 3] =
+        [IdentityNumber::VendorId, IdentityNumber::ProductCode, IdentityNumber::RevisionNumber];
+
+    /// Returns the name of the identity number.
+    pub fn name(self) -> &'static str {
+        match self {
+            IdentityNumber::VendorId => "vendor ID",
+            IdentityNumber::ProductCode => "product code",
+            IdentityNumber::RevisionNumber => "revision number",
+        }
+    }
+}
+
+impl Identity {
+    /// Returns an identity number.
+    pub fn number(&self, number: IdentityNumber) -> Option<u32> {
+        match number {
+            IdentityNumber::VendorId => self.vendor_id,
+            IdentityNumber::ProductCode => self.product_code,
+            IdentityNumber::RevisionNumber => self.revision_number,
+        }
+    }
 }
 
 /// The requests that a device accepts for one Modbus table.

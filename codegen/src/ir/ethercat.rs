@@ -1,6 +1,6 @@
 //! Capabilities and configuration of EtherCAT slaves (ETG.2000, `Device`).
 
-use super::CompactString;
+use super::{CompactString, FamilyRef};
 use crate::source::Origin;
 
 /// Capabilities of a device on EtherCAT, and settings for its master.
@@ -10,7 +10,7 @@ pub struct EtherCatSettings {
     /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = enhanced link, blank = no port.
     pub physics: CompactString,
     /// Name of the device family (`GroupType`).
-    pub group: CompactString,
+    pub group: FamilyRef,
     /// Product code and revision of each device that engineering tools hide because of this description (`HideType`).
     pub hides: Vec<(Option<u32>, Option<u32>)>,
     /// True if engineering tools hide the device itself (`Invisible`).

@@ -13,6 +13,8 @@ pub enum Fact {
     Name,
     /// Addresses of the item on its buses.
     Addresses,
+    /// Object type (object code) of a group.
+    ObjectType,
     /// Data type of the item.
     Type,
     /// Names of the item's bits or values.
@@ -39,9 +41,10 @@ pub enum Fact {
 
 impl Fact {
     /// All facts, in the order in which outputs show them.
-    pub const ALL: [Fact; 13] = [
+    pub const ALL: [Fact; 14] = [
         Fact::Name,
         Fact::Addresses,
+        Fact::ObjectType,
         Fact::Type,
         Fact::Meaning,
         Fact::Access,
@@ -61,6 +64,7 @@ impl Fact {
         match self {
             Fact::Name => one.name != other.name || one.names != other.names,
             Fact::Addresses => one.bindings != other.bindings,
+            Fact::ObjectType => false,
             Fact::Type | Fact::Meaning => one.ty != other.ty,
             Fact::Access => one.access != other.access,
             Fact::Mappable => one.mappable != other.mappable,
@@ -79,7 +83,7 @@ impl Fact {
     pub(crate) fn is_stated(self, item: &Item) -> bool {
         match self {
             Fact::Name => !item.name.is_empty(),
-            Fact::Addresses | Fact::Type | Fact::Access | Fact::Mappable => true,
+            Fact::Addresses | Fact::ObjectType | Fact::Type | Fact::Access | Fact::Mappable => true,
             Fact::Meaning => matches!(item.ty, super::Type::Named(_)),
             Fact::Default => item.default.is_some(),
             Fact::Limits => !item.limits.is_empty() || !item.limits.allowed.is_empty(),
@@ -145,6 +149,10 @@ pub enum Rule {
     /// Items of an EDS, XDD or ESI without access rights are read-only, except domains of CANopen, which are read-write. Items
     /// without a data type are read-only raw bytes.
     MissingKey,
+    /// Identity numbers that the header of the description lacks are the default values of object 0x1018.
+    IdentityObject,
+    /// An object has the object type that matches its sub-indices if the stated object type is missing, unknown or contradicts them.
+    ObjectContents,
     /// Sub-index 0 of an object with compact sub-indices contains their number (CiA 306, CompactSubObj).
     CompactObject,
 }

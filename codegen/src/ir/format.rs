@@ -30,11 +30,26 @@ impl Format {
     /// A list that contains only the format of register tables.
     pub const TABLES: &'static [Format] = &[Format::Table];
 
+    /// The format of overlays.
+    pub const OF_OVERLAYS: Format = Format::Table;
+
     /// Returns the name of the format that `lexibus info` prints.
     pub fn name(self) -> &'static str {
         match self {
             Format::Eds => "eds",
             Format::Dcf => "dcf",
+            Format::Xdd => "xdd",
+            Format::Esi => "esi",
+            Format::Gsdml => "gsdml",
+            Format::Table => "table",
+        }
+    }
+
+    /// Returns the cargo feature of `lexibus-codegen` that reads files of the format. Register tables with messages also need the
+    /// feature `messages`.
+    pub fn feature(self) -> &'static str {
+        match self {
+            Format::Eds | Format::Dcf => "eds",
             Format::Xdd => "xdd",
             Format::Esi => "esi",
             Format::Gsdml => "gsdml",
@@ -76,6 +91,11 @@ impl Format {
     /// Returns whether one element of the format can describe several items: a row of a table, an XML type or parameter.
     pub fn has_shared_descriptions(self) -> bool {
         matches!(self, Format::Table | Format::Esi | Format::Xdd)
+    }
+
+    /// Returns whether files of the format describe devices on PROFINET, whose slots have the values.
+    pub fn is_of_profinet(self) -> bool {
+        self == Format::Gsdml
     }
 
     /// Returns whether files of the format are transcripts of manuals.

@@ -1,8 +1,8 @@
 //! State machines and procedures.
 
 use super::{
-    Availability, CompactString, Direction, Documentation, FactOrigin, ItemRef, MessageRef, SharedList, Texts, TypeRef,
-    Value,
+    Availability, CommandRef, CompactString, Direction, Documentation, FactOrigin, ItemRef, MessageRef, SharedList,
+    StateRef, Texts, TypeRef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -23,11 +23,11 @@ pub struct StateMachine {
     pub states: SharedList<Pattern>,
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub initial: Option<CompactString>,
+    pub initial: Option<StateRef>,
     /// Fault states that the source lists. The list need not contain the target of an automatic transition from any state, or the
     /// states that follow the target automatically: these are always fault states.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
-    pub faults: Vec<CompactString>,
+    pub faults: Vec<StateRef>,
     /// Commands as bit patterns of the control item.
     pub commands: SharedList<Pattern>,
     /// Transitions between states.
@@ -48,8 +48,9 @@ pub struct StateMachine {
 pub struct CommandOutcomes {
     /// Name of the row, as the source spells it.
     pub name: CompactString,
-    /// Messages or commands of the row; empty if the source does not describe the command elsewhere.
-    pub commands: Vec<CompactString>,
+    /// Messages or commands of the row; empty if the source does not describe the command elsewhere. A reference to a message has
+    /// an id, and a reference to a command has none.
+    pub commands: Vec<MessageRef>,
     /// Models, firmware versions and buses that have the command.
     pub availability: Option<Box<Availability>>,
     /// Effects of the command, with one entry for each state.
@@ -65,7 +66,7 @@ pub struct CommandOutcomes {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateOutcome {
     /// State in which the device receives the command.
-    pub state: CompactString,
+    pub state: StateRef,
     /// Possible outcomes of the command in this state; empty if the source does not state any.
     pub outcomes: Vec<Outcome>,
     /// Conditions and further effects of the command in this state.
@@ -82,7 +83,7 @@ pub enum Outcome {
     /// The device rejects the command.
     Refused,
     /// The device changes to the first state of the list, and automatically from each state of the list to the next.
-    States(Vec<CompactString>),
+    States(Vec<StateRef>),
 }
 
 /// A state or a command as a pattern of bits.
@@ -108,12 +109,11 @@ pub struct Transition {
     /// Number of the transition in the source.
     pub number: Option<u16>,
     /// State before the transition; `None` = any state.
-    pub from: Option<CompactString>,
+    pub from: Option<StateRef>,
     /// State after the transition.
-    pub to: CompactString,
-    /// Command or message that causes the transition; `None` = the device itself causes it. A reference to a message has an id,
-    /// and a reference to a command has none.
-    pub command: Option<MessageRef>,
+    pub to: StateRef,
+    /// Command or message that causes the transition; `None` = the device itself causes it.
+    pub command: Option<CommandRef>,
     /// Description of the transition from the source.
     pub documentation: Option<Box<Documentation>>,
 }

@@ -1,8 +1,8 @@
 //! Command protocols and code tables.
 
 use super::{
-    Availability, Buses, CompactString, Condition, Documentation, Doubts, FactOrigin, Item, ItemRef, MessageRef,
-    SharedList, Texts, Value,
+    Availability, Buses, CompactString, Condition, DeviceStateRef, Documentation, Doubts, FactOrigin, Item, ItemRef,
+    MessageRef, SharedList, SpaceRef, Texts, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -38,7 +38,7 @@ pub struct Message {
     /// Models, firmware versions and buses that support the message.
     pub availability: Option<Box<Availability>>,
     /// States in which the device accepts the message; empty = all.
-    pub accepted_in: Vec<CompactString>,
+    pub accepted_in: Vec<DeviceStateRef>,
     /// Example frames of the message in the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub examples: Vec<MessageExample>,
@@ -144,20 +144,20 @@ pub enum MessageField {
     },
     /// The number of a parameter. In a reply, it equals the first parameter number in the request.
     ItemCode {
-        /// Name of the parameter space.
-        space: CompactString,
+        /// The parameter space.
+        space: SpaceRef,
         /// Length of the parameter number in bits.
         bits: u8,
     },
     /// The value of the parameter whose number precedes this field.
     ItemValue {
-        /// Name of the parameter space.
-        space: CompactString,
+        /// The parameter space.
+        space: SpaceRef,
     },
     /// Zero bytes in place of the value of the parameter whose number precedes this field.
     ItemPadding {
-        /// Name of the parameter space.
-        space: CompactString,
+        /// The parameter space.
+        space: SpaceRef,
     },
     /// This number of unused bytes.
     Padding(u8),

@@ -41,6 +41,14 @@ impl<'a> Owner<'a> {
         self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
     }
 
+    /// Returns the items of all groups with their groups and ids.
+    pub fn identified(self) -> impl Iterator<Item = (&'a Group, ItemId, &'a Item)> {
+        let groups = self.groups.iter().flat_map(|groups| groups.iter());
+        let ids =
+            |(position, group): (u32, &'a Group)| group.items_at(position).map(move |(id, item)| (group, id, item));
+        (0..).zip(groups).flat_map(ids)
+    }
+
     /// Returns the definition of a named type, after following aliases.
     pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
         let mut ty = ty;
@@ -145,19 +153,13 @@ impl<'a> Index<'a> {
         self.owner.groups.iter().flat_map(|groups| groups.iter())
     }
 
-    /// Returns all items with their groups and ids.
-    fn items(&self) -> impl Iterator<Item = (&'a Group, ItemId, &'a Item)> {
-        let ids =
-            |(position, group): (u32, &'a Group)| group.items_at(position).map(move |(id, item)| (group, id, item));
-        (0..).zip(self.groups()).flat_map(ids)
-    }
-
     /// Returns a map from each name to the first item with this name. The name of an object with a single value also refers to
     /// that value. Names of records and chapters do not refer to items.
     fn names(&self) -> &HashMap<&'a str, ItemId> {
         self.names.get_or_init(|| {
-            let items = self.items().map(|(_, id, item)| (item.name.as_str(), id));
-            let single = self.items().filter(|(group, ..)| group.index().is_some() && group.items.len() == 1);
+            let items = self.owner.identified().map(|(_, id, item)| (item.name.as_str(), id));
+            let single =
+                self.owner.identified().filter(|(group, ..)| group.index().is_some() && group.items.len() == 1);
             let single = single.map(|(group, id, _)| (group.name.as_str(), id));
             let mut names = HashMap::new();
             for (name, id) in items.chain(single).filter(|(name, _)| !name.is_empty()) {
@@ -168,7 +170,8 @@ impl<'a> Index<'a> {
     }
 
     fn objects(&self) -> &HashMap<(u16, u8), ItemId> {
-        self.objects.get_or_init(|| self.items().filter_map(|(_, id, item)| Some((item.object()?, id))).collect())
+        self.objects
+            .get_or_init(|| self.owner.identified().filter_map(|(_, id, item)| Some((item.object()?, id))).collect())
     }
 
     /// Returns the item with this name, address (`0x6040`, `0x1018:1`) or path (`Chapter/Item`).

@@ -4,7 +4,9 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::Deref;
 
-use super::{CompactString, Device, Group, Item, Procedure, TypeId};
+use super::{
+    CompactString, Device, GivenNumber, Group, Item, ParameterSpace, Procedure, ProcessImage, TypeId, Variant,
+};
 use crate::source::Span;
 
 /// Position of an [`Item`] in its device.
@@ -37,6 +39,48 @@ pub struct MessageId(pub u32);
 /// Position of a [`Procedure`] in [`Device::procedures`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ProcedureId(pub u32);
+
+/// Position of a [`ProcessImage`] in the process data of its device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ImageId(pub u32);
+
+/// Position of a [`ParameterSpace`] in [`Device::parameter_spaces`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SpaceId(pub u32);
+
+/// Position of a [`GivenNumber`] in [`Device::given`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct GivenId(pub u32);
+
+/// Position of a [`Variant`] in [`Device::variants`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct VariantId(pub u32);
+
+/// Position of a [`Family`](super::Family) in [`Catalog::families`](super::Catalog::families).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FamilyId(pub u32);
+
+/// Position of a state in the states of a state machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct StateId(pub u32);
+
+/// A state of a device: the position of the state machine in [`Device::machines`], and the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct DeviceStateId {
+    /// Position of the state machine.
+    pub machine: u32,
+    /// Position of the state in its machine.
+    pub state: StateId,
+}
+
+/// The target of a reference to a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum CommandId {
+    /// Position of a bit pattern in the commands of the state machine.
+    Pattern(u32),
+    /// Id of a message.
+    Message(MessageId),
+}
 
 /// The target of a reference to an item or a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -84,6 +128,26 @@ impl Device {
     pub fn procedure(&self, reference: &ProcedureRef) -> Option<&Procedure> {
         self.procedures.get(reference.id?.0 as usize)
     }
+
+    /// Returns the process image that a resolved reference refers to.
+    pub fn image(&self, reference: &ImageRef) -> Option<&ProcessImage> {
+        self.process_data.images.get(reference.id?.0 as usize)
+    }
+
+    /// Returns the parameter space that a resolved reference refers to.
+    pub fn parameter_space(&self, reference: &SpaceRef) -> Option<&ParameterSpace> {
+        self.parameter_spaces.get(reference.id?.0 as usize)
+    }
+
+    /// Returns the machine constant that a resolved reference refers to.
+    pub fn given_number(&self, reference: &GivenRef) -> Option<&GivenNumber> {
+        self.given.get(reference.id?.0 as usize)
+    }
+
+    /// Returns the model that a resolved reference refers to.
+    pub fn variant(&self, reference: &VariantRef) -> Option<&Variant> {
+        self.variants.get(reference.id?.0 as usize)
+    }
 }
 
 /// A reference to another element of the same device.
@@ -117,6 +181,30 @@ pub type ElementRef = Reference<ElementId>;
 
 /// A reference to a procedure.
 pub type ProcedureRef = Reference<ProcedureId>;
+
+/// A reference to a process image.
+pub type ImageRef = Reference<ImageId>;
+
+/// A reference to a parameter space. A table can use a parameter space without a definition; such a reference has no id.
+pub type SpaceRef = Reference<SpaceId>;
+
+/// A reference to a state of the same state machine.
+pub type StateRef = Reference<StateId>;
+
+/// A reference to a state of any state machine of the device. An enumeration can also contain states. Such a reference has no id.
+pub type DeviceStateRef = Reference<DeviceStateId>;
+
+/// A reference to a command of the same state machine, or to a message if there is no such command.
+pub type CommandRef = Reference<CommandId>;
+
+/// A reference to a family of devices, by its key.
+pub type FamilyRef = Reference<FamilyId>;
+
+/// A reference to a machine constant.
+pub type GivenRef = Reference<GivenId>;
+
+/// A reference to a model.
+pub type VariantRef = Reference<VariantId>;
 
 impl<Id> Reference<Id> {
     /// Creates a reference that is not resolved.

@@ -18,6 +18,13 @@ pub struct SharedList<T>(Option<Arc<Vec<T>>>);
 /// Translations of a text.
 pub type Texts = SharedList<LocalText>;
 
+impl<T> SharedList<T> {
+    /// Returns whether the list has no elements.
+    pub fn is_empty(&self) -> bool {
+        self.0.as_ref().is_none_or(|list| list.is_empty())
+    }
+}
+
 impl<T: Clone> SharedList<T> {
     /// Returns the elements for modification. Other copies of the list do not change.
     pub fn to_mut(&mut self) -> &mut Vec<T> {

@@ -50,7 +50,7 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
                 let mut item = Item::new(Binding::coe(entry.index, entry.sub_index));
                 (item.name, item.names) = (entry.name.clone(), entry.names.clone());
                 (item.ty, item.origin) = (entry.ty, origin);
-                item.origins = FactOrigins::by_rule(&[Fact::Access], Rule::MappedObject);
+                item.origins = FactOrigins::by_rule(&[Fact::Access, Fact::Mappable], Rule::MappedObject);
                 item
             });
             match pdo.direction {

@@ -1,8 +1,8 @@
 //! Visits the references to items and messages.
 
 use crate::ir::{
-    Binding, CompactString, Completion, Condition, Device, ElementRef, Group, Item, ItemRef, MessageField, Scale,
-    Shape, Step, Storage, TypeDef, WindowSide,
+    Binding, CompactString, Completion, Condition, Device, ElementRef, Group, Item, ItemRef, MessageField, Quantity,
+    Scale, Shape, Step, Storage, TypeDef, WindowSide,
 };
 
 /// A reference to an item, or a reference whose target can be an item or a message.
@@ -91,6 +91,27 @@ fn of_fields(fields: &mut [MessageField], visit: Visit<'_>) {
         match field {
             MessageField::Value(value) => of_item(&mut value.item, visit),
             MessageField::Repeat { fields, .. } => of_fields(fields, visit),
+            _ => {}
+        }
+    }
+}
+
+/// Visits the quantities of all items and of all values in messages.
+pub(super) fn for_each_quantity(device: &mut Device, visit: &mut dyn FnMut(&mut Quantity)) {
+    for item in device.groups.iter_mut().flat_map(|group| &mut group.items) {
+        item.quantity.as_deref_mut().into_iter().for_each(&mut *visit);
+    }
+    for message in &mut device.messages {
+        quantities_of_fields(&mut message.request, visit);
+        quantities_of_fields(&mut message.reply, visit);
+    }
+}
+
+fn quantities_of_fields(fields: &mut [MessageField], visit: &mut dyn FnMut(&mut Quantity)) {
+    for field in fields {
+        match field {
+            MessageField::Value(value) => value.item.quantity.as_deref_mut().into_iter().for_each(&mut *visit),
+            MessageField::Repeat { fields, .. } => quantities_of_fields(fields, visit),
             _ => {}
         }
     }

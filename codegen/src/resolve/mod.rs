@@ -28,7 +28,7 @@ mod references;
 pub(crate) mod removal;
 mod run;
 
-pub(crate) use identity::IdentityNumber;
+pub(crate) use identity::in_object as identity_in_object;
 pub(crate) use pdo_entries::address;
 pub(crate) use pdo_mapping::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,

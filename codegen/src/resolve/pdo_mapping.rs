@@ -87,9 +87,9 @@ pub(crate) struct MappableItems<'a> {
 impl<'a> MappableItems<'a> {
     /// Collects the items of a device and its modules.
     pub(crate) fn new(device: &'a Device, modules: &'a [Module]) -> Self {
-        let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
+        let fixed = device.accepted_modules(modules).flat_map(|module| &module.fixed_objects);
         let items = fixed.flat_map(|group| &group.items).filter_map(|item| Some((item.object()?, item)));
-        let extensions = device.own_modules(modules).flat_map(|module| &module.sub_extensions);
+        let extensions = device.accepted_modules(modules).flat_map(|module| &module.sub_extensions);
         MappableItems {
             entries: Entries::new(&device.groups),
             of_modules: items.collect(),

@@ -32,6 +32,7 @@ pub fn resolve(catalog: &mut Catalog, profiles: Profiles, diagnostics: &mut Diag
         }
     }
     catalog.modules.iter_mut().for_each(references::module);
+    references::families(catalog);
 }
 
 fn complete_device(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {

@@ -16,10 +16,10 @@ pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
         let candidates: Vec<String> = names.into_iter().chain(code).filter(|text| is_plain(text)).collect();
         let alone = candidates.iter().find(|text| index.matching(text) == [at]).cloned();
         alone.or_else(|| {
-            let own = revision(&at)?;
+            let number = revision(&at)?;
             let is_only =
-                |text: &&String| index.matching(text).iter().filter(|at| revision(at) == Some(own)).count() == 1;
-            Some(format!("{}@0x{own:08X}", candidates.iter().find(is_only)?))
+                |text: &&String| index.matching(text).iter().filter(|at| revision(at) == Some(number)).count() == 1;
+            Some(format!("{}@0x{number:08X}", candidates.iter().find(is_only)?))
         })
     };
     devices.iter().enumerate().map(argument).collect()

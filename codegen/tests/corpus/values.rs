@@ -137,7 +137,7 @@ impl Comparison<'_> {
                 _ => {}
             }
             if *part == Part::Object {
-                expected.extend(own_items(self.reading, *index, section).into_iter().map(|sub| (*index, sub)));
+                expected.extend(items_of(self.reading, *index, section).into_iter().map(|sub| (*index, sub)));
             }
         }
         let groups = self.device.groups.iter().filter(|group| group.origin.line > 0);
@@ -156,12 +156,12 @@ impl Comparison<'_> {
             group,
             item: None,
             extensions: &group.extensions,
-            ty: own_type(section),
+            ty: type_of(section),
             compact,
             is_object: true,
             again: false,
         };
-        let actual = own_items(self.reading, index, section);
+        let actual = items_of(self.reading, index, section);
         for &sub in &actual {
             let Some(item) = group.sub(sub) else { continue };
             let name = if compact { format!("{}{sub}", group.name) } else { group.name.to_string() };
@@ -202,7 +202,7 @@ impl Comparison<'_> {
             group,
             item: Some(item),
             extensions: &item.extensions,
-            ty: own_type(section),
+            ty: type_of(section),
             compact: false,
             is_object: false,
             again: false,
@@ -256,7 +256,7 @@ fn compact_count(section: &Section) -> i128 {
 }
 
 /// Returns the sub-indices of items that the section of the object describes.
-fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
+fn items_of(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let (subs, count) = (reading.subs(index), compact_count(section));
     if count > 0 {
         return (1..=count as u8).filter(|sub| !subs.contains(sub)).collect();
@@ -275,7 +275,7 @@ fn own_items(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
 }
 
 /// Returns the type in a section (CiA 301, table of data types).
-fn own_type(section: &Section) -> Option<Type> {
+fn type_of(section: &Section) -> Option<Type> {
     if section.text("datatype").is_none() {
         return (section.number("objecttype") == Some(2)).then_some(Type::Domain);
     }

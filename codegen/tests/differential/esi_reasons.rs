@@ -127,8 +127,8 @@ fn of_text(case: &Case<'_>, peer: &str, ours: &str) -> Option<&'static str> {
 }
 
 /// Returns the reason why one of the readers lacks an element.
-fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
-    if !is_own {
+fn missing(case: &Case<'_>, element: &str, is_direct: bool) -> Option<&'static str> {
+    if !is_direct {
         if element.ends_with(" again") {
             return Some("objects twice");
         }

@@ -52,14 +52,14 @@ fn is_misdeclared(peer: &str, ours: &str) -> bool {
 }
 
 /// Returns the reason why only the plain reading has an element: the file lists a submodule among submodules of another kind.
-fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
+fn missing(case: &Case<'_>, element: &str, is_direct: bool) -> Option<&'static str> {
     let is_misplaced = |holder: &str| case.peer.get(holder)?.get("fixed").filter(|fixed| *fixed == "?").map(|_| ());
     let number = element.strip_prefix("submodule ");
     let holders = case.peer.keys().filter(|key| match number {
         Some(number) => key.rsplit_once(" holds ").is_some_and(|(_, held)| held == number),
         None => *key == element,
     });
-    let is_misplaced = !is_own && holders.into_iter().any(|holder| is_misplaced(holder).is_some());
+    let is_misplaced = !is_direct && holders.into_iter().any(|holder| is_misplaced(holder).is_some());
     is_misplaced.then_some("submodules out of place")
 }
 

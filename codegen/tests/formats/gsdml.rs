@@ -63,7 +63,7 @@ fn codes(compilation: &Compilation) -> Vec<&'static str> {
 }
 
 /// Returns the IR as JSON, without files and positions.
-fn without_places(compilation: &Compilation) -> serde_json::Value {
+fn without_spans(compilation: &Compilation) -> serde_json::Value {
     let mut value = serde_json::to_value(&compilation.catalog).expect("JSON");
     strip(&mut value);
     value
@@ -96,7 +96,7 @@ fn g01_all_encodings_give_one_ir() {
     ] {
         let other = read(bytes);
         assert_eq!(other.sources[0].encoding(), encoding);
-        assert_eq!(without_places(&other), without_places(&utf8), "{encoding:?}");
+        assert_eq!(without_spans(&other), without_spans(&utf8), "{encoding:?}");
     }
 }
 

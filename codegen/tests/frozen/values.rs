@@ -72,7 +72,7 @@ fn device(out: &mut String, device: &Device) {
             line(out, &["fault".into(), machine.name.to_string(), fault.to_string()]);
         }
         for transition in &machine.transitions {
-            let from = transition.from.as_deref().unwrap_or("*");
+            let from = transition.from.as_ref().map_or("*", |from| from.as_str());
             line(
                 out,
                 &[
@@ -213,7 +213,7 @@ fn address(binding: &Binding) -> String {
         Binding::Register(entry) => register(entry),
         Binding::Record { index, bit_offset, bits } => format!("record {index:05} {bit_offset:05}+{bits}"),
         Binding::Image(image) => format!("image {} {:05}+{}", image.image, image.bit_offset, image.bits),
-        Binding::Parameter { space, code } => format!("parameter {space} {code:05}"),
+        Binding::Parameter(parameter) => format!("parameter {} {:05}", parameter.space, parameter.code),
         Binding::Ascii(name) => format!("ascii {name}"),
         Binding::EscMemory { address, length } => format!("memory {address:04X}+{length}"),
         Binding::Indirect(window) => indirect(window),

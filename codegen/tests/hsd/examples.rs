@@ -1,6 +1,6 @@
 //! Tests the worked examples of the manual and compares the defaults of both parameter sets.
 
-use lexibus_codegen::ir::{CompactString, Device, GivenNumber, Item, MessageField, Scale};
+use lexibus_codegen::ir::{Device, GivenNumber, GivenRef, Item, MessageField, Scale};
 
 use super::hsd_support::{chapter, device, message, table};
 use super::parameters::of_model;
@@ -103,7 +103,7 @@ fn physical(device: &Device, item: &Item, model: &str, raw: f64, numbers: &[(&st
     };
     let given = |name: &str| numbers.iter().find(|(number, _)| *number == name).map(|(_, value)| *value);
     let Some(machine) = quantity.machine.as_ref().filter(|_| !numbers.is_empty()) else { return physical };
-    let product = |list: &[CompactString]| list.iter().map(|name| given(name).expect("given")).product::<f64>();
+    let product = |list: &[GivenRef]| list.iter().map(|name| given(name).expect("given")).product::<f64>();
     physical * product(&machine.times) / product(&machine.over)
 }
 

@@ -74,7 +74,7 @@ pub fn message<'d>(device: &'d Device, name: &str) -> &'d Message {
 /// Returns the number of a parameter.
 pub fn code(item: &Item) -> u32 {
     let number = |binding: &Binding| match binding {
-        Binding::Parameter { code, .. } => Some(*code),
+        Binding::Parameter(parameter) => Some(parameter.code),
         _ => None,
     };
     item.bindings.iter().find_map(number).expect("a parameter")

@@ -235,7 +235,7 @@ fn status_codes_and_transitions_of_the_communication() {
     for (item, (line, cells)) in machine.transitions.iter().zip(&printed) {
         let letters: Vec<char> = cells[0].chars().filter(|c| c.is_ascii_alphabetic()).collect();
         assert_eq!(
-            (item.from.as_deref(), item.to.as_str()),
+            (item.from.as_ref().map(|from| from.as_str()), item.to.as_str()),
             (Some(letter(letters[0])), letter(letters[1])),
             "line {line}"
         );
@@ -297,8 +297,8 @@ fn the_drives_state_machine() {
         for (line, cells) in rows(&manual, first, first + last) {
             for pair in cells.chunks(2) {
                 let bit: u8 = pair[0].parse().expect("a bit");
-                let is_here = |entry: &&BitFieldEntry| (entry.offset..entry.offset + entry.bits).contains(&bit);
-                let found: Vec<_> = fields.iter().filter(is_here).collect();
+                let contains_bit = |entry: &&BitFieldEntry| (entry.offset..entry.offset + entry.bits).contains(&bit);
+                let found: Vec<_> = fields.iter().filter(contains_bit).collect();
                 assert!(!found.is_empty(), "line {line} {bit}");
                 let cites = |entry: &&BitFieldEntry| cited(entry.documentation.as_deref()).contains(&line);
                 let by_mode = pair[1].contains("Modalità di funzionamento specifica") && name == "ControlWord";

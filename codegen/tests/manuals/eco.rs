@@ -188,7 +188,7 @@ fn one_register_is_one_item_on_five_buses() {
             wrong.push(format!("{}: {} bytes", row[0], bytes(tables[0], row_items[0])));
         }
         let image = in_images(row_items[0]).first().map(|(image, at, _)| (*image, *at));
-        if image != image_place(&row[13]) {
+        if image != image_position(&row[13]) {
             wrong.push(format!("{}: {image:?} {}", row[0], row[13]));
         }
     }
@@ -203,7 +203,7 @@ fn place(text: &str) -> (u16, u8) {
 }
 
 /// Parses a position in an image, such as `IN 0..1`, `IN 2 / display OUT 2` or `indirect`.
-fn image_place(text: &str) -> Option<(&'static str, u32)> {
+fn image_position(text: &str) -> Option<(&'static str, u32)> {
     let (image, rest) = match text.split_once(' ') {
         Some(("IN", rest)) => ("from the master", rest),
         Some(("OUT", rest)) => ("to the master", rest),

@@ -182,8 +182,8 @@ fn import_test(name: &str) -> &'static str {
 #[test]
 fn the_list_has_every_case_of_an_item() {
     let is_listed = |number: u8, case: &str| {
-        let is_own = |how: &How| matches!(how, Finding(name, _) if *name == case);
-        ITEMS.iter().any(|(item, how)| *item == number.to_string() && is_own(how))
+        let is_of_case = |how: &How| matches!(how, Finding(name, _) if *name == case);
+        ITEMS.iter().any(|(item, how)| *item == number.to_string() && is_of_case(how))
     };
     cases::all_are_listed(AREA, is_listed);
 }

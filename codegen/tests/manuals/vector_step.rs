@@ -130,7 +130,7 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
         let says = |word: &str| words.split_whitespace().any(|entry| entry == word);
         let ty = [("SIGNED16", 16), ("SIGNED32", 32), ("UNSIGNED16", 16), ("UNSIGNED32", 32)];
         let printed_bits = ty.iter().find(|(name, _)| all.contains(name)).map(|&(_, bits)| bits);
-        let own_bits = base(device, item.ty).bits();
+        let type_bits = base(device, item.ty).bits();
         let mut facts = vec![
             ("RO", !says("RO") || says("RW") || item.access == Access::ReadOnly),
             ("WO", !says("WO") || item.access == Access::WriteOnly),
@@ -141,7 +141,7 @@ fn types_access_mapping_and_saving_are_the_printed_ones() {
         let storage = item.behavior.as_ref().map(|behavior| &behavior.storage);
         let is_saved = matches!(storage, Some(Storage::OnCommand(_) | Storage::Immediate));
         facts.push(("SAVE", !says("SAVE") || is_saved));
-        facts.push(("type", printed_bits.is_none() || own_bits == printed_bits || row.first == 2011));
+        facts.push(("type", printed_bits.is_none() || type_bits == printed_bits || row.first == 2011));
         let missing: Vec<_> = facts.into_iter().filter(|(_, holds)| !holds).map(|(fact, _)| fact).collect();
         if !missing.is_empty() && item.doubts.is_empty() {
             wrong.push(format!("line {} {}: {missing:?}", row.line, item.name));

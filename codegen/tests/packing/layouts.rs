@@ -52,8 +52,8 @@ pub fn all(catalog: &Catalog) -> Vec<Layout> {
     let mut all: Vec<Layout> = catalog.devices.iter().flat_map(of_device).collect();
     for (at, module) in catalog.modules.iter().enumerate() {
         let mut takers = catalog.devices.iter().filter(|device| device.ethercat.is_some());
-        let is_taken = takers.any(|device| device.modules.iter().any(|usage| usage.module.0 as usize == at));
-        if is_taken || catalog.devices.is_empty() {
+        let is_accepted = takers.any(|device| device.modules.iter().any(|usage| usage.module.0 as usize == at));
+        if is_accepted || catalog.devices.is_empty() {
             all.extend(of_pdos(&module.process_data, &module.types));
         }
     }

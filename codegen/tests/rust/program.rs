@@ -38,7 +38,7 @@ fn with_machine(keys: &str, states: &[&str], transitions: &[&str]) -> String {
 }
 
 /// Returns the state after power-on and the operating state, or the reason why the program has no target state.
-fn way(keys: &str, states: &[&str], transitions: &[&str]) -> Result<[String; 2], NoTarget> {
+fn initial_and_target(keys: &str, states: &[&str], transitions: &[&str]) -> Result<[String; 2], NoTarget> {
     let machine = program_of(with_machine(keys, states, transitions)).machine.expect("a machine");
     machine.map(|machine| [machine.simulation.expect("a simulation").initial, machine.target])
 }
@@ -57,35 +57,44 @@ fn the_target_is_the_operating_state() {
     let states = ["off", "ready", "operating", "halted", "alarm"];
     let faults = "faults = [\"alarm\"]";
     // The states "halted" and "alarm" are farther from the state after power-on.
-    assert_eq!(way(faults, &states, &chain), path("Off", "Operating"));
+    assert_eq!(initial_and_target(faults, &states, &chain), path("Off", "Operating"));
     // The order of the states does not matter.
-    assert_eq!(way(faults, &["operating", "alarm", "off", "ready", "halted"], &chain), path("Off", "Operating"));
+    assert_eq!(
+        initial_and_target(faults, &["operating", "alarm", "off", "ready", "halted"], &chain),
+        path("Off", "Operating")
+    );
     // The state without motion ("Enabled") takes precedence over the state with motion ("running").
     let drive = ["off >up Enabled", "Enabled >up running"];
-    assert_eq!(way("", &["off", "running", "Enabled"], &drive), path("Off", "Enabled"));
+    assert_eq!(initial_and_target("", &["off", "running", "Enabled"], &drive), path("Off", "Enabled"));
     // The automatic transition out of the operating state does not belong to the path.
     let once = ["off >up operating", "operating > off"];
-    assert_eq!(way("", &["off", "operating"], &once), path("Off", "Operating"));
-    assert_eq!(way("", &["off", "on"], &["off >up on"]), Err(NoTarget::Name));
-    assert_eq!(way("faults = [\"running\"]", &["off", "running"], &["off >up running"]), Err(NoTarget::Name));
+    assert_eq!(initial_and_target("", &["off", "operating"], &once), path("Off", "Operating"));
+    assert_eq!(initial_and_target("", &["off", "on"], &["off >up on"]), Err(NoTarget::Name));
+    assert_eq!(
+        initial_and_target("faults = [\"running\"]", &["off", "running"], &["off >up running"]),
+        Err(NoTarget::Name)
+    );
 }
 
 #[test]
 fn the_path_enters_no_fault_state() {
     let states = ["off", "warming", "warm", "operating", "alarm"];
     let faults = "faults = [\"alarm\"]";
-    let through = |step: &'static str| way(faults, &states, &[step, "alarm >reset operating"]);
+    let through = |step: &'static str| initial_and_target(faults, &states, &[step, "alarm >reset operating"]);
     assert_eq!(through("off >trip alarm"), no_path("Off", "Operating"));
     assert_eq!(through("off > alarm"), no_path("Off", "Operating"));
     assert_eq!(through("* >trip alarm"), no_path("Off", "Operating"));
     // States to which automatic transitions from any state lead are also fault states.
     assert_eq!(
-        way("", &states, &["* > alarm", "off >trip alarm", "alarm >reset operating"]),
+        initial_and_target("", &states, &["* > alarm", "off >trip alarm", "alarm >reset operating"]),
         no_path("Off", "Operating")
     );
     // If the device is in a fault state after power-on, the path leads out of this state.
     let initial = "faults = [\"alarm\"]\ninitial = \"alarm\"";
-    assert_eq!(way(initial, &states, &["alarm >reset off", "off >up operating"]), path("Alarm", "Operating"));
+    assert_eq!(
+        initial_and_target(initial, &states, &["alarm >reset off", "off >up operating"]),
+        path("Alarm", "Operating")
+    );
 }
 
 /// The simulated device makes the automatic transitions for which a program waits, and no others.

@@ -82,7 +82,7 @@ fn parameters_are_carried_by_messages() {
         (["ReadParameter", "WriteParameters", "Store"], &[2, 3, 0, 1][..])
     );
     let gain = &device.groups[0].items[0];
-    assert_eq!(gain.bindings[0], Binding::Parameter { space: "parameter".into(), code: 0x105 });
+    assert_eq!(gain.bindings[0], Binding::parameter("parameter", 0x105));
     let request = &device.messages.iter().find(|message| message.name == "WriteParameters").expect("a message").request;
     let read = &device.messages.iter().find(|message| message.name == "ReadParameter").expect("a message").request;
     assert_eq!(read[3], MessageField::ItemPadding { space: "parameter".into() });
@@ -165,8 +165,11 @@ fn machines_and_procedures() {
     let text = |item: &Option<Box<lexibus_codegen::ir::Documentation>>| item.as_ref().map(|entry| entry.text.clone());
     assert_eq!(text(&machine.documentation).as_deref(), Some("How it moves"));
     assert_eq!(text(&machine.states[0].documentation).as_deref(), Some("Nothing moves"));
-    let transitions: Vec<_> =
-        machine.transitions.iter().map(|transition| (transition.number, transition.from.as_deref())).collect();
+    let transitions: Vec<_> = machine
+        .transitions
+        .iter()
+        .map(|transition| (transition.number, transition.from.as_ref().map(|from| from.as_str())))
+        .collect();
     assert_eq!(transitions, [(None, Some("still")), (None, Some("moving"))]);
     assert_eq!(text(&machine.transitions[0].documentation).as_deref(), Some("At once"));
     assert_eq!(

@@ -256,7 +256,7 @@ fn several_of_the_same() {
     let compilation = read(&text);
     let is_at = |name: &str, wanted: u16| matches!(item(&compilation, name).bindings[0], Binding::EscMemory { address, .. } if address == wanted);
     assert!(is_at("fmmu2", 0x620) && is_at("sync1", 0x810));
-    assert!(matches!(item(&compilation, "code2").bindings[0], Binding::Parameter { code: 8, .. }));
+    assert!(matches!(&item(&compilation, "code2").bindings[0], Binding::Parameter(parameter) if parameter.code == 8));
     let range = rows("\"w{n}\" = { reg = \"66-72\", type = \"u16\", access = \"ro\", count = 7 }");
     assert_eq!(reported(&range), [""; 0]);
     let short = reported(&range.replace("66-72", "66-70"));

@@ -22,7 +22,8 @@ pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
     let devices = if b.one_in(5) { 2 } else { 1 };
     let devices = (0..devices).map(|_| device(b, format, modules.len())).collect();
     let graphics = b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) });
-    Catalog { devices, modules, graphics, extensions: names::extensions(b), ..Catalog::default() }
+    let vendor_names = names::texts(b);
+    Catalog { devices, modules, graphics, vendor_names, extensions: names::extensions(b), ..Catalog::default() }
 }
 
 fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
@@ -30,7 +31,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
     let is_ethercat = format == Format::Esi || is_table && b.one_in(3);
     let types = types::definitions(b, 10);
     let given = if is_table { b.few(2, 3, machines::given) } else { Vec::new() };
-    let given_names: Vec<CompactString> = given.iter().map(|own| own.name.clone()).collect();
+    let given_names: Vec<CompactString> = given.iter().map(|element| element.name.clone()).collect();
     let [images, spaces]: [Vec<CompactString>; 2] =
         if is_table { [0; 2].map(|_| b.list(2, names::name)) } else { Default::default() };
     let buses: &[ObjectBuses] = match format {
@@ -46,7 +47,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
     let has_declared = is_table || is_ethercat;
     if !has_declared {
         let objects = items::pdo_objects(b, &groups);
-        groups.retain(|group| objects.iter().all(|own| own.index() != group.index()));
+        groups.retain(|group| objects.iter().all(|object| object.index() != group.index()));
         groups.extend(objects);
         groups.sort_by_key(Group::index);
     }
@@ -54,7 +55,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
     let mut process_data =
         if has_declared { process::data(b, &groups, &types, is_ethercat) } else { ProcessData::default() };
     process_data.images = images.iter().map(|name| process::image(b, name.clone(), &types, 0)).collect();
-    let message_names: Vec<CompactString> = messages.iter().map(|own| own.name.clone()).collect();
+    let message_names: Vec<CompactString> = messages.iter().map(|element| element.name.clone()).collect();
     let device = Device {
         name: names::name(b),
         names: names::texts(b),
@@ -72,7 +73,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         modules: (0..modules as u32)
             .map(|at| ModuleUse { module: ModuleId(at), places: SlotNumbers::default() })
             .collect(),
-        parameter_spaces: spaces.iter().map(|own| messages::space(b, own.clone(), &message_names)).collect(),
+        parameter_spaces: spaces.iter().map(|element| messages::space(b, element.clone(), &message_names)).collect(),
         framing: if is_table { b.maybe(3, |b| Box::new(messages::framing(b, &messages))) } else { None },
         given,
         code_tables: b.few(3, 2, machines::code_table),
@@ -96,8 +97,8 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
 fn with_behavior(b: &mut Bytes<'_>, device: Device) -> Device {
     let of_items = |group: &Group| group.items.iter().map(|item| item.name.clone()).collect::<Vec<_>>();
     let items: Vec<CompactString> = device.groups.iter().flat_map(of_items).collect();
-    let types: Vec<CompactString> = device.types.iter().map(|own| own.name.clone()).collect();
-    let messages: Vec<CompactString> = device.messages.iter().map(|own| own.name.clone()).collect();
+    let types: Vec<CompactString> = device.types.iter().map(|element| element.name.clone()).collect();
+    let messages: Vec<CompactString> = device.messages.iter().map(|element| element.name.clone()).collect();
     Device {
         modbus: b.few(2, 2, modbus),
         modbus_examples: b.few(6, 1, messages::example),

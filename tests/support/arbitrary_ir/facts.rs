@@ -53,7 +53,7 @@ pub fn quantity(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString])
         sentinels: b.few(3, 3, |b| (Value::Int(values::number(b)), names::name(b))),
         step: b.maybe(6, values::any),
         machine: b.maybe(3, |b| {
-            let [times, over] = [0; 2].map(|_| b.list(2, |b| names::of(b, given)));
+            let [times, over] = [0; 2].map(|_| b.list(2, |b| names::of(b, given).into()));
             Box::new(MachineUnit { unit: names::unit(b), times, over })
         }),
         conversions: b.few(8, 2, |b| conversion(b, given)),
@@ -65,8 +65,8 @@ fn conversion(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString]) -
         raw: b.maybe(2, values::number),
         value: b.maybe(2, values::real),
         unit: b.maybe(4, names::unit),
-        given: b.few(3, 2, |b| (names::of(b, given), values::real(b))),
-        model: b.maybe(4, names::model),
+        given: b.few(3, 2, |b| (names::of(b, given).into(), values::real(b))),
+        model: b.maybe(4, |b| names::model(b).into()),
         by: b.maybe(4, values::real),
         documentation: names::documentation(b),
         at: Span::default(),

@@ -176,8 +176,8 @@ fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
 pub fn chapter(b: &mut Bytes<'_>, around: &Around<'_>) -> Group {
     let kind = if b.one_in(4) { GroupKind::Image { length: b.within(0..=40) } } else { GroupKind::Chapter };
     let items = b.list(9, |b| {
-        let own = binding(b, around);
-        let mut item = item(b, around, own);
+        let first = binding(b, around);
+        let mut item = item(b, around, first);
         if around.is_table && b.one_in(8) {
             (item.name, item.ty) = (names::of_window(b), b.pick(&[Type::Unsigned(16), Type::Integer(32)]));
         }
@@ -197,9 +197,9 @@ fn binding(b: &mut Bytes<'_>, around: &Around<'_>) -> Binding {
     match b.within(0..=11) {
         0 | 1 => Binding::Object { buses: b.pick(around.buses), index: b.within(0x2000..=0x2020), sub_index: b.any() },
         2..=5 => Binding::Register(Box::new(register(b))),
-        6 => Binding::Parameter { space: names::of(b, around.spaces), code: b.pick(&[0, 1, 255, u32::MAX]) },
+        6 => Binding::parameter(&names::of(b, around.spaces), b.pick(&[0, 1, 255, u32::MAX])),
         7 => Binding::Image(Box::new(ImageBinding {
-            image: names::of(b, around.images),
+            image: names::of(b, around.images).into(),
             bit_offset: b.within(0..=80),
             bits: b.within(0..=70),
             ty: b.maybe(4, types::basic),

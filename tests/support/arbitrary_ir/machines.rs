@@ -16,11 +16,11 @@ use super::values;
 pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactString]) -> StateMachine {
     let (states, commands) = (b.list(6, pattern), b.list(6, pattern));
     let [state_names, command_names]: [Vec<CompactString>; 2] =
-        [&states, &commands].map(|list| list.iter().map(|own| own.name.clone()).collect());
+        [&states, &commands].map(|list| list.iter().map(|pattern| pattern.name.clone()).collect());
     let transitions = b.list(6, |b| Transition {
         number: b.maybe(2, |b| b.within(0..=16)),
-        from: b.maybe(2, |b| names::of(b, &state_names)),
-        to: names::of(b, &state_names),
+        from: b.maybe(2, |b| names::of(b, &state_names).into()),
+        to: names::of(b, &state_names).into(),
         command: b.maybe(2, |b| names::of(b, &command_names).into()),
         documentation: names::documentation(b),
     });
@@ -29,8 +29,8 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         status_item: names::of(b, items).into(),
         control_item: names::of(b, items).into(),
         state_type: b.maybe(5, |b| names::of(b, types).into()),
-        initial: b.maybe(3, |b| names::of(b, &state_names)),
-        faults: b.few(3, 2, |b| names::of(b, &state_names)),
+        initial: b.maybe(3, |b| names::of(b, &state_names).into()),
+        faults: b.few(3, 2, |b| names::of(b, &state_names).into()),
         outcomes: b.few(3, 3, |b| outcomes(b, &state_names)),
         states: states.into(),
         commands: commands.into(),
@@ -49,14 +49,14 @@ fn pattern(b: &mut Bytes<'_>) -> Pattern {
 fn outcomes(b: &mut Bytes<'_>, states: &[CompactString]) -> CommandOutcomes {
     CommandOutcomes {
         name: names::name(b),
-        commands: b.list(2, names::name),
+        commands: b.list(2, |b| names::name(b).into()),
         availability: b.maybe(4, availability).map(Box::new),
         cells: b.list(4, |b| StateOutcome {
-            state: names::of(b, states),
+            state: names::of(b, states).into(),
             outcomes: b.list(2, |b| match b.within(0..=2) {
                 0 => Outcome::Unchanged,
                 1 => Outcome::Refused,
-                _ => Outcome::States(b.list(2, |b| names::of(b, states))),
+                _ => Outcome::States(b.list(2, |b| names::of(b, states).into())),
             }),
             documentation: names::documentation(b),
         }),
@@ -127,7 +127,7 @@ pub fn given(b: &mut Bytes<'_>) -> GivenNumber {
     GivenNumber {
         name: names::name(b),
         unit: names::unit(b),
-        models: b.few(3, 2, |b| (names::model(b), Value::Real(values::real(b)))),
+        models: b.few(3, 2, |b| (names::model(b).into(), Value::Real(values::real(b)))),
         documentation: names::documentation(b),
         doubts: names::doubts(b),
         origin: Origin::default(),

@@ -1,7 +1,8 @@
 //! Random serial protocols: requests and replies, parameter spaces and framing.
 
 use lexibus_codegen::ir::{
-    CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace, Value,
+    CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace, SpaceRef,
+    Value,
 };
 use lexibus_codegen::source::Origin;
 
@@ -15,9 +16,9 @@ use super::values;
 pub fn messages(b: &mut Bytes<'_>, around: &Around<'_>, most: usize) -> Vec<Message> {
     let mut messages: Vec<Message> = Vec::new();
     for _ in 0..b.within(0..=most) {
-        let known: Vec<CompactString> = messages.iter().map(|own| own.name.clone()).collect();
-        let own = message(b, around, &known);
-        messages.push(own);
+        let known: Vec<CompactString> = messages.iter().map(|message| message.name.clone()).collect();
+        let message = message(b, around, &known);
+        messages.push(message);
     }
     messages
 }
@@ -49,7 +50,7 @@ fn message(b: &mut Bytes<'_>, around: &Around<'_>, known: &[CompactString]) -> M
         accepted_when: b.few(6, 2, condition),
         names: names::texts(b),
         availability: b.maybe(6, availability).map(Box::new),
-        accepted_in: b.few(6, 2, names::name),
+        accepted_in: b.few(6, 2, |b| names::name(b).into()),
         examples: b.few(8, 1, example),
         documentation: names::documentation(b),
         doubts: names::doubts(b),
@@ -76,11 +77,11 @@ fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]
     let asked = request.map(fields).unwrap_or_default();
     let mut frame: Vec<MessageField> = Vec::new();
     for _ in 0..b.within(0..=5) {
-        let own = fields(&frame);
+        let names_of_fields = fields(&frame);
         match b.within(0..=15) {
             0..=2 => frame.push(MessageField::Constant(b.list(3, Bytes::any))),
             3 => frame.extend(bits(b)),
-            4..=8 => frame.push(value(b, around, &own)),
+            4..=8 => frame.push(value(b, around, &names_of_fields)),
             9 if request.is_some() => {
                 let bytes = b.maybe(4, |b| (0, b.within(0..=1)));
                 frame.push(MessageField::Echo { field: names::of(b, &asked), bytes });
@@ -113,7 +114,7 @@ fn value(b: &mut Bytes<'_>, around: &Around<'_>, before: &[CompactString]) -> Me
 
 /// Returns a field with a parameter number, usually followed by its value.
 fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
-    let space = names::of(b, around.spaces);
+    let space = SpaceRef::from(names::of(b, around.spaces));
     let code = MessageField::ItemCode { space: space.clone(), bits: b.pick(&[8, 16, 32, 12, 33]) };
     match b.within(0..=4) {
         0 => vec![code],
@@ -156,7 +157,7 @@ pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString])
 
 /// Returns a framing. One of the message fields is the station address.
 pub fn framing(b: &mut Bytes<'_>, messages: &[Message]) -> Framing {
-    let requested: Vec<CompactString> = messages.iter().flat_map(|own| fields(&own.request)).collect();
+    let requested: Vec<CompactString> = messages.iter().flat_map(|message| fields(&message.request)).collect();
     Framing {
         start: b.maybe(2, Bytes::any),
         end: b.maybe(2, Bytes::any),

@@ -40,11 +40,11 @@ fn pdo(
         entry.bit_offset = offset;
         offset = offset.saturating_add(entry.bits);
     }
-    let own = Pdo::new(direction, index);
+    let pdo = Pdo::new(direction, index);
     Pdo {
         name: names::name(b),
         // CANopen PDO numbers start at 1.
-        number: if is_ethercat { own.number } else { own.number + 1 },
+        number: if is_ethercat { pdo.number } else { pdo.number + 1 },
         communication: b.maybe(2, |b| communication(b, index)),
         entries,
         fixed: b.any(),
@@ -68,7 +68,7 @@ fn pdo(
         extensions: names::extensions(b),
         buses: b.maybe(6, |b| b.pick(&BUSES)),
         implicit: b.one_in(12),
-        ..own
+        ..pdo
     }
 }
 
@@ -88,7 +88,8 @@ fn communication(b: &mut Bytes<'_>, mapping: u16) -> PdoCommunication {
 
 /// Returns a PDO entry of an existing or missing object, or padding.
 fn entry(b: &mut Bytes<'_>, groups: &[Group], types: &[TypeDef]) -> PdoEntry {
-    let objects: Vec<&Group> = groups.iter().filter(|own| own.index().is_some() && !own.items.is_empty()).collect();
+    let objects: Vec<&Group> =
+        groups.iter().filter(|group| group.index().is_some() && !group.items.is_empty()).collect();
     let mut entry = match b.within(0..=7) {
         0..=4 if !objects.is_empty() => {
             let object = b.pick(&objects);

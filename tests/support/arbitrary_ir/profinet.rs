@@ -1,10 +1,10 @@
 //! Random PROFINET descriptions: device access points, modules, submodules, records and diagnosis.
 
 use lexibus_codegen::ir::{
-    Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, Family, Graphic, Group,
-    GroupKind, Identity, IoChannel, IoData, IoItem, IoLengths, Item, LocalText, Menu, Module, ModuleId, ModuleUse,
-    Numbers, ObjectCode, ProfinetSettings, Record, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
-    SubslotName, Type, TypeDef, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
+    Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, FactOrigin, Family, Graphic,
+    Group, GroupKind, Identity, IdentityNumber, IoChannel, IoData, IoItem, IoLengths, Item, LocalText, Menu, Module,
+    ModuleId, ModuleUse, Numbers, ObjectCode, ProfinetSettings, Record, Rule, SlotNumbers, Submodule, SubmoduleId,
+    SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeDef, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
 };
 use lexibus_codegen::source::Origin;
 
@@ -28,6 +28,8 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
         submodules,
         code_tables: b.list(2, machines::code_table),
         unit_diagnoses: b.list(2, |b| unit_diagnosis(b, &types)),
+        vendor_names: names::texts(b),
+        descriptions: names::texts(b),
         types,
         families: b.few(2, 2, |b| Family {
             id: names::name(b),
@@ -94,6 +96,7 @@ pub fn identity(b: &mut Bytes<'_>) -> Identity {
         order_code: names::name(b),
         serial_number: b.maybe(6, Bytes::any),
         others: b.few(6, 1, |b| (names::name(b), b.any())),
+        origins: b.few(6, 1, |b| (b.pick(&IdentityNumber::ALL), FactOrigin::Rule(Rule::IdentityObject))),
     }
 }
 

@@ -72,7 +72,7 @@ pub fn commissioning(b: &mut Bytes<'_>) -> Commissioning {
 pub fn ethercat(b: &mut Bytes<'_>) -> EtherCatSettings {
     EtherCatSettings {
         physics: b.pick(&["YY", "", "Y*/"]).into(),
-        group: names::name(b),
+        group: names::name(b).into(),
         hides: b.few(6, 2, |b| (b.any(), b.any())),
         invisible: b.one_in(6),
         fmmus: b.list(3, |b| Fmmu {

@@ -65,8 +65,8 @@ pub fn any(b: &mut Bytes<'_>, defined: usize) -> Type {
 pub fn base(types: &[TypeDef], mut ty: Type) -> Type {
     for _ in 0..8 {
         let Type::Named(id) = ty else { return ty };
-        ty = match types.get(id.0 as usize).map(|own| &own.shape) {
-            Some(Shape::Alias(own)) => *own,
+        ty = match types.get(id.0 as usize).map(|definition| &definition.shape) {
+            Some(Shape::Alias(definition)) => *definition,
             Some(Shape::BitField { base, .. } | Shape::Enumeration { base, .. } | Shape::Scaled { base, .. }) => *base,
             _ => return Type::Opaque(None),
         };
@@ -106,7 +106,7 @@ fn shape(b: &mut Bytes<'_>, types: &[TypeDef]) -> Shape {
 
 /// Returns an integer type or, in rare cases, BOOLEAN or an alias.
 fn below(b: &mut Bytes<'_>, types: &[TypeDef]) -> Type {
-    let aliases = || types.iter().zip(0..).filter(|(own, _)| matches!(own.shape, Shape::Alias(_)));
+    let aliases = || types.iter().zip(0..).filter(|(definition, _)| matches!(definition.shape, Shape::Alias(_)));
     match b.within(0..=11) {
         10 => Type::Boolean,
         11 => aliases().next().map_or(Type::Unsigned(8), |(_, at)| Type::Named(TypeId(at))),
@@ -150,9 +150,9 @@ fn bit_fields(b: &mut Bytes<'_>, types: &[TypeDef], width: u32) -> Vec<BitFieldE
 }
 
 fn bit_field(b: &mut Bytes<'_>, types: &[TypeDef], offset: u8, bits: u8) -> BitFieldEntry {
-    let is_enumeration = |own: &TypeDef| matches!(own.shape, Shape::Enumeration { .. });
+    let is_enumeration = |definition: &TypeDef| matches!(definition.shape, Shape::Enumeration { .. });
     let enumerations: Vec<u32> =
-        types.iter().zip(0..).filter(|(own, _)| is_enumeration(own)).map(|(_, at)| at).collect();
+        types.iter().zip(0..).filter(|(definition, _)| is_enumeration(definition)).map(|(_, at)| at).collect();
     let of_width = |at: &u32| base(types, Type::Named(TypeId(*at))).bits() == Some(bits.into());
     let fitting: Vec<u32> = enumerations.iter().copied().filter(of_width).collect();
     let choice = if fitting.is_empty() { &enumerations } else { &fitting };

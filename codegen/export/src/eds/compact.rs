@@ -23,13 +23,13 @@ pub(super) fn elements(group: &Group) -> Option<Elements<'_>> {
     let (count_item, items) = group.items.split_first()?;
     let count = u8::try_from(items.len()).ok().filter(|&count| (1..=254).contains(&count))?;
     let template = items.first()?;
-    let is_in_place =
+    let is_consecutive =
         |(item, sub): (&Item, u8)| item.origin == group.origin && item.object().is_some_and(|(_, index)| index == sub);
     let fits = group.object_code() == Some(ObjectCode::Array)
         && group.origin.line > 0
         && group.flags == template.flags
         && !matches!(template.ty, Type::Opaque(None))
-        && group.items.iter().zip(0..=u8::MAX).all(is_in_place)
+        && group.items.iter().zip(0..=u8::MAX).all(is_consecutive)
         && is_count(count_item, count)
         && items.iter().all(|item| is_like(item, template));
     fits.then_some(Elements { group, count, template })

@@ -123,8 +123,8 @@ impl<'a> Extras<'a> {
             }
         }
         let mut next = mentioned.clone().into_iter();
-        let in_place = |header: Header| if mentioned.contains(&header) { next.next() } else { Some(header) };
-        HEADERS.into_iter().filter_map(in_place).collect()
+        let ordered = |header: Header| if mentioned.contains(&header) { next.next() } else { Some(header) };
+        HEADERS.into_iter().filter_map(ordered).collect()
     }
 
     /// Returns the extension attributes of a section of the header.

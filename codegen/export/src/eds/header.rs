@@ -153,7 +153,7 @@ fn commissioning(out: &mut Section<'_>, context: &Context<'_>) {
 }
 
 fn supported_modules(out: &mut Section<'_>, context: &Context<'_>, catalog: &Catalog) {
-    let count = context.device.own_modules(&catalog.modules).count();
+    let count = context.device.accepted_modules(&catalog.modules).count();
     if context.is_canopen && (count > 0 || out.is_open) {
         out.open().entry("NrOfEntries", count);
     }

@@ -11,7 +11,7 @@ use lexibus_codegen::ir::{Catalog, Group, Module, SubExtension};
 /// Writes the modules of a CANopen device. For devices on other buses, adds only a note with the number of modules,
 /// because the objects of their modules depend on the slot.
 pub(super) fn write(writer: &mut Writer, context: &Context<'_>, catalog: &Catalog) {
-    for module in context.device.own_modules(&catalog.modules) {
+    for module in context.device.accepted_modules(&catalog.modules) {
         let number = module.number;
         if !context.is_canopen {
             writer.notes.add(NoteKind::Module, Subject::Named(&module.name));

@@ -37,7 +37,6 @@ const CURRENT: &str = "Electrical/EBusCurrent";
 const IMAGES: [&str; 2] = ["Image16x14", "ImageFile16x14"];
 const URL: &str = "Device/URL";
 const URL_LANGUAGE: &str = "Device/URL@LcId";
-const VENDOR_NAME: &str = "Vendor/Name@";
 const VENDOR_URL: &str = "Vendor/URL";
 
 fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
@@ -91,8 +90,8 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, se
     let list = device.extensions.as_slice();
     let states = times(context, settings, &STATE_TIMES);
     let mailbox = times(context, settings, &MAILBOX_TIMES);
-    let has_own = CONTROLLER.iter().chain(&LAST).chain([&CURRENT]).any(|key| find(list, key).is_some());
-    if states.is_empty() && mailbox.is_empty() && !has_own {
+    let has_elements = CONTROLLER.iter().chain(&LAST).chain([&CURRENT]).any(|key| find(list, key).is_some());
+    if states.is_empty() && mailbox.is_empty() && !has_elements {
         return;
     }
     xml.open("Info");
@@ -165,13 +164,12 @@ pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
 
 /// Writes the vendor's name in the additional languages.
 pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
-    for extension in &context.catalog.extensions {
-        let Some(language) = extension.key.strip_prefix(VENDOR_NAME) else { continue };
-        match language::lcid(language) {
+    for name in &context.catalog.vendor_names {
+        match language::lcid(&name.language) {
             Some(lcid) => {
                 xml.open("Name");
                 xml.attribute("LcId", lcid);
-                xml.content(&extension.value);
+                xml.content(&name.text);
                 xml.close();
             }
             None => context.notes.add(NoteKind::Language, Subject::Named("Vendor")),
@@ -183,8 +181,8 @@ pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
 pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     let urls = context.catalog.extensions.iter().filter(|extension| extension.key == VENDOR_URL);
     urls.for_each(|extension| xml.leaf("URL", &extension.value));
-    let is_written = |extension: &&Extension| extension.key == VENDOR_URL || extension.key.starts_with(VENDOR_NAME);
-    let lost = context.catalog.extensions.iter().filter(|extension| !is_written(extension)).count();
+    let lost = context.catalog.extensions.iter().filter(|extension| extension.key != VENDOR_URL).count();
+    let lost = lost + context.catalog.descriptions.len();
     context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
@@ -193,6 +191,6 @@ pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
     const VERSION: &str = "EtherCATDiag@Version";
     let all = context.catalog.extensions.as_slice();
     xml.optional("Version", find(all, VERSION).map(|extension| &extension.value));
-    let lost = all.iter().filter(|extension| extension.key != VERSION).count();
+    let lost = all.iter().filter(|extension| extension.key != VERSION).count() + context.catalog.vendor_names.len();
     context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
 }

@@ -37,7 +37,7 @@ pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes
     objects.retain(|group| {
         let is_of_can = is_canopen_only && group.index().is_some_and(is_of_can);
         let is_absent = !group.items.is_empty() && !group.items.iter().any(|item| is_on_ethercat(device, item));
-        let is_left_out = is_of_can || is_absent && !of_registers.iter().any(|object| std::ptr::eq(object, *group));
+        let is_left_out = is_of_can || is_absent;
         notes.add_many(NoteKind::CanObject, is_left_out, Subject::object(group));
         !is_left_out
     });

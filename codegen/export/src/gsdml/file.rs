@@ -1,6 +1,6 @@
 //! Writes the file with its header, identity and lists.
 
-use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format, LocalText};
+use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format};
 
 use super::super::note::{Notes, Subject};
 use super::super::options::MissingFacts;
@@ -152,11 +152,7 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     let number = context.required(options.device_id(), number, "device-id");
     xml.attribute("DeviceID", format_args!("0x{number:04X}"));
     let text = context.required(options.description(), text, "description");
-    let language = |extension: &Extension| {
-        let language = extension.key.strip_prefix("DeviceIdentity/InfoText/")?;
-        Some(LocalText { language: language.into(), text: extension.value.clone() })
-    };
-    let translations = catalog.extensions.iter().filter_map(language).collect();
+    let translations = catalog.descriptions.clone();
     context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
     let name = context.required(options.vendor_name(), name, "vendor-name");
     xml.reference("VendorName", "Value", name);
@@ -209,13 +205,12 @@ fn lost(context: &mut Context<'_>) {
             key.strip_prefix(above).is_some_and(|name| names.iter().any(|(known, _)| *known == name))
         };
         texts::kept(key).is_some()
-            || key.starts_with("DeviceIdentity/InfoText/")
             || is_header("ProfileHeader/", &HEADER)
             || is_header("ISO15745Reference/", &REFERENCE)
             || matches!(key, "ProfileHeader/ProfileDate" | "ProfileHeader/AdditionalInformation")
     };
     let lost = catalog.extensions.iter().filter(|extension| !is_written(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
+    context.notes.add_many(NoteKind::Extension, lost + catalog.vendor_names.len(), Subject::Device);
     let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
     context.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);
 }

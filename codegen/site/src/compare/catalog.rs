@@ -44,6 +44,8 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
         graphics: part("the catalog", fact_as("pictures", Judgment::NONE, |list: &Vec<Graphic>| {
             list.iter().map(|graphic| format!("{} {}", graphic.id, graphic.file)).collect::<Vec<_>>().join("; ")
         })),
+        vendor_names: part("the catalog", text("name of the vendor in other languages")),
+        descriptions: part("the catalog", text("description in other languages")),
         extensions: part("the catalog", extensions),
     }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
 }

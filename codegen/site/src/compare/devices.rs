@@ -13,8 +13,8 @@ use super::texts::{documentation, doubts, extensions, manual, renamed};
 use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
 use lexibus_codegen::facts;
 use lexibus_codegen::ir::{
-    AxisRange, AxisRule, CanOpenSettings, Commissioning, CompactString, Composite, Device, DynamicChannel, GivenNumber,
-    Group, Header, MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
+    AxisRange, AxisRule, CanOpenSettings, Commissioning, Composite, Device, DynamicChannel, GivenNumber, Group, Header,
+    MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
 };
 
 /// Compares all facts and elements of a device.
@@ -205,7 +205,7 @@ fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) 
 }
 
 /// Formats the constants of a model, such as `Small 5, Large 10`.
-fn constants(constants: &Vec<(CompactString, Value)>) -> String {
+fn constants<Name: Show>(constants: &Vec<(Name, Value)>) -> String {
     constants.show()
 }
 

@@ -1,10 +1,11 @@
 //! Compares the vendor, product and revision of devices, modules and submodules.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact_as, text, Comparison};
+use super::comparison::{compare_fields, fact_as, positioned, text, Comparison};
 use super::show::ident;
+use super::texts::origin;
 use lexibus_codegen::facts::number::hex32;
-use lexibus_codegen::ir::{CompactString, Identity};
+use lexibus_codegen::ir::{CompactString, FactOrigin, Identity, IdentityNumber};
 
 /// Compares identities. A program can check the identity, but the identity does not affect any other bytes.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
@@ -18,6 +19,9 @@ pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparis
         serial_number: fact_as("serial number", Judgment::BEHAVIOR, ident),
         others: fact_as("further identity", Judgment::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
             others.iter().map(|(name, number)| format!("{name} {}", hex32(*number))).collect::<Vec<_>>().join(", ")
+        }),
+        origins: positioned("origins", Judgment::NONE, |origins: &Vec<(IdentityNumber, FactOrigin)>| {
+            origins.iter().map(|(number, from)| format!("{}: {}", number.name(), origin(from))).collect::<Vec<_>>().join("; ")
         }),
     });
 }

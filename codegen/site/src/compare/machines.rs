@@ -48,7 +48,7 @@ fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {
 
 fn transitions() -> Elements<Transition> {
     Elements::titled(|transition: &Transition| {
-        let from = transition.from.as_deref().unwrap_or("any state");
+        let from = transition.from.as_ref().map_or("any state", |state| state.as_str());
         let command = transition.command.as_ref();
         let command = command.map_or_else(|| "without a command".to_owned(), |command| format!("by {command}"));
         format!("transition from {from} to {} {command}", transition.to)
@@ -82,7 +82,7 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
     let outcome = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => "state unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
-        Outcome::States(states) => states.join(", then "),
+        Outcome::States(states) => states.iter().map(|state| state.as_str()).collect::<Vec<_>>().join(", then "),
     };
     compare_fields!(StateOutcome, old, new, comparison, {
         outcomes: fact_as("outcome", Judgment::BEHAVIOR, |list: &Vec<Outcome>| {

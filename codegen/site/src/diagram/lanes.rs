@@ -40,14 +40,14 @@ impl Lanes {
         }
         needed.sort_by_key(|(top, bottom, at)| (bottom - top, *at));
         let mut of_edges = vec![None; edges.len()];
-        let mut taken: Vec<Vec<(usize, usize)>> = Vec::new();
+        let mut lanes: Vec<Vec<(usize, usize)>> = Vec::new();
         for (top, bottom, at) in needed {
             let is_free = |lane: &Vec<(usize, usize)>| lane.iter().all(|(other, end)| *end < top || bottom < *other);
-            let lane = taken.iter().position(is_free).unwrap_or_else(|| {
-                taken.push(Vec::new());
-                taken.len() - 1
+            let lane = lanes.iter().position(is_free).unwrap_or_else(|| {
+                lanes.push(Vec::new());
+                lanes.len() - 1
             });
-            taken[lane].push((top, bottom));
+            lanes[lane].push((top, bottom));
             of_edges[at] = Some(Lane { number: lane as u32, rows: (top, bottom) });
         }
         Lanes { of_edges }
@@ -82,10 +82,10 @@ impl Lanes {
     ) -> (u32, bool) {
         let [start, end] = ends(edge);
         let (middle, half) = (u32::midpoint(start, end), length.div_ceil(2));
-        let Some(own) = self.of_edges[edge] else { return (middle, false) };
-        let (low, high) = (top(own.rows.0).min(height), top(own.rows.1 + 1).min(height));
+        let Some(lane) = self.of_edges[edge] else { return (middle, false) };
+        let (low, high) = (top(lane.rows.0).min(height), top(lane.rows.1 + 1).min(height));
         let outer =
-            self.of_edges.iter().enumerate().filter(|(_, lane)| lane.is_some_and(|lane| lane.number > own.number));
+            self.of_edges.iter().enumerate().filter(|(_, other)| other.is_some_and(|other| other.number > lane.number));
         let mut crossings: Vec<u32> = outer.flat_map(|(at, _)| ends(at)).filter(|y| (low..=high).contains(y)).collect();
         crossings.sort_unstable();
         let edges = [low.saturating_sub(CLEAR), high + CLEAR];
@@ -119,9 +119,9 @@ impl Ports {
                 let mut ports: Vec<(bool, i64, usize, usize)> = Vec::new();
                 for (at, edge) in edges.iter().enumerate() {
                     let Some(lane) = lanes.number(at).map(i64::from) else { continue };
-                    for (end, (own, other)) in [(edge.from, edge.to), (edge.to, edge.from)].into_iter().enumerate() {
-                        if own == state {
-                            let leads_down = rows[other] > rows[own] || own == other && end == 1;
+                    for (end, (this, other)) in [(edge.from, edge.to), (edge.to, edge.from)].into_iter().enumerate() {
+                        if this == state {
+                            let leads_down = rows[other] > rows[this] || this == other && end == 1;
                             ports.push((leads_down, if leads_down { -lane } else { lane }, at, end));
                         }
                     }

@@ -1,5 +1,6 @@
 //! Bit fields: integers with named bits.
 
+use crate::facts::number::hex;
 use std::collections::HashSet;
 
 use super::code::{call, seq, Doc};
@@ -291,7 +292,7 @@ fn written(zeros: u64, ones: u64) -> Option<String> {
 }
 
 fn hexadecimal(number: u64) -> String {
-    format!("{number:#X}").replacen("0X", "0x", 1)
+    hex(number)
 }
 
 fn hexadecimal_or_zero(number: u64) -> String {

@@ -1,5 +1,6 @@
 //! Enumerations for the codes of code tables. With these enumerations, programs match alarms by name.
 
+use crate::facts::number::hex;
 use std::collections::{BTreeMap, HashSet};
 
 use super::doc_table;
@@ -142,7 +143,7 @@ fn pattern(span: Span) -> String {
 /// Returns a code as a literal. Codes of 10 and above are hexadecimal.
 pub(super) fn number(code: i64) -> String {
     if code > 9 {
-        format!("{code:#X}").replacen("0X", "0x", 1)
+        hex(code)
     } else {
         code.to_string()
     }

@@ -4,6 +4,7 @@ use super::code::{call, list, Doc};
 use super::literal;
 use crate::facts::address;
 use crate::facts::configuration::{Configuration, LeftOut, Setting};
+use crate::facts::number::{hex16, hex8};
 use crate::ir::Device;
 
 /// Maximum number of addresses that the documentation lists for each reason why objects are left out.
@@ -66,16 +67,13 @@ fn setting(setting: &Setting) -> Doc {
 fn write(setting: &Setting) -> Doc {
     let (index, sub_index) = setting.object;
     let (name, value) = match *setting.bytes.as_slice() {
-        [a] => ("u8", format!("0x{a:02X}")),
-        [a, b] => ("u16", format!("0x{:04X}", u16::from_le_bytes([a, b]))),
-        [a, b, c, d] => {
-            let (low, high) = (u16::from_le_bytes([a, b]), u16::from_le_bytes([c, d]));
-            ("u32", format!("0x{high:04X}_{low:04X}"))
-        }
+        [a] => ("u8", hex8(a)),
+        [a, b] => ("u16", hex16(u16::from_le_bytes([a, b]))),
+        [a, b, c, d] => ("u32", literal::word(u32::from_le_bytes([a, b, c, d]))),
         // No number has more than 8 bytes.
         ref text if text.len() > 8 => ("bytes", literal::text_bytes(text)),
         ref bytes => ("bytes", literal::bytes(bytes)),
     };
-    let arguments = [format!("0x{index:04X}"), format!("0x{sub_index:02X}"), value];
+    let arguments = [hex16(index), hex8(sub_index), value];
     list(&format!("rt::SdoWrite::new_{name}("), arguments, ")")
 }

@@ -10,6 +10,7 @@ use super::links::DocModule;
 use super::locations::Locations;
 use super::objects::ObjectModel;
 use super::value_type;
+use crate::ir::ItemId;
 
 /// Objects that contain the error code of a fault, in order of preference. These are the error code of CiA 402, 6.2, and the
 /// first entry of the pre-defined error field of CiA 301, 7.5.2.4.
@@ -68,6 +69,10 @@ impl Constants<'_, '_> {
 }
 
 impl Constant<'_> {
+    pub fn id(&self) -> ItemId {
+        self.model.id
+    }
+
     pub fn is_readable(&self) -> bool {
         self.model.access != "WriteOnly"
     }

@@ -6,6 +6,7 @@ use super::item_type::ItemType;
 use super::literal;
 use super::value_type::ValueType;
 use super::variant;
+use crate::facts::number::{hex16, hex8};
 use crate::ir::{Item, Value};
 
 /// Default arguments, which the short constructors omit.
@@ -74,7 +75,7 @@ impl<'i> Arguments<'i> {
     fn of_object(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let (object, index, sub) = addresses.only_object().filter(|_| self.is_plain())?;
         let (name, flags) = (&self.name, self.flags);
-        let [index, sub] = [format!("0x{index:04X}"), format!("0x{sub:02X}")];
+        let [index, sub] = [hex16(index), hex8(sub)];
         match (&self.default, flags) {
             (Some(default), NO_FLAGS) => Some(call!(seq![object, "_with_default"], index, sub, name, default)),
             (Some(default), _) => {

@@ -6,6 +6,7 @@ use super::links::DocModule;
 use super::naming::handles::NamedItem;
 use super::variant;
 pub(super) use super::words::{escape, WORDS};
+use crate::facts::number::hex16;
 use crate::facts::physical::Physical;
 pub(super) use crate::facts::words::sentence;
 use crate::facts::words::Words;
@@ -133,7 +134,7 @@ fn elsewhere(binding: &Binding) -> Option<String> {
     match binding {
         Binding::Ascii(name) => Some(format!("Name in the device's ASCII protocol: {}.", escape(name))),
         Binding::EscMemory { address, length } => {
-            Some(format!("Address in the memory of the slave controller: 0x{address:04X}, {length} bytes."))
+            Some(format!("Address in the memory of the slave controller: {}, {length} bytes.", hex16(*address)))
         }
         _ => None,
     }

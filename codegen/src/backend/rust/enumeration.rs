@@ -1,5 +1,6 @@
 //! Enumerations: named values of an integer.
 
+use crate::facts::number::hex;
 use std::collections::HashSet;
 
 use super::context::Context;
@@ -80,7 +81,7 @@ pub(super) fn model(
         equality: RustOptions::gate(&options.partial_eq),
         base: named.base,
         native: named.native,
-        complete: complete.then(|| format!("{:#X}", (1_u32 << named.bits) - 1).replacen("0X", "0x", 1)),
+        complete: complete.then(|| hex((1_u32 << named.bits) - 1)),
         variants,
         name: named.name.clone(),
     }

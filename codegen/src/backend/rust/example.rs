@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::docs::{typed, WORDS};
+use super::naming::handles::NamedItem;
 use super::objects;
 use super::value_type;
 use super::walk::WalkModel;
@@ -10,7 +11,7 @@ use crate::ir::{Binding, Item, Type, Value};
 /// Returns the lines of the example, which creates the driver, leads its state machine to a state, reads a value and
 /// writes a value. Returns no lines if a program cannot access any value of the device.
 pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel]) -> Vec<String> {
-    let calls: Vec<(&Item, String)> = objects::calls(context).map(|(entry, path)| (entry.item, path)).collect();
+    let calls: Vec<(&NamedItem<'_>, String)> = objects::calls(context).collect();
     let (read, write) = (readable(context, &calls), writable(context, &calls));
     if read.is_none() && write.is_none() {
         return Vec::new();
@@ -20,11 +21,12 @@ pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel
         let state = walk.energized.as_ref()?;
         Some(format!("drive.{}(types::{}::{state}, Duration::from_secs(2))?;", walk.method, walk.states))
     }));
-    lines.extend(read.map(|(item, path)| {
-        let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+    lines.extend(read.map(|(entry, path)| {
+        let unit = entry.item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
         format!("let value = drive.{path}.read()?;{}", comment(unit))
     }));
-    lines.extend(write.map(|(item, path, number)| {
+    lines.extend(write.map(|(entry, path, number)| {
+        let item = entry.item;
         let shown = WORDS.of_item(item, &Value::Int(number), &|value| typed(value, context.base(item.ty)));
         format!("drive.{path}.write({number})?;{}", comment(&shown))
     }));
@@ -33,20 +35,29 @@ pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel
 }
 
 /// Returns the item that an example reads, preferably a measured value, and the call of its accessor.
-pub(super) fn readable<'c>(context: &Context<'_>, calls: &'c [(&Item, String)]) -> Option<(&'c Item, &'c str)> {
+pub(super) fn readable<'c, 'a>(
+    context: &Context<'_>,
+    calls: &'c [(&NamedItem<'a>, String)],
+) -> Option<(&'c NamedItem<'a>, &'c str)> {
     let is_actual = |item: &Item| is_measured(context, item) && item.access.readable() && !item.access.writable();
     let by_preference: [&dyn Fn(&Item) -> bool; 3] =
         [&|item| is_actual(item) && item.mappable.tpdo, &is_actual, &|item| {
             item.access.readable() && !is_communication(item)
         }];
-    let found = by_preference.iter().find_map(|is_it| calls.iter().find(|(item, _)| is_it(item)));
-    found.map(|(item, call)| (*item, call.as_str()))
+    let found = by_preference.iter().find_map(|is_it| calls.iter().find(|(entry, _)| is_it(entry.item)));
+    found.map(|(entry, call)| (*entry, call.as_str()))
 }
 
 /// Returns the setting that an example writes, the call of its accessor, and its default value.
-pub(super) fn writable<'c>(context: &Context<'_>, calls: &'c [(&Item, String)]) -> Option<(&'c Item, &'c str, i128)> {
-    let settings = calls.iter().filter(|(item, _)| is_measured(context, item) && item.access.writable());
-    settings.into_iter().find_map(|(item, call)| Some((*item, call.as_str(), default(item, context.base(item.ty))?)))
+pub(super) fn writable<'c, 'a>(
+    context: &Context<'_>,
+    calls: &'c [(&NamedItem<'a>, String)],
+) -> Option<(&'c NamedItem<'a>, &'c str, i128)> {
+    let is_setting = |item: &Item| is_measured(context, item) && item.access.writable();
+    calls.iter().filter(|(entry, _)| is_setting(entry.item)).find_map(|(entry, call)| {
+        let number = default(entry.item, context.base(entry.item.ty))?;
+        Some((*entry, call.as_str(), number))
+    })
 }
 
 /// Returns whether an item is an integer of 8, 16 or 32 bits without an enumeration or bit field.

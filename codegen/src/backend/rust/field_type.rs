@@ -3,6 +3,7 @@
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
 use super::naming::types::NamedType;
+use crate::facts::number::hex;
 use crate::ir::Type;
 
 /// Number of bits in a word, that is, in the `u64` that contains encoded values.
@@ -92,9 +93,7 @@ impl FieldType {
     /// beyond the field's width, or its conversions clear these bits.
     pub fn cut(&self, bits: u32) -> Option<String> {
         match self {
-            FieldType::Named(_, native) if native_bits(native) > bits => {
-                Some(format!("{:#X}", u64::MAX >> (WORD - bits)).replace("0X", "0x"))
-            }
+            FieldType::Named(_, native) if native_bits(native) > bits => Some(hex(u64::MAX >> (WORD - bits))),
             _ => None,
         }
     }

@@ -4,7 +4,7 @@ use super::context::Context;
 use super::docs;
 use super::docs::WORDS;
 use super::options::RustOptions;
-use crate::ir::{Device, Item, MachineUnit};
+use crate::ir::{Device, GivenRef, Item, MachineUnit};
 use crate::names::{self, Case, NameRequest};
 
 /// A struct with the machine constants, and unit conversions that depend on them.
@@ -36,9 +36,9 @@ pub(super) fn name_request(name: &str) -> NameRequest<'_> {
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
     let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
-    let field = |name: &str| {
-        let at = device.given.iter().position(|number| number.name == name)?;
-        names.get(at).map(|name| format!("self.{}", names::escaped(name)))
+    let field = |number: &GivenRef| {
+        let name = names.get(number.id?.0 as usize)?;
+        Some(format!("self.{}", names::escaped(name)))
     };
     let numbers = device.given.iter().zip(&names).map(|(number, name)| {
         let mut lines = vec![format!("{}{}.", docs::escape(&number.name), in_unit(&number.unit))];
@@ -56,7 +56,7 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
 
 /// Returns the conversions between units of the device and units of the machine, without repetitions, in the order of
 /// the items that need them.
-fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitModel> {
+fn units(device: &Device, field: &dyn Fn(&GivenRef) -> Option<String>) -> Vec<UnitModel> {
     let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
     let items = device.groups.iter().flat_map(|group| &group.items);
     let fields = device.messages.iter().flat_map(|message| message.values().map(|value| &value.item));
@@ -73,12 +73,11 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
         texts.iter().flat_map(|[from, to]| [format!("{from} to {to}"), format!("{to} to {from}")]).collect();
     let name_requests = names::numbered(texts.iter().map(String::as_str), "conversion");
     let names = names::unique(&name_requests, &["self"], Case::Snake);
-    let expression = |times: &[_], over: &[_]| -> Option<String> {
+    let expression = |times: &[GivenRef], over: &[GivenRef]| -> Option<String> {
         let mut text = "value".to_owned();
-        for (names, operator) in [(times, '*'), (over, '/')] {
-            for name in names {
-                let name: &crate::ir::CompactString = name;
-                text += &format!(" {operator} {}", field(name)?);
+        for (numbers, operator) in [(times, '*'), (over, '/')] {
+            for number in numbers {
+                text += &format!(" {operator} {}", field(number)?);
             }
         }
         Some(text)

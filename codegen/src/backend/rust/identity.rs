@@ -1,6 +1,8 @@
 //! The identity of a device.
 
+use super::docs::WORDS;
 use super::literal;
+use crate::facts::number::hex32;
 use crate::ir::Device;
 
 /// Numbers and names of a device's identity as literals, ready to be printed.
@@ -11,13 +13,15 @@ pub(super) struct IdentityModel {
     pub vendor_name: String,
     pub product_name: String,
     pub order_code: String,
+    /// Sentences about numbers that do not come from the header of the description.
+    pub origins: Vec<String>,
 }
 
 impl IdentityModel {
     pub(super) fn new(device: &Device) -> Self {
         let identity = &device.identity;
         let number = |value: Option<u32>| match value {
-            Some(value) => format!("Some({value:#010X})").replace("0X", "0x"),
+            Some(value) => format!("Some({})", hex32(value)),
             None => "None".to_owned(),
         };
         IdentityModel {
@@ -27,6 +31,7 @@ impl IdentityModel {
             vendor_name: literal::string(&identity.vendor_name),
             product_name: literal::string(&identity.product_name),
             order_code: literal::string(&identity.order_code),
+            origins: WORDS.identity_origins(identity),
         }
     }
 }

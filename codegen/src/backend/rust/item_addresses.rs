@@ -76,7 +76,7 @@ impl<'i> ItemAddresses<'i> {
                 self.coe = self.coe.or(object.filter(|_| buses.coe));
             }
             Binding::Register(register) => self.modbus = self.modbus.or(Some(register)),
-            Binding::Parameter { code, .. } => self.serial = self.serial.or(Some(*code)),
+            Binding::Parameter(parameter) => self.serial = self.serial.or(Some(parameter.code)),
             Binding::Image(_) => self.image = self.image.or_else(|| Field::of(scope, base, binding)),
             Binding::EscMemory { address, length } => self.esc = self.esc.or(Some((*address, *length))),
             _ => {}

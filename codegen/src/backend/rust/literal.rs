@@ -1,6 +1,13 @@
 //! Rust literals, which are escaped so that a text of the description cannot end its literal.
 
+use crate::facts::number::hex16;
 use std::fmt::Write;
+
+/// Returns a 32-bit number with a separator between its words: `0x6040_0010`.
+pub(super) fn word(number: impl Into<i128>) -> String {
+    let number = number.into();
+    format!("{}_{:04X}", hex16(number >> 16), number & 0xFFFF)
+}
 
 /// Returns a string literal. Escapes characters that could mislead a reader or control a terminal.
 pub(super) fn string(text: &str) -> String {

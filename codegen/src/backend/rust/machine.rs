@@ -1,5 +1,6 @@
 //! State machines: states that a status word encodes, and commands that a controlword encodes.
 
+use crate::facts::number::hex;
 use std::collections::HashMap;
 
 use super::bit_field::BitFieldModel;
@@ -13,7 +14,9 @@ use super::options::RustOptions;
 use super::value_type;
 use crate::facts::machine::{fault_states, is_energized};
 use crate::facts::pattern;
-use crate::ir::{ItemRef, MessageRef, Pattern, Shape, StateMachine, SubjectKind, Transition, Type, TypeId};
+use crate::ir::{
+    CommandId, CommandRef, ItemRef, Pattern, Shape, StateMachine, StateRef, SubjectKind, Transition, Type, TypeId,
+};
 use crate::names::{self, Case};
 
 /// A state machine, ready to be printed.
@@ -81,20 +84,28 @@ pub(super) struct PatternsModel {
 }
 
 impl PatternsModel {
-    /// Returns the variant for the state or command with this name in the description.
-    pub(super) fn variant(&self, original: &str) -> Option<&str> {
-        self.patterns.iter().find(|pattern| pattern.original == original).map(|pattern| pattern.name.as_str())
+    /// Returns the variant of the state or command at this position in the description.
+    fn variant(&self, position: u32) -> Option<&str> {
+        let at = self.patterns.binary_search_by_key(&position, |pattern| pattern.position).ok()?;
+        self.patterns.get(at).map(|pattern| pattern.name.as_str())
     }
 
-    /// Returns the variants, keyed by their names in the description.
-    pub(super) fn by_name(&self) -> HashMap<String, String> {
-        self.patterns.iter().map(|pattern| (pattern.original.clone(), pattern.name.clone())).collect()
+    /// Returns the variant of a state.
+    pub(super) fn state(&self, state: &StateRef) -> Option<&str> {
+        self.variant(state.id?.0)
+    }
+
+    /// Returns the variants, keyed by the positions of the states or commands in the description.
+    fn variants(&self) -> HashMap<u32, String> {
+        self.patterns.iter().map(|pattern| (pattern.position, pattern.name.clone())).collect()
     }
 }
 
 /// A state or command, which is a bit pattern.
 pub(super) struct PatternModel {
     pub name: String,
+    /// Position of the state or command in the description.
+    position: u32,
     /// Name of the state or command in the description.
     original: String,
     /// The same name for people, with spaces instead of underscores.
@@ -122,8 +133,8 @@ pub(super) fn models(
         let machine = named.machine;
         let patterns = |name, list, item, methods| patterns(context, name, list, item, methods, bit_fields, options);
         // States that are values of an enumeration already have a Rust type.
-        let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
-        let mut states = patterns(&named.states, own_states, &machine.status_item, [&named.getter, &named.constructor]);
+        let bit_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
+        let mut states = patterns(&named.states, bit_states, &machine.status_item, [&named.getter, &named.constructor]);
         let mut commands = patterns(
             &named.commands,
             &machine.commands,
@@ -136,7 +147,7 @@ pub(super) fn models(
         let named = Named {
             context,
             states: states_of(context, machine, states.as_ref(), enumerations),
-            commands: commands.as_ref().map(|commands| (commands.name.clone(), commands.by_name())),
+            commands: commands.as_ref().map(|commands| (commands.name.clone(), commands.variants())),
         };
         let listed = named.transitions(machine);
         let has_commands = commands.is_some();
@@ -183,8 +194,8 @@ fn documentation(
     lines
 }
 
-/// The name of a type, and its variants keyed by their names in the description.
-pub(super) type Variants = (String, HashMap<String, String>);
+/// The name of a type, and its variants keyed by the positions of the states or commands in the description.
+pub(super) type Variants = (String, HashMap<u32, String>);
 
 /// Returns the type of a machine's states: a generated type or an enumeration.
 pub(super) fn states_of(
@@ -195,7 +206,7 @@ pub(super) fn states_of(
 ) -> Option<Variants> {
     let Some(state_type) = &machine.state_type else {
         let generated = generated?;
-        return Some((generated.name.clone(), generated.by_name()));
+        return Some((generated.name.clone(), generated.variants()));
     };
     let TypeId(id) = state_type.id?;
     let (at, enumeration) = enumerations.iter().find(|(at, _)| *at == id)?;
@@ -204,7 +215,9 @@ pub(super) fn states_of(
         let number = value_type::number(number, number > 0);
         enumeration.variants.iter().find(|variant| variant.value == number).map(|variant| variant.name.clone())
     };
-    let named = values.iter().filter_map(|value| Some((value.name.to_string(), variant(value.value)?)));
+    let single = || values.iter().filter(|value| value.last.is_none());
+    let value_of = |state: &Pattern| single().find(|value| value.value as u32 & state.mask == state.value);
+    let named = (0..).zip(&machine.states).filter_map(|(at, state)| Some((at, variant(value_of(state)?.value)?)));
     Some((enumeration.name.clone(), named.collect()))
 }
 
@@ -217,20 +230,24 @@ struct Named<'n, 's> {
 
 impl Named<'_, '_> {
     /// Returns a link to a variant in the module of types. Returns `None` if there is no such variant.
-    fn variant(variants: Option<&Variants>, name: &str) -> Option<String> {
+    fn variant(variants: Option<&Variants>, position: u32) -> Option<String> {
         let (ty, variants) = variants?;
-        let variant = variants.get(name)?;
+        let variant = variants.get(&position)?;
         Some(format!("[`{variant}`]({ty}::{variant})"))
     }
 
-    fn state(&self, name: &str) -> String {
-        Named::variant(self.states.as_ref(), name).unwrap_or_else(|| docs::escape(name))
+    fn state(&self, state: &StateRef) -> String {
+        let variant = state.id.and_then(|id| Named::variant(self.states.as_ref(), id.0));
+        variant.unwrap_or_else(|| docs::escape(state))
     }
 
     /// Returns the link to a command or, if a message is the command, to the message.
-    fn command(&self, name: &MessageRef) -> String {
-        let message = || self.context.link(name, DocModule::TYPES);
-        Named::variant(self.commands.as_ref(), name).or_else(message).unwrap_or_else(|| docs::escape(name))
+    fn command(&self, command: &CommandRef) -> String {
+        let link = command.id.and_then(|id| match id {
+            CommandId::Pattern(position) => Named::variant(self.commands.as_ref(), position),
+            CommandId::Message(id) => self.context.link_to(id.into(), &command.name, DocModule::TYPES),
+        });
+        link.unwrap_or_else(|| docs::escape(command))
     }
 
     /// Returns the lines of the table of all transitions.
@@ -266,12 +283,15 @@ fn steps(
     let is_fault = |variant: &str| faults.iter().any(|fault| fault == variant);
     let mut steps = Vec::new();
     for transition in machine.transitions.iter() {
-        let command = transition.command.as_ref().map(|name| commands.variant(name));
+        let command = transition.command.as_ref().map(|command| match command.id {
+            Some(CommandId::Pattern(position)) => commands.variant(position),
+            _ => None,
+        });
         // Without a variant, the command is a message or has no bit pattern.
-        let (Some(to), false) = (states.variant(&transition.to), command == Some(None)) else { continue };
+        let (Some(to), false) = (states.state(&transition.to), command == Some(None)) else { continue };
         let command = command.flatten();
         let from = match &transition.from {
-            Some(from) => states.variant(from).into_iter().collect(),
+            Some(from) => states.state(from).into_iter().collect(),
             None if command.is_some() => states.patterns.iter().map(|state| state.name.as_str()).collect(),
             None => Vec::new(),
         };
@@ -287,8 +307,7 @@ fn steps(
 
 /// Returns the variants of the fault states.
 fn faults(machine: &StateMachine, states: &PatternsModel) -> Vec<String> {
-    let variants = states.by_name();
-    fault_states(machine).iter().filter_map(|name| variants.get(*name).cloned()).collect()
+    fault_states(machine).into_iter().filter_map(|state| states.state(state)).map(str::to_owned).collect()
 }
 
 fn energized(states: &PatternsModel) -> Option<String> {
@@ -324,15 +343,15 @@ fn patterns(
         _ => u32::MAX.into(),
     };
     let is_possible = |mask: u32, value: u32| mask != 0 && u64::from(mask) <= maximum && value & !mask == 0;
-    let list: Vec<&Pattern> = list.iter().filter(|pattern| is_possible(pattern.mask, pattern.value)).collect();
+    let list: Vec<(u32, &Pattern)> =
+        (0..).zip(list).filter(|(_, pattern)| is_possible(pattern.mask, pattern.value)).collect();
     if list.is_empty() {
         return None;
     }
-    let name_requests = names::numbered(list.iter().map(|pattern| pattern.name.as_str()), "pattern");
+    let name_requests = names::numbered(list.iter().map(|(_, pattern)| pattern.name.as_str()), "pattern");
     let names = names::unique(&name_requests, &["Self"], Case::Pascal);
-    let hexadecimal =
-        |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };
-    let pattern = |(definition, name): (&&Pattern, String)| {
+    let hexadecimal = |number: u32| if number == 0 { "0".to_owned() } else { hex(number) };
+    let pattern = |(&(position, definition), name): (&(u32, &Pattern), String)| {
         let (mask, value) = (hexadecimal(definition.mask), hexadecimal(definition.value));
         let plain = definition.name.replace('_', " ");
         let title = docs::escape(&plain);
@@ -346,6 +365,7 @@ fn patterns(
             docs,
             meaning,
             name,
+            position,
             original,
             title: plain,
             bits,

@@ -116,11 +116,13 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     };
     let items: Vec<ItemModel> = entries.iter().map(model).collect();
     let code = group.object_code().map_or("", ObjectCode::name);
+    let facts: Vec<String> =
+        [format!("{code} {address}.")].into_iter().chain(docs::WORDS.object_type_origin(group)).collect();
     ObjectModel {
         area: area::objects(index).to_owned(),
         aliases: index_aliases(index).into(),
         accessors: named.accessors(),
-        docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
+        docs: vec![docs::sentence(&title), String::new(), facts.join(" ")],
         heading: item::heading(&group.name, &address),
         // The link must state that it means the module, because a constant may have the same name.
         constants: DocModule::TOP
@@ -145,7 +147,7 @@ fn aliases(item: &Item) -> Vec<String> {
             let printed = register::printed(register);
             vec![printed.split('–').next().unwrap_or_default().to_owned()]
         }
-        Binding::Parameter { code, .. } => vec![code.to_string(), format!("0x{code:04X}")],
+        Binding::Parameter(parameter) => vec![parameter.code.to_string(), hex16(parameter.code)],
         Binding::Object { index, .. } => index_aliases(*index).into(),
         _ => Vec::new(),
     };

@@ -1,6 +1,8 @@
 //! PDO structs with their fields, the code that packs and unpacks them, and the writes that configure the PDO in the
 //! device.
 
+use super::literal;
+use crate::facts::number::{hex, hex16, hex8};
 use std::collections::{HashMap, HashSet};
 
 use super::code::{call, list, seq, Break, Data, Doc};
@@ -116,7 +118,7 @@ fn model(context: &Context<'_>, named: &NamedPdo<'_>, options: &RustOptions) -> 
 /// Returns the documentation of a PDO.
 fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut lines = vec![title(context, pdo)];
-    let mut facts = vec![format!("Mapping object 0x{:04X}, {} bits", pdo.mapping_index, pdo.bits())];
+    let mut facts = vec![format!("Mapping object {}, {} bits", hex16(pdo.mapping_index), pdo.bits())];
     if let Some(communication) = &pdo.communication {
         facts.extend(communication.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
         facts.extend(communication.transmission_type.map(|ty| format!("transmission type {ty}")));
@@ -135,8 +137,8 @@ fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec
 /// Returns the COB-ID of a PDO in the usual notation.
 fn identifier(value: &Value) -> String {
     match value {
-        Value::Int(number @ 0..) => format!("0x{number:X}"),
-        Value::NodeId(offset @ 0..) => format!("0x{offset:X} + node-ID"),
+        Value::Int(number @ 0..) => hex(*number),
+        Value::NodeId(offset @ 0..) => format!("{} + node-ID", hex(*offset)),
         other => docs::value(other),
     }
 }
@@ -205,13 +207,12 @@ fn covered(fields: &[FieldModel]) -> String {
         };
         covered |= bits << field.offset;
     }
-    format!("{covered:#X}").replace("0X", "0x")
+    hex(covered)
 }
 
 /// Returns the name and arguments of the shortest constructor for a mapped entry.
 pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
-    let mut arguments =
-        vec![format!("0x{:04X}", entry.index), format!("0x{:02X}", entry.sub_index), entry.bits.to_string()];
+    let mut arguments = vec![hex16(entry.index), hex8(entry.sub_index), entry.bits.to_string()];
     // The mapping of padding does not depend on the slot.
     let is_object = entry.index != 0;
     let path = match (entry.depends_on_slot && is_object, entry.depends_on_slot_group && is_object) {
@@ -531,7 +532,7 @@ fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let mut writes = vec![write("u8", pdo.mapping_index, 0, "0")];
     for (entry, sub) in pdo.entries.iter().zip(1..=u8::MAX) {
         let word = u32::from(entry.index) << 16 | u32::from(entry.sub_index) << 8 | (entry.bits & 0xFF);
-        writes.push(write("u32", pdo.mapping_index, sub, &format!("0x{:04X}_{:04X}", word >> 16, word & 0xFFFF)));
+        writes.push(write("u32", pdo.mapping_index, sub, &literal::word(word)));
     }
     writes.push(write("u8", pdo.mapping_index, 0, &count.to_string()));
     writes
@@ -539,5 +540,5 @@ fn mapping_writes(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
 
 /// Returns the expression that creates the SDO write of a value.
 pub(in crate::backend::rust) fn write(ty: &str, index: u16, sub: u8, value: &str) -> String {
-    format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})")
+    format!("rt::SdoWrite::new_{ty}({}, {}, {value})", hex16(index), hex8(sub))
 }

@@ -6,8 +6,10 @@ use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::links::DocModule;
+use super::literal;
 use super::pdo;
 use super::scope::ObjectBus;
+use crate::facts::number::{hex16, hex8};
 use crate::ir::{Binding, Device, Item, Procedure, Step, SubjectKind, Type, Value};
 use crate::names::{self, Case};
 
@@ -78,9 +80,9 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
         return None;
     }
     let number = match bits {
-        8 => format!("0x{number:02X}"),
-        16 => format!("0x{number:04X}"),
-        _ => format!("0x{:04X}_{:04X}", number >> 16, number & 0xFFFF),
+        8 => hex8(number),
+        16 => hex16(number),
+        _ => literal::word(number),
     };
     Some(pdo::write(&format!("u{bits}"), index, sub_index, &number))
 }

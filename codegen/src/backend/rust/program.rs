@@ -1,12 +1,13 @@
 //! Names of the generated elements with which a program accesses a device. New drive crates use these names.
 
-use super::constants::{Constant, Constants};
+use super::constants::Constants;
 use super::context::Context;
 use super::device_names;
 use super::item_addresses;
 use super::locations::Locations;
 use super::model;
 use super::named::Types;
+use super::naming::handles::NamedItem;
 use super::objects::{self, ObjectModel};
 use super::options::RustOptions;
 use super::route::RouteBus;
@@ -16,7 +17,7 @@ use super::target::{NoTarget, Path};
 use super::walk::{self, WalkModel};
 use super::{cia402::Cia402Model, example};
 use crate::facts::words::PLAIN;
-use crate::ir::{excluded, Bus, Device, FileInfo, Item, Value};
+use crate::ir::{excluded, Bus, Device, FileInfo, Item, ItemRef, Value};
 
 /// The generated elements with which a program accesses a device on one bus. All paths are relative to the module of the
 /// device.
@@ -129,16 +130,16 @@ impl Parts<'_, '_> {
     /// Returns the first state machine with an operating state whose items can be accessed on a bus. If there is no
     /// such machine, returns the reason why the program does not use the first machine on the bus.
     fn machine(&self, types: &Types, bus: RouteBus) -> Option<Result<ProgramMachine, NoTarget>> {
-        let machines = self.context.names.types.machines.iter().zip(&types.machines);
-        let mut on_bus = machines.filter_map(|(named, model)| {
-            let walk = self.walks.iter().find(|walk| walk.states == named.states)?;
-            let is_on = |path: &str, writes| self.item_of(path).is_some_and(|item| self.is_on(item, bus, writes));
-            if !is_on(&walk.status, false) || !is_on(&walk.control, true) {
+        let machines = self.context.names.types.machines.iter().zip(&types.machines).enumerate();
+        let mut on_bus = machines.filter_map(|(position, (named, model))| {
+            let walk = self.walks.iter().find(|walk| walk.machine == position)?;
+            let (status, control) = (&named.machine.status_item, &named.machine.control_item);
+            let is_on = |item, writes| self.context.referred(item).is_some_and(|item| self.is_on(item, bus, writes));
+            if !is_on(status, false) || !is_on(control, true) {
                 return None;
             }
-            let is_at =
-                |object, path: &str| self.constants.object(object).is_some_and(|it: Constant<'_>| it.path == path);
-            let is_cia402 = is_at((0x6040, 0), &walk.control) && is_at((0x6041, 0), &walk.status);
+            let is_at = |object, item: &ItemRef| self.constants.object(object).map(|it| it.id()) == item.id;
+            let is_cia402 = is_at((0x6040, 0), control) && is_at((0x6041, 0), status);
             let path = match Path::to_operation(named.machine, model) {
                 Ok(path) => path,
                 Err(reason) => return Some(Err(reason)),
@@ -158,11 +159,10 @@ impl Parts<'_, '_> {
 
     fn cia402(&self, model: &Cia402Model, bus: RouteBus) -> ProgramCia402 {
         let has = |name: &str| model.traits.iter().any(|implemented| implemented.path.ends_with(name));
-        let object = |index| self.item_of(&self.constants.object((index, 0))?.path);
-        let target = object(0x607A).filter(|item| self.is_on(item, bus, true));
-        let call = object(0x6064)
-            .filter(|item| self.is_on(item, bus, false))
-            .and_then(|item| self.calls().find(|(other, _)| std::ptr::eq(*other, item)).map(|(_, call)| call));
+        let object = |index| Some(self.constants.object((index, 0))?.id());
+        let target = object(0x607A).and_then(|id| self.context.item(id)).filter(|item| self.is_on(item, bus, true));
+        let position = object(0x6064).and_then(|id| self.calls().find(|(entry, _)| entry.id == id));
+        let call = position.filter(|(entry, _)| self.is_on(entry.item, bus, false)).map(|(_, call)| call);
         ProgramCia402 {
             method: model.method.clone(),
             positioning: has("::Positioning"),
@@ -174,9 +174,9 @@ impl Parts<'_, '_> {
     /// Returns the number that a program reads on a bus.
     fn read(&self, bus: RouteBus) -> Option<ProgramItem> {
         let is_usable = |item: &Item| self.is_on(item, bus, false) && self.sample(item, bus, &[1, 0]).is_some();
-        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| is_usable(item)).collect();
-        let (item, call) = example::readable(self.context, &calls)?;
-        self.item(item, call, self.sample(item, bus, &[1, 0])?)
+        let calls: Vec<(&NamedItem<'_>, String)> = self.calls().filter(|(entry, _)| is_usable(entry.item)).collect();
+        let (entry, call) = example::readable(self.context, &calls)?;
+        self.item(entry, call, self.sample(entry.item, bus, &[1, 0])?)
     }
 
     /// Returns the setting that a program writes on a bus, and its default value.
@@ -187,9 +187,9 @@ impl Parts<'_, '_> {
                 && number.is_some_and(|number| self.is_possible(item, bus, number) && is_writable(item, number))
         };
         let is_usable = |item: &Item| self.is_on(item, bus, true) && is_default_possible(item);
-        let calls: Vec<(&Item, String)> = self.calls().filter(|(item, _)| is_usable(item)).collect();
-        let (item, call, number) = example::writable(self.context, &calls)?;
-        Some((self.item(item, call, number)?, number))
+        let calls: Vec<(&NamedItem<'_>, String)> = self.calls().filter(|(entry, _)| is_usable(entry.item)).collect();
+        let (entry, call, number) = example::writable(self.context, &calls)?;
+        Some((self.item(entry, call, number)?, number))
     }
 
     /// Returns the first raw value that an item can have on a bus: one of the numbers `preferred`, or a limit of the item.
@@ -210,11 +210,10 @@ impl Parts<'_, '_> {
         fits(item.ty) && fits(item.type_on(bus)) && limits.all(|limits| excluded(limits, &Value::Int(number)).is_none())
     }
 
-    fn item(&self, item: &Item, call: &str, sample: i128) -> Option<ProgramItem> {
+    fn item(&self, entry: &NamedItem<'_>, call: &str, sample: i128) -> Option<ProgramItem> {
         let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |model| (object, model)));
-        let (object, model) = all
-            .into_iter()
-            .find(|(_, model)| self.context.item(model.id).is_some_and(|other| std::ptr::eq(other, item)))?;
+        let (object, model) = all.into_iter().find(|(_, model)| model.id == entry.id)?;
+        let item = entry.item;
         Some(ProgramItem {
             call: call.to_owned(),
             name: item.name.to_string(),
@@ -227,19 +226,11 @@ impl Parts<'_, '_> {
 
     /// Returns the items that are plain numbers, and the calls of their accessors. Sub-index 0 of objects with several
     /// entries is left out, because it contains the number of sub-indices.
-    fn calls(&self) -> impl Iterator<Item = (&Item, String)> {
+    fn calls(&self) -> impl Iterator<Item = (&NamedItem<'_>, String)> {
         let is_count =
             |item: &Item, call: &str| call.contains('.') && item.object().is_some_and(|(_, sub_index)| sub_index == 0);
         objects::calls(self.context)
-            .map(|(entry, call)| (entry.item, call))
-            .filter(move |(item, call)| example::is_number(self.context, item) && !is_count(item, call))
-    }
-
-    /// Returns the item with the constant `path`.
-    fn item_of(&self, path: &str) -> Option<&Item> {
-        let all = self.objects.iter().flat_map(|object| object.items.iter().map(move |model| (object, model)));
-        let (_, model) = all.into_iter().find(|(object, model)| object.path(model) == path)?;
-        self.context.item(model.id)
+            .filter(move |(entry, call)| example::is_number(self.context, entry.item) && !is_count(entry.item, call))
     }
 
     /// Returns whether a client on `bus` can access the item.

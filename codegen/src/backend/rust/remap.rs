@@ -1,5 +1,7 @@
 //! The input of `lexibus::pdo!`: PDOs with a changeable mapping, their limits, and the items that can be mapped.
 
+use super::literal;
+use crate::facts::number::{hex, hex16};
 use std::collections::HashMap;
 
 use super::code::{seq, slice, Doc};
@@ -46,7 +48,7 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
     }
     let mapping = addressable(context).find(|(_, group)| group.index() == Some(pdo.mapping_index));
     let entries = mapping.and_then(|(_, mapping)| writable_entries(mapping));
-    let mut constants = vec![Doc::from(format!("INDEX: u16 = 0x{:04X}", pdo.mapping_index))];
+    let mut constants = vec![Doc::from(format!("INDEX: u16 = {}", hex16(pdo.mapping_index)))];
     let cob_id = match &pdo.communication {
         Some(_) => {
             constants.push(seq!["ENTRIES: usize = ", entries?]);
@@ -96,10 +98,10 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
     let dummies = settings.filter(|_| receives).map_or(&[][..], |settings| &settings.dummies);
     let dummies = dummies.iter().filter_map(|&code| 1_u32.checked_shl(code.into())).fold(0, |all, one| all | one);
     if dummies != 0 {
-        constants.push(Doc::from(format!("DUMMIES: u32 = 0x{dummies:X}")));
+        constants.push(Doc::from(format!("DUMMIES: u32 = {}", hex(dummies))));
     }
     if communication.writable.contains(&1) {
-        constants.push(Doc::from(format!("COMMUNICATION: Option<u16> = Some(0x{:04X})", communication.index)));
+        constants.push(Doc::from(format!("COMMUNICATION: Option<u16> = Some({})", hex16(communication.index))));
     }
     let timing = pdo::timing_writes(communication);
     if !timing.is_empty() {
@@ -136,7 +138,7 @@ fn configures(device: &Device) -> bool {
 
 /// Returns the code of an entry's value in the mapping object.
 fn word(index: u16, sub_index: u8, bits: u32) -> String {
-    format!("0x{index:04X}_{sub_index:02X}{:02X}", bits & MAX_ENTRY)
+    literal::word(u32::from(index) << 16 | u32::from(sub_index) << 8 | bits & MAX_ENTRY)
 }
 
 /// Adds the mapping arguments to each item that can be mapped. Returns whether at least one item can be mapped.

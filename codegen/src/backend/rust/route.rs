@@ -1,6 +1,7 @@
 //! The route to an item on each bus: its Rust type, and the code that creates it.
 
 use super::code::{call, generic, seq, slice, Doc};
+use crate::facts::number::hex16;
 use crate::ir::{Bus, Limits, Value};
 
 /// A bus of a location, in the order of the location's fields. PROFINET records are not included because register
@@ -180,7 +181,7 @@ impl AccessPath<'_> {
     pub fn code(&self, at: &str, number: Option<&str>) -> Doc {
         let sign = if self.is_signed { "signed" } else { "unsigned" };
         if let Some((_, window_number)) = self.window {
-            let number = number.map_or_else(|| format!("0x{window_number:04X}"), ToOwned::to_owned);
+            let number = number.map_or_else(|| hex16(window_number), ToOwned::to_owned);
             return call!(seq!["rt::Through::", sign], number, seq!["&", at]);
         }
         let code = match self.resized {

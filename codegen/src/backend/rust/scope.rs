@@ -3,7 +3,8 @@
 use super::value_type::ValueType;
 use crate::facts::words;
 use crate::ir::{
-    Device, Group, Item, ItemId, ItemRef, Manual, Module, ObjectBuses, Pdo, ProcessImage, Shape, Type, TypeDef,
+    Device, Group, ImageRef, Item, ItemId, ItemRef, Manual, Module, ObjectBuses, Pdo, ProcessImage, Shape, Type,
+    TypeDef,
 };
 
 /// The bus on which a device's objects are addressed.
@@ -60,9 +61,9 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Returns the fixed process image with this name.
-    pub fn image(&self, name: &str) -> Option<&'a ProcessImage> {
-        self.device?.process_data.images.iter().find(|image| image.name == name)
+    /// Returns the referenced process image.
+    pub fn image(&self, reference: &ImageRef) -> Option<&'a ProcessImage> {
+        self.device?.image(reference)
     }
 
     /// Resolves aliases of a type. Returns the basic type. If the type has a definition other than an alias, also

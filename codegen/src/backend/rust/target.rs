@@ -55,7 +55,7 @@ impl<'m> Path<'m> {
         let named = || OPERATING.iter().find_map(by_name).map(|state| state.name.as_str());
         let energized = model.energized.as_deref().filter(|state| !is_fault(state));
         let target = energized.or_else(named).ok_or(NoTarget::Name)?;
-        let stated = machine.initial.as_ref().and_then(|name| states.variant(name));
+        let stated = machine.initial.as_ref().and_then(|state| states.state(state));
         let first = || healthy().map(|state| state.name.as_str()).find(|state| *state != target);
         let initial = stated.or_else(first).unwrap_or(target);
         let enters_fault = |step: &StepModel| is_fault(&step.to) && !is_fault(&step.from);

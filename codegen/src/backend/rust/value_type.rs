@@ -2,6 +2,7 @@
 
 use super::code::{call, slice, Doc};
 use super::literal;
+use crate::facts::number::hex;
 use crate::ir::{Limits, Type, Value};
 
 /// The runtime's type for an item's value.
@@ -248,7 +249,7 @@ pub(super) fn native(signed: bool, bits: u32) -> &'static str {
 /// patterns, addresses and signatures.
 pub(super) fn number(value: i128, unsigned: bool) -> String {
     if unsigned && value > 0xFFFF {
-        format!("{value:#X}").replacen("0X", "0x", 1)
+        hex(value)
     } else {
         value.to_string()
     }

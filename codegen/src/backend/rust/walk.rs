@@ -13,6 +13,8 @@ use crate::names::{self, Case, NameRequest};
 pub(super) struct WalkModel {
     pub method: String,
     pub docs: Vec<String>,
+    /// Position of the machine in the list of all named machines.
+    pub machine: usize,
     /// Name of the type of states.
     pub states: String,
     /// Variant of the state "Operation enabled" of CiA 402, if the machine has it.
@@ -31,18 +33,19 @@ pub(super) struct WalkModel {
 /// Returns the methods for the machines whose commands are bit patterns of an item. `machines` are the machines of the
 /// context, ready to be printed.
 pub(super) fn models(constants: &Constants<'_, '_>, machines: &[MachineModel]) -> Vec<WalkModel> {
-    let named =
-        constants.context.names.types.machines.iter().zip(machines).filter(|(_, model)| model.has_transitions());
+    let all = constants.context.names.types.machines.iter().zip(machines).enumerate();
+    let named = all.filter(|(_, (_, model))| model.has_transitions());
     let count = named.clone().count();
     let mut used: Vec<String> = RESERVED.map(str::to_owned).to_vec();
     used.extend(constants.objects.iter().map(|object| object.name.clone()));
-    let lower = |(named, model): (&NamedMachine<'_>, &MachineModel)| {
+    let lower = |(position, (named, model)): (usize, (&NamedMachine<'_>, &MachineModel))| {
         let name = if count == 1 { "walk".to_owned() } else { format!("walk {}", named.machine.name) };
         let request = NameRequest { name: &name, fallback: "walk".to_owned(), suffix: String::new() };
         let name = names::identifier(&request, Case::Snake);
         let method = unused_name(|name| used.contains(name), name);
         used.extend([method.clone(), format!("{method}_async")]);
-        walk(constants, named, model.energized.clone(), method)
+        let walk = walk(constants, named, model.energized.clone(), method)?;
+        Some(WalkModel { machine: position, ..walk })
     };
     named.filter_map(lower).collect()
 }
@@ -71,6 +74,7 @@ fn walk(
     Some(WalkModel {
         method,
         docs,
+        machine: 0,
         states: named.states.clone(),
         energized,
         status: status.path,

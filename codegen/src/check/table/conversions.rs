@@ -59,7 +59,7 @@ fn problem(
 
 /// Returns the physical value of a raw value.
 fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: f64) -> Result<f64, String> {
-    let model = device.variants.iter().find(|variant| Some(&variant.name) == conversion.model.as_ref());
+    let model = conversion.model.as_ref().and_then(|model| device.variant(model));
     physical::of_raw(quantity.scale.as_ref(), raw, |name| {
         let constant = matches!(quantity.scale, Some(Scale::Fraction { .. })).then(|| physical::constant(model, name));
         constant
@@ -80,9 +80,10 @@ fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number
 
 /// Returns the ratio of a value in the machine unit to the physical value.
 fn ratio(device: &Device, unit: &MachineUnit, conversion: &Conversion) -> Result<f64, String> {
-    physical::ratio(unit, |name| {
-        let given = conversion.given.iter().find(|(given, _)| given == name).map(|(_, number)| *number);
-        let number = given.or_else(|| physical::given(device, conversion.model.as_deref(), name));
-        number.ok_or_else(|| format!("the value of `{}` is missing in `given`", brief(name)))
+    let model = conversion.model.as_ref().and_then(|model| model.id);
+    physical::ratio(unit, |number| {
+        let in_example = conversion.given.iter().find(|(given, _)| given == number).map(|(_, value)| *value);
+        let value = in_example.or_else(|| physical::given(device, model?, number));
+        value.ok_or_else(|| format!("the value of `{}` is missing in `given`", brief(number)))
     })
 }

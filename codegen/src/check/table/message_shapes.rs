@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashSet};
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{Device, Framing, Type};
+use crate::ir::{Device, Framing, MessageId, Type};
 use crate::resolve::messages::{
     carrier_problems, is_reported_elsewhere, numbered, problem, refusal, shapes, Problem, Shaped, LONGEST,
 };
@@ -36,14 +36,14 @@ fn left_out(at: Span, text: String, diagnostics: &mut Diagnostics) {
 }
 
 fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
-    let known: HashSet<&str> = shapes.iter().map(|shaped| shaped.message.name.as_str()).collect();
-    for message in &device.messages {
+    let shaped: HashSet<MessageId> = shapes.iter().map(|shaped| shaped.id).collect();
+    for (id, message) in (0..).map(MessageId).zip(&device.messages) {
         let name = brief(&message.name);
         let span = message.origin.span;
         let problem = match problem(device, message) {
             Err(problem) if is_reported_elsewhere(device, message, problem) => continue,
             Err(problem) => Some(problem),
-            Ok(()) => (!known.contains(message.name.as_str())).then_some(SELECTOR),
+            Ok(()) => (!shaped.contains(&id)).then_some(SELECTOR),
         };
         if let Some(problem) = problem {
             left_out(span, format!("no code is generated for the message `{name}`: {problem}"), diagnostics);

@@ -173,11 +173,10 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
 
 /// Compares the states in which messages are accepted with the tables of commands and states.
 fn states(device: &Device, diagnostics: &mut Diagnostics) {
-    let stated = device.messages.iter().filter(|message| !message.accepted_in.is_empty());
-    let by_name: BTreeMap<&str, &Message> = stated.map(|message| (message.name.as_str(), message)).collect();
     for machine in &device.machines {
         for row in &machine.outcomes {
-            for message in row.commands.iter().filter_map(|name| by_name.get(name.as_str())) {
+            let messages = row.commands.iter().filter_map(|command| device.messages.get(command.id?.0 as usize));
+            for message in messages.filter(|message| !message.accepted_in.is_empty()) {
                 cells(&machine.name, row, message, diagnostics);
             }
         }
@@ -186,7 +185,7 @@ fn states(device: &Device, diagnostics: &mut Diagnostics) {
 
 fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &mut Diagnostics) {
     for cell in row.cells.iter().filter(|cell| !cell.outcomes.is_empty()) {
-        let is_stated = message.accepted_in.contains(&cell.state);
+        let is_stated = message.accepted_in.iter().any(|state| state.name == cell.state.name);
         let can = cell.outcomes.iter().any(|outcome| *outcome != Outcome::Refused);
         if is_stated == can {
             continue;

@@ -40,7 +40,7 @@ fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
 
 fn code(item: &Item) -> Option<u32> {
     item.bindings.iter().find_map(|binding| match binding {
-        Binding::Parameter { code, .. } => Some(*code),
+        Binding::Parameter(parameter) => Some(parameter.code),
         _ => None,
     })
 }

@@ -1,6 +1,6 @@
 //! Physical values: the conversion of raw values, and values of the machine that the device drives.
 
-use crate::ir::{CompactString, Device, MachineUnit, Scale, Variant};
+use crate::ir::{CompactString, Device, GivenRef, MachineUnit, Scale, Variant, VariantId};
 
 /// Returns the physical value of a raw value. `other` returns the values that the scale depends on: constants of a model, and
 /// other items.
@@ -23,8 +23,8 @@ pub(super) fn of_raw<E>(
 }
 
 /// Returns the ratio of a value in the machine unit to the physical value. `number` returns the value of a machine constant.
-pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&CompactString) -> Result<f64, E>) -> Result<f64, E> {
-    let product = |list: &[CompactString]| list.iter().map(&number).product::<Result<f64, E>>();
+pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&GivenRef) -> Result<f64, E>) -> Result<f64, E> {
+    let product = |list: &[GivenRef]| list.iter().map(&number).product::<Result<f64, E>>();
     Ok(product(&unit.times)? / product(&unit.over)?)
 }
 
@@ -34,10 +34,9 @@ pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
 }
 
 /// Returns the value of a machine constant (`[given]`) for a model, if the table defines the value.
-pub(super) fn given(device: &Device, model: Option<&str>, name: &str) -> Option<f64> {
-    let given = device.given.iter().find(|given| given.name == name)?;
-    let (_, value) = given.models.iter().find(|(other, _)| Some(other.as_str()) == model)?;
-    value.as_real()
+pub(super) fn given(device: &Device, model: VariantId, number: &GivenRef) -> Option<f64> {
+    let models = &device.given_number(number)?.models;
+    models.iter().find(|(other, _)| other.id == Some(model))?.1.as_real()
 }
 
 /// Rounds a number to `digits` digits after the first significant digit.

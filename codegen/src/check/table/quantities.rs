@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use super::physical;
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{stated, CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
+use crate::ir::{stated, CompactString, Device, GivenRef, Item, MachineUnit, Scale, Value, Variant, VariantId};
 use crate::text::{brief, glob};
 
 /// The relative difference that two defaults may have because they were rounded to different raw values.
@@ -16,9 +16,9 @@ const DIGITS: f64 = 4.0;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
-    for item in owner.items() {
+    for (_, id, item) in owner.identified() {
         let view = item.related.as_ref().and_then(|related| related.same_quantity.as_ref());
-        let other = view.and_then(|view| device.referred(view)).filter(|other| !std::ptr::eq(*other, item));
+        let other = view.filter(|view| view.id != Some(id)).and_then(|view| device.referred(view));
         let Some(other) = other else { continue };
         let differences = differences(device, item, other);
         if let Some((first, others)) = differences.split_first() {
@@ -33,9 +33,9 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 
 /// Returns the differences between the defaults on each model, or the reason why the defaults cannot be compared.
 fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
-    let models: Vec<Option<&Variant>> = match device.variants.as_slice() {
+    let models: Vec<Option<VariantId>> = match device.variants.as_slice() {
         [] => vec![None],
-        variants => variants.iter().map(Some).collect(),
+        variants => (0..).map(VariantId).zip(variants).map(|(id, _)| Some(id)).collect(),
     };
     let mut found = Vec::new();
     for model in models {
@@ -50,13 +50,17 @@ fn differences(device: &Device, one: &Item, other: &Item) -> Vec<String> {
             }
         };
         if (one.0 - other.0).abs() > TOLERANCE * one.0.abs().max(other.0.abs()) {
-            let on = model.map(|model| format!(" on {}", brief(&model.name))).unwrap_or_default();
+            let on = variant(device, model).map(|model| format!(" on {}", brief(&model.name))).unwrap_or_default();
             let [number, other] = [one.0, other.0].map(|number| physical::rounded(number, DIGITS));
             let unit = if one.1.is_empty() { String::new() } else { format!(" {}", brief(&one.1)) };
             found.push(format!("their default values{on} are {number} and {other}{unit}"));
         }
     }
     found
+}
+
+fn variant(device: &Device, id: Option<VariantId>) -> Option<&Variant> {
+    device.variants.get(id?.0 as usize)
 }
 
 /// A default value as physical value, and as value in the machine unit if the quantity has a machine unit.
@@ -67,7 +71,8 @@ struct Physical {
 }
 
 impl Physical {
-    fn new(device: &Device, item: &Item, model: Option<&Variant>) -> Option<Self> {
+    fn new(device: &Device, item: &Item, id: Option<VariantId>) -> Option<Self> {
+        let model = variant(device, id);
         let raw = default(item, model)?;
         let Some(quantity) = stated::quantity(item) else {
             return Some(Physical { number: raw, unit: CompactString::default(), machine: None });
@@ -83,16 +88,16 @@ impl Physical {
             return None;
         }
         let number = physical::of_raw(quantity.scale.as_ref(), raw, other).ok()?;
-        let machine = quantity.machine.as_ref().map(|unit| (number * machine(device, unit, model), unit.unit.clone()));
+        let machine = quantity.machine.as_ref().map(|unit| (number * machine(device, unit, id), unit.unit.clone()));
         Some(Physical { number, unit: quantity.unit.clone(), machine })
     }
 }
 
 /// Returns the ratio of a value in the machine unit to the physical value. An unknown machine constant counts as 1, because it
 /// changes the values of both items by the same factor.
-fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
-    let model = model.map(|model| model.name.as_str());
-    let number = |name: &CompactString| Ok::<_, Infallible>(physical::given(device, model, name).unwrap_or(1.0));
+fn machine(device: &Device, unit: &MachineUnit, model: Option<VariantId>) -> f64 {
+    let value = |number: &GivenRef| model.and_then(|model| physical::given(device, model, number));
+    let number = |number: &GivenRef| Ok::<_, Infallible>(value(number).unwrap_or(1.0));
     let Ok(ratio) = physical::ratio(unit, number);
     ratio
 }

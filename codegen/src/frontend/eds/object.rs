@@ -73,9 +73,10 @@ impl<'a> Reader<'a, '_> {
         self.name(raw.get(Key::ParameterName), &mut group.name, &mut group.name_at);
         let compact = self.compact_count(&raw);
         let code = if orphan {
+            group.origins.set(Fact::ObjectType, Some(FactOrigin::Rule(Rule::ObjectContents)));
             ObjectCode::Record
         } else {
-            self.object_code(index, &raw, !sections.subs.is_empty() || compact.is_some())
+            self.object_code(index, &raw, !sections.subs.is_empty() || compact.is_some(), &mut group)
         };
         self.take_comments(&mut group.extensions);
         self.fill(&mut group, index, code, raw, sections, compact);
@@ -207,10 +208,13 @@ impl<'a> Reader<'a, '_> {
         given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.diagnostics))
     }
 
-    fn object_code(&mut self, index: u16, raw: &Raw, has_subs: bool) -> ObjectCode {
+    /// Returns the object code of an object, and records its origin in `group`.
+    fn object_code(&mut self, index: u16, raw: &Raw, has_subs: bool, group: &mut Group) -> ObjectCode {
         let given = self.object_type(raw);
         let span = raw.get(Key::ObjectType).map_or(raw.origin.span, |entry| self.doc.value_span(entry));
-        object::object_code(index, given.as_ref(), span, has_subs, &TERMS, self.diagnostics)
+        let code = object::object_code(index, given.as_ref(), span, has_subs, &TERMS, self.diagnostics);
+        group.origins.set(Fact::ObjectType, object::code_origin(given.as_ref(), code));
+        code
     }
 
     /// Builds the item of a VAR, DOMAIN or sub-index. The caller sets the name.

@@ -8,7 +8,7 @@ use super::reader::{Names, Reader};
 use super::{clocks, device_info, eeprom, mailbox, slots, sync};
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Device, EtherCatSettings, SyncManager};
+use crate::ir::{Device, EtherCatSettings, Reference, SyncManager};
 use crate::syntax::xml::Tag;
 
 /// Contents of a `Device` element that are collected until its end tag.
@@ -58,7 +58,10 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parts: &mut Parts<'a>) 
         "Name" => reader.name(tag, &mut parts.names)?,
         "Comment" => reader.name(tag, &mut parts.comment)?,
         "Info" => device_info::read(reader, tag, settings)?,
-        "GroupType" => settings.group = reader.text(tag)?.compact(),
+        "GroupType" => {
+            let group = reader.text(tag)?;
+            settings.group = Reference::new(group.compact(), group.span);
+        }
         "Profile" => parts.profiles.read(reader, tag)?,
         "Fmmu" => sync::fmmu(reader, tag, settings)?,
         "Sm" => sync::sync_manager(reader, tag, &mut parts.managers)?,

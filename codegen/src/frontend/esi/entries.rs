@@ -129,7 +129,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
     // The data type declares no names for array elements, so an array element matches a sub-item with any name.
     let fits = |(entry, sub): (&Entry<'_, '_>, &RawSub<'_>)| entry.element.is_some() || named(entry, sub);
     if entries.iter().zip(subs).all(fits) && subs.len() <= entries.len() {
-        (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, place)| *place = Some(at));
+        (0..subs.len()).zip(&mut matched.of_entry).for_each(|(at, sub)| *sub = Some(at));
         return matched;
     }
     let singles = entries.iter().enumerate().filter(|(_, entry)| entry.element.is_none_or(|number| number == 1));
@@ -146,18 +146,18 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
     for (at, sub) in subs.iter().enumerate() {
         let free = |position: &usize| matched.of_entry.get(*position).is_some_and(Option::is_none);
         let by_name = by_name.get(sub.name.text.as_ref()).copied().filter(free);
-        let by_place = || Some(at).filter(|_| subs.len() == entries.len()).filter(free);
-        let Some(position) = by_name.or_else(by_place).or_else(|| (next..entries.len()).find(free)) else {
+        let by_position = || Some(at).filter(|_| subs.len() == entries.len()).filter(free);
+        let Some(position) = by_name.or_else(by_position).or_else(|| (next..entries.len()).find(free)) else {
             matched.extra.push(at);
             continue;
         };
         next = position + 1;
-        if let Some(place) = matched.of_entry.get_mut(position) {
-            *place = Some(at);
+        if let Some(sub) = matched.of_entry.get_mut(position) {
+            *sub = Some(at);
         }
         let guessed = by_name.is_none() && subs.len() != entries.len();
         if let Some(entry) = entries.get(position).filter(|entry| guessed && entry.element.is_none()) {
-            by_place_only(reader, entry, sub);
+            by_position_only(reader, entry, sub);
         }
     }
     matched
@@ -176,7 +176,7 @@ fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[R
     Matched { of_entry: (0..subs.len()).map(Some).collect(), extra: Vec::new() }
 }
 
-fn by_place_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>) {
+fn by_position_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>) {
     let message = format!("the data type has no sub-item `{}`", brief(&sub.name.text));
     let label = format!("read as sub-index 0x{:02X} because of its position", entry.sub_index);
     mismatch(reader, entry, sub, message, label);

@@ -6,7 +6,7 @@ use super::reader::{Names, Reader};
 use super::{device, modules};
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Extension, Family, Header, LocalText};
+use crate::ir::{Family, Header};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -116,13 +116,8 @@ fn identify(
         reader.report(&codes::MISSING_IDENTITY, root, message, label);
     }
     let name = vendor.names.name();
-    let others = vendor.names.others();
     let catalog = &mut description.catalog;
-    reader.extensions.extend(others.iter().map(|LocalText { language, text }| Extension {
-        key: compact_str::format_compact!("Vendor/Name@{language}"),
-        value: text.clone(),
-        span: vendor.names.span(),
-    }));
+    catalog.vendor_names = vendor.names.others();
     let Header { file_version, format_version, comments, .. } = &vendor.header;
     let of_comments = comments.iter().map(|text| size_of_val(text) + text.len()).sum::<usize>();
     let of_header = file_version.len() + format_version.len() + of_comments;

@@ -182,6 +182,9 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
     catalog.families.append(&mut other.families);
     catalog.code_tables.append(&mut other.code_tables);
     catalog.extensions.append(&mut other.extensions);
+    if catalog.vendor_names.is_empty() {
+        catalog.vendor_names = other.vendor_names.clone();
+    }
     let moved = |owner| match owner {
         Owner::Device(at) => Owner::Device(at + devices),
         Owner::Module(at) => Owner::Module(at + modules),

@@ -4,7 +4,7 @@ use super::reader::Reader;
 use super::resolve::Resolver;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Read;
-use crate::ir::{Catalog, CompactString, Documentation, Extension};
+use crate::ir::{Catalog, CompactString, Documentation};
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Tag;
 
@@ -85,13 +85,7 @@ impl Header {
             }
         }
         if let Some(documentation) = self.description {
-            let translations = documentation.translations.iter();
-            let kept = translations.map(|local| Extension {
-                key: compact_str::format_compact!("DeviceIdentity/InfoText/{}", local.language),
-                value: local.text.clone(),
-                span: Span::default(),
-            });
-            catalog.extensions.extend(kept);
+            catalog.descriptions = documentation.translations;
         }
     }
 

@@ -104,8 +104,8 @@ impl<'a> Reader<'a, '_> {
                 parameters.push(by_schema(known));
             }
         }
-        let place = |parameter: &FParameter| KNOWN.iter().position(|known| known.name == parameter.name);
-        parameters.sort_by_key(place);
+        let position = |parameter: &FParameter| KNOWN.iter().position(|known| known.name == parameter.name);
+        parameters.sort_by_key(position);
     }
 
     fn f_parameter(&mut self, tag: &Tag<'a>, known: &Known) -> Read<FParameter> {

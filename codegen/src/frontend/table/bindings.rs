@@ -187,7 +187,7 @@ impl Rows {
             bindings.push(Binding::Ascii(notation::filled(name, named.number, sub_index).into()));
         }
         if let Some(code) = &row.param {
-            bindings.push(Binding::Parameter { space: "parameter".into(), code: code.value.saturating_add(shift) });
+            bindings.push(Binding::parameter("parameter", code.value.saturating_add(shift)));
         }
         bindings
     }

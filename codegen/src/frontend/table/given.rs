@@ -22,7 +22,7 @@ pub(super) fn number(
     let mut models = Vec::new();
     for (model, given) in table.models.iter() {
         references.push((model.clone(), "model"));
-        models.push((model.value.as_str().into(), value::value(reader, given, Type::Real64)));
+        models.push((reader.reference(model), value::value(reader, given, Type::Real64)));
     }
     let origin = reader.origin(name);
     GivenNumber {
@@ -45,7 +45,7 @@ pub(super) fn unit(
     references.extend(given.map(|name| (name.clone(), "given number")));
     let unit = table.unit.as_ref()?;
     symbol(reader, unit);
-    let names = |list: &[At<String>]| list.iter().map(|name| name.value.as_str().into()).collect();
+    let names = |list: &[At<String>]| list.iter().map(|name| reader.reference(name)).collect();
     let unit = unit.value.as_str().into();
     Some(Box::new(MachineUnit { unit, times: names(&table.times), over: names(&table.over) }))
 }

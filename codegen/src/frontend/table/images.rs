@@ -125,9 +125,8 @@ pub(super) fn image(
 }
 
 fn binding(image: &CompactString, position: &FieldPosition) -> Binding {
-    let image = image.clone();
     Binding::Image(Box::new(ImageBinding {
-        image,
+        image: image.clone().into(),
         bit_offset: position.bit_offset,
         bits: position.bits,
         ty: position.ty,

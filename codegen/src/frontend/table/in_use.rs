@@ -195,7 +195,7 @@ fn address(binding: &Binding) -> Option<CompactString> {
     Some(match binding {
         Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),
         Binding::Register(register) => format_compact!("{} {}", space_name(register.space), register.address),
-        Binding::Parameter { space, code } => format_compact!("parameter {code} of `{space}`"),
+        Binding::Parameter(parameter) => format_compact!("parameter {} of `{}`", parameter.code, parameter.space),
         Binding::Ascii(name) => format_compact!("`{name}`"),
         _ => return None,
     })

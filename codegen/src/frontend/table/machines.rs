@@ -60,8 +60,8 @@ pub(super) fn machine(
         control_item: table.control.as_ref().map(|name| reader.reference(name)).unwrap_or_default(),
         state_type,
         states: states.into(),
-        initial: table.initial.as_ref().map(text),
-        faults: table.faults.iter().map(text).collect(),
+        initial: table.initial.as_ref().map(|name| reader.reference(name)),
+        faults: table.faults.iter().map(|name| reader.reference(name)).collect(),
         commands: commands.into(),
         transitions: transitions.into(),
         outcomes: rows,
@@ -102,7 +102,7 @@ fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &
     let one = |from: Option<&String>| Transition {
         number: row.number,
         from: from.map(|name| name.as_str().into()),
-        to: row.to.as_ref().map(text).unwrap_or_default(),
+        to: row.to.as_ref().map(|name| reader.reference(name)).unwrap_or_default(),
         command: row.command.as_ref().map(|command| reader.reference(command)),
         documentation: reader.documentation_of(row),
     };

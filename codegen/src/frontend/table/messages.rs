@@ -126,7 +126,7 @@ fn message(
             .unwrap_or_default(),
         names: reader.original(given.orig.as_deref()),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
-        accepted_in: given.accepted_in.iter().map(text).collect(),
+        accepted_in: given.accepted_in.iter().map(|name| reader.reference(name)).collect(),
         examples,
         documentation: reader.documentation_of(given),
         doubts,
@@ -299,15 +299,15 @@ impl Fields<'_, '_, '_> {
         }
         if let Some(space) = &given.code {
             self.space(space);
-            return Some(MessageField::ItemCode { space: text(space), bits: self.code_bits(field) });
+            return Some(MessageField::ItemCode { space: self.reader.reference(space), bits: self.code_bits(field) });
         }
         if let Some(space) = &given.value_of {
             self.space(space);
-            return Some(MessageField::ItemValue { space: text(space) });
+            return Some(MessageField::ItemValue { space: self.reader.reference(space) });
         }
         if let Some(space) = &given.zeros_for {
             self.space(space);
-            return Some(MessageField::ItemPadding { space: text(space) });
+            return Some(MessageField::ItemPadding { space: self.reader.reference(space) });
         }
         if let Some(repeat) = &given.repeat {
             if let Some(count) = repeat.count.as_ref().filter(|count| !before.contains(count.value.as_str())) {

@@ -8,7 +8,7 @@ use super::references::References;
 use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
-    Availability, CommandOutcomes, CompactString, Device, Documentation, Doubts, Outcome, Pattern, StateOutcome,
+    Availability, CommandOutcomes, Device, Documentation, Doubts, Outcome, Pattern, Reference, StateOutcome, StateRef,
     SubjectKind,
 };
 use crate::source::Span;
@@ -102,7 +102,7 @@ fn row(
     let mut cells = Vec::with_capacity(cells_row.cells.len());
     for (state, given) in table.states.iter().zip(&cells_row.cells) {
         let (outcomes, documentation) = cell(reader, table, given, names);
-        cells.push(StateOutcome { state: state.value.as_str().into(), outcomes, documentation });
+        cells.push(StateOutcome { state: reader.reference(state), outcomes, documentation });
     }
     let availability = Availability {
         models: cells_row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
@@ -111,7 +111,7 @@ fn row(
     };
     CommandOutcomes {
         name: name.value.as_str().into(),
-        commands: commands.iter().map(|command| command.value.as_str().into()).collect(),
+        commands: commands.iter().map(|command| reader.reference(command)).collect(),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         cells,
         documentation: reader.documentation_of(cells_row),
@@ -162,7 +162,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
             "same" => Outcome::Unchanged,
             "refused" => Outcome::Refused,
             _ => {
-                let chain: Vec<CompactString> = one.split('>').map(|state| state.trim().into()).collect();
+                let chain: Vec<StateRef> = one.split('>').map(|state| Reference::new(state.trim(), span)).collect();
                 for state in &chain {
                     names.state(reader, state, span);
                 }

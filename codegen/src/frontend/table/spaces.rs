@@ -176,7 +176,7 @@ impl Space {
             bindings.extend(self.register(reader, rule, numbers, span));
         }
         if self.parameter {
-            bindings.push(Binding::Parameter { space: self.name.as_str().into(), code: numbers.first });
+            bindings.push(Binding::parameter(&self.name, numbers.first));
         }
         if self.esc {
             let length = numbers.bits.map_or(1, |bits| bits.div_ceil(8)) as u16;

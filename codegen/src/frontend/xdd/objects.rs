@@ -11,7 +11,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, define_type, ObjectType, Terms};
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Category, Device, Extensions, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
+use crate::ir::{Category, Device, Extensions, Fact, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::{Cursor, Tag};
@@ -192,6 +192,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let (given, span) = (raw.object_type(), raw.span(Key::ObjectType));
         let has_subs = !subs.is_empty();
         let code = object::object_code(index, given.as_ref(), span, has_subs, &TERMS, self.reader.diagnostics);
+        group.origins.set(Fact::ObjectType, object::code_origin(given.as_ref(), code));
         group.kind = GroupKind::Object { index, code, category: self.category(&view) };
         group.extensions.append(&mut raw.extensions);
         group.extensions.extend(view.extensions().cloned());

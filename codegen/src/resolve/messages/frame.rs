@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, Device, MessageField};
+use crate::ir::{Binding, Device, MessageField, SpaceRef};
 
 /// The data of a frame, without start, checksum and end.
 #[derive(Clone, Debug, Default)]
@@ -140,8 +140,8 @@ impl Reader<'_, '_> {
     }
 
     /// Returns the length in bits of the shortest value in a parameter space.
-    fn shortest_value(&self, space: &str) -> usize {
-        let is_in = |binding: &Binding| matches!(binding, Binding::Parameter { space: other, .. } if other == space);
+    fn shortest_value(&self, space: &SpaceRef) -> usize {
+        let is_in = |binding: &Binding| matches!(binding, Binding::Parameter(parameter) if parameter.space == *space);
         let items = self.device.items().filter(|item| item.bindings.iter().any(is_in));
         items.filter_map(|item| self.owner.basic(item.ty).bits()).min().unwrap_or(0) as usize
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::shape::{Problem, Shaped};
 use super::step::Step;
-use crate::ir::{Binding, Device, Item, MessageRef, ParameterSpace};
+use crate::ir::{Binding, CompactString, Device, Item, MessageRef, ParameterSpace};
 
 const OTHERS: Problem = "the request has further fields whose values a client does not know";
 const NO_NUMBER: Problem = "the request contains no parameter number from this space";
@@ -17,7 +17,7 @@ pub(crate) const LONGEST: u32 = 64;
 
 /// The messages that transfer the parameters of a space, as positions in the list of shapes.
 pub(crate) struct Carriers<'d> {
-    pub space: &'d str,
+    pub space: &'d CompactString,
     pub read: Option<usize>,
     pub write: Option<usize>,
 }
@@ -34,23 +34,23 @@ pub(crate) fn carriers<'d>(device: &'d Device, shapes: &[Shaped<'_>]) -> Vec<Car
     all.filter(|carriers| carriers.read.is_some() || carriers.write.is_some()).collect()
 }
 
-/// Returns the position of the message `name`, or the reason why the message is not suitable. Returns `None` if `name` is `None`.
+/// Returns the position of a message, or the reason why the message is not suitable. Returns `None` without a reference.
 fn carrier(
     shapes: &[Shaped<'_>],
-    name: &Option<MessageRef>,
+    message: &Option<MessageRef>,
     check: impl Fn(&Shaped<'_>) -> Result<(), Problem>,
 ) -> Option<Result<usize, Problem>> {
-    let name = name.as_ref()?;
-    let Some(at) = shapes.iter().position(|shaped| shaped.is_called(name)) else { return Some(Err(NO_CODE)) };
+    let message = message.as_ref()?;
+    let Some(at) = shapes.iter().position(|shaped| Some(shaped.id) == message.id) else { return Some(Err(NO_CODE)) };
     Some(shapes.get(at).map_or(Err(NO_CODE), check).map(|()| at))
 }
 
 /// Checks that a message reads a parameter, and that its request needs only the parameter number.
-fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
+fn reads(shaped: &Shaped<'_>, space: &CompactString) -> Result<(), Problem> {
     let mut found = false;
     for step in &shaped.request.steps {
         match step {
-            Step::Code { space: other, .. } | Step::Blank { space: other, .. } if *other == space && !found => {
+            Step::Code { space: other, .. } | Step::Blank { space: other, .. } if **other == *space && !found => {
                 found = true
             }
             step if has_value(step) => return Err(OTHERS),
@@ -58,7 +58,7 @@ fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
         }
     }
     let gives = |step: &Step<'_>| match step {
-        Step::Setting { space: other, .. } | Step::ValueOnly { space: other, .. } => *other == space,
+        Step::Setting { space: other, .. } | Step::ValueOnly { space: other, .. } => **other == *space,
         _ => false,
     };
     match (found, shaped.reply.steps.iter().any(gives)) {
@@ -69,11 +69,11 @@ fn reads(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
 }
 
 /// Checks that a message writes a parameter, and that its request needs only the parameter number and the value.
-fn writes(shaped: &Shaped<'_>, space: &str) -> Result<(), Problem> {
+fn writes(shaped: &Shaped<'_>, space: &CompactString) -> Result<(), Problem> {
     let mut found = false;
     for step in &shaped.request.steps {
         match step {
-            Step::Setting { space: other, .. } | Step::Settings { space: other, .. } if *other == space && !found => {
+            Step::Setting { space: other, .. } | Step::Settings { space: other, .. } if **other == *space && !found => {
                 found = true;
             }
             Step::Code { .. } | Step::Blank { .. } => return Err(NO_SETTING),
@@ -95,10 +95,10 @@ fn has_value(step: &Step<'_>) -> bool {
 }
 
 /// Returns the parameters of a space by number.
-pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d Item> {
+pub(crate) fn numbered<'d>(device: &'d Device, space: &CompactString) -> BTreeMap<u32, &'d Item> {
     let numbered = device.items().flat_map(|item| {
         item.bindings.iter().filter_map(move |binding| match binding {
-            Binding::Parameter { space: other, code } if other == space => Some((*code, item)),
+            Binding::Parameter(parameter) if parameter.space == *space => Some((parameter.code, item)),
             _ => None,
         })
     });

@@ -1,6 +1,6 @@
 //! Messages for which code is generated, and the reasons why no code is generated for other messages.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::frame::Frame;
 use super::shaper::{self, Side};
@@ -22,10 +22,6 @@ impl<'a> Shaped<'a> {
     fn new(device: &'a Device, id: MessageId, message: &'a Message) -> Option<Self> {
         let (request, reply) = sides(device, message).ok()?;
         Some(Shaped { id, message, request, reply })
-    }
-
-    pub(super) fn is_called(&self, name: &str) -> bool {
-        self.message.name == name
     }
 
     /// Returns whether the meaning of a later reply can depend on this message.
@@ -51,32 +47,25 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
 /// Returns, for each message, whether the meaning of its reply depends on an earlier message, but no message with
 /// generated code can determine this meaning.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
-    let mut selectors: HashMap<&str, usize> = HashMap::new();
-    let mut dependents: HashMap<&str, Vec<usize>> = HashMap::new();
+    let selectors: HashSet<MessageId> =
+        all.iter().filter(|shaped| shaped.can_select()).map(|shaped| shaped.id).collect();
+    let mut dependents: HashMap<Option<MessageId>, Vec<usize>> = HashMap::new();
     for (at, shaped) in all.iter().enumerate() {
-        if shaped.can_select() {
-            *selectors.entry(&shaped.message.name).or_default() += 1;
-        }
-        if let Some(after) = shaped.message.after.as_deref() {
-            dependents.entry(after).or_default().push(at);
+        if let Some(after) = &shaped.message.after {
+            dependents.entry(after.id).or_default().push(at);
         }
     }
     let mut lost = vec![false; all.len()];
     let mut found: Vec<usize> = dependents
         .iter()
-        .filter(|(name, _)| !selectors.contains_key(*name))
+        .filter(|(selector, _)| selector.is_none_or(|id| !selectors.contains(&id)))
         .flat_map(|(_, list)| list.iter().copied())
         .collect();
     while let Some(at) = found.pop() {
         if std::mem::replace(&mut lost[at], true) || !all[at].can_select() {
             continue;
         }
-        let name = all[at].message.name.as_str();
-        let left = selectors.entry(name).or_default();
-        *left -= 1;
-        if *left == 0 {
-            found.extend(dependents.get(name).into_iter().flatten());
-        }
+        found.extend(dependents.get(&Some(all[at].id)).into_iter().flatten());
     }
     lost
 }
@@ -84,10 +73,8 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
 /// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no code is
 /// generated for such a message, or if its reply is empty or borrows from the data.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
-    let name = message.error.as_deref()?;
-    shapes
-        .iter()
-        .position(|shaped| shaped.is_called(name) && !shaped.message.reply.is_empty() && !shaped.reply.borrows())
+    let id = message.error.as_ref()?.id?;
+    shapes.iter().position(|shaped| shaped.id == id && !shaped.message.reply.is_empty() && !shaped.reply.borrows())
 }
 
 /// Returns an error if the request or reply of a message has no supported steps.

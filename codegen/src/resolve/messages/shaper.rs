@@ -3,7 +3,7 @@
 use super::shape::Problem;
 use super::step::{are_aligned, push, tail, Step};
 use crate::ir::owner::{fixed, Owner};
-use crate::ir::{Device, Message, MessageField, MessageValue, Type};
+use crate::ir::{Device, Message, MessageField, MessageValue, SpaceRef, Type};
 
 pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not exist";
 pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data ends within a byte";
@@ -205,7 +205,7 @@ impl<'a> Shaper<'a, '_> {
 
     /// Returns the step of a parameter number and its value, and the number of further fields that the step includes.
     /// In a reply without the value, the parameter number is a copy of that in the request.
-    fn code(&self, space: &'a str, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
+    fn code(&self, space: &'a SpaceRef, bits: u32, rest: &[MessageField]) -> (Step<'a>, usize) {
         match (rest.first(), self.requested_code(bits)) {
             (Some(MessageField::ItemValue { space: other }), _) if other == space => (Step::Setting { bits, space }, 1),
             (Some(MessageField::ItemPadding { space: other }), _) if other == space => (Step::Blank { bits, space }, 1),

@@ -1,6 +1,6 @@
 //! Steps: the parts of a frame's data.
 
-use crate::ir::MessageValue;
+use crate::ir::{MessageValue, SpaceRef};
 
 /// A part of the data of a frame.
 #[derive(Clone, Debug)]
@@ -28,15 +28,15 @@ pub(crate) enum Step<'a> {
     /// Check of the following parameter number, which has to equal these bytes of the request.
     Same { first: u32, count: u32 },
     /// A parameter number, without the value of the parameter.
-    Code { bits: u32, space: &'a str },
+    Code { bits: u32, space: &'a SpaceRef },
     /// A parameter number with its value.
-    Setting { bits: u32, space: &'a str },
+    Setting { bits: u32, space: &'a SpaceRef },
     /// A parameter number with zeros instead of its value.
-    Blank { bits: u32, space: &'a str },
+    Blank { bits: u32, space: &'a SpaceRef },
     /// A list of parameter numbers with their values.
-    Settings { bits: u32, space: &'a str, max: Option<u16> },
+    Settings { bits: u32, space: &'a SpaceRef, max: Option<u16> },
     /// A parameter value whose parameter number is in the request. The parameter number has `bits` bits.
-    ValueOnly { bits: u32, space: &'a str },
+    ValueOnly { bits: u32, space: &'a SpaceRef },
     /// A list of repeated fields.
     List { steps: Vec<Step<'a>>, length: u32, is_counted: bool, max: Option<u16> },
     /// All remaining bytes of the data.

@@ -6,6 +6,7 @@ use super::complete::Completion;
 use super::profile::Profile;
 use super::stored;
 use crate::ir::{Catalog, Device, Group, Value};
+use crate::resolve::references;
 use crate::source::FileId;
 
 /// Profiles in the order in which they are applied. The first profile that states a fact takes precedence.
@@ -22,7 +23,12 @@ const MODULAR: u32 = 5001;
 /// Returns all profiles. The profiles are parsed at the first call.
 fn all() -> &'static [Profile] {
     static PROFILES: OnceLock<Vec<Profile>> = OnceLock::new();
-    PROFILES.get_or_init(|| STORED.iter().filter_map(|text| stored::read(text)).collect())
+    PROFILES.get_or_init(|| {
+        let mut profiles: Vec<Profile> = STORED.iter().filter_map(|text| stored::read(text)).collect();
+        let machines = profiles.iter_mut().flat_map(|profile| &mut profile.machines);
+        machines.for_each(|(machine, _)| references::machine_of_profile(machine));
+        profiles
+    })
 }
 
 /// Applies the profiles to the devices, modules and submodules of `catalog`.

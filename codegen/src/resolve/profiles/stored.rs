@@ -5,10 +5,10 @@
 
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
-    Access, Behavior, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CompactString, Condition, Direction,
-    Documentation, Doubt, Doubts, ElementRef, EnumValue, FactOrigin, ItemRef, MessageRef, ObjectBuses, Pattern,
-    Quantity, Scale, Severity, Shape, SharedList, StateMachine, Storage, Subject, SubjectKind, Transition, Trigger,
-    Type, TypeDef, TypeId, TypeRef, Value, Zone,
+    Access, Behavior, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CommandRef, CompactString, Condition, Direction,
+    Documentation, Doubt, Doubts, ElementRef, EnumValue, FactOrigin, ItemRef, ObjectBuses, Pattern, Quantity, Scale,
+    Severity, Shape, SharedList, StateMachine, StateRef, Storage, Subject, SubjectKind, Transition, Trigger, Type,
+    TypeDef, TypeId, TypeRef, Value, Zone,
 };
 
 /// The remaining fields of a stored profile.
@@ -78,7 +78,8 @@ wrapped! {
     TypeId: u32, TypeId, |id| &id.0;
     ItemRef: CompactString, ItemRef::from, |reference| &reference.name;
     ElementRef: CompactString, ElementRef::from, |reference| &reference.name;
-    MessageRef: CompactString, MessageRef::from, |reference| &reference.name;
+    StateRef: CompactString, StateRef::from, |reference| &reference.name;
+    CommandRef: CompactString, CommandRef::from, |reference| &reference.name;
     TypeRef: CompactString, TypeRef::from, |reference| &reference.name;
 }
 

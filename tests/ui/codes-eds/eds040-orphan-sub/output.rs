@@ -1,6 +1,6 @@
     /// 0x2022.
     ///
-    /// RECORD 0x2022.
+    /// RECORD 0x2022. Object type from the rule for missing or wrong object types.
     pub mod object_2022 {
         /// Highest sub-index: Default 1, 0x2022:00, UNSIGNED8, read-only.
         /// Accessor: [`Object2022Accessors::highest_sub_index`].

@@ -1,6 +1,6 @@
     /// Speeds.
     ///
-    /// RECORD 0x2000.
+    /// RECORD 0x2000. Object type from the rule for missing or wrong object types.
     pub mod speeds {
         /// Highest sub-index: Default 1, 0x2000:00, UNSIGNED8, read-only.
         /// Accessor: [`SpeedsAccessors::highest_sub_index`].

@@ -1,5 +1,6 @@
 //! Documents: the code of a construct with marked positions for line breaks.
 
+use crate::facts::number::hex16;
 use compact_str::CompactString;
 
 /// Code of one construct: its text on one line, with marked positions for line breaks.
@@ -233,7 +234,7 @@ impl Data {
 
     /// Creates a hexadecimal number with four digits.
     pub fn index(value: u16) -> Doc {
-        Doc::from(format!("0x{value:04X}"))
+        Doc::from(hex16(value))
     }
 
     /// Creates `path { name: value, … }`. The literal is on one line only if it is short. Without fields, creates only

@@ -5,6 +5,7 @@ use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::pdo::{mapping_entry, PdoModels};
 use crate::backend::rust::slot_dependency::{depends_on, NOTHING};
+use crate::facts::number::{hex, hex16, hex32, hex8};
 use crate::ir::{
     Coe, CompactString, Device, Direction, EtherCatSettings, Fit, Group, InitCommand, Mailbox, Module, ModulePdoGroup,
     Pdo, Slot, SlotRules, SyncManager, SyncManagerPurpose,
@@ -38,7 +39,7 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
     Data::fields(
         "rt::ethercat::Module",
         vec![
-            ("ident", Doc::from(format!("0x{:08X}", module.number))),
+            ("ident", Doc::from(hex32(module.number))),
             ("name", Doc::from(literal::string(&module.name))),
             ("class", Doc::from(literal::string(&module.class))),
             ("pdo_group", Doc::from(module.pdo_group.unwrap_or(0).to_string())),
@@ -81,7 +82,7 @@ fn sync_manager(manager: &SyncManager) -> Doc {
             ("default_size", Doc::from(manager.default_size.unwrap_or(0).to_string())),
             ("min_size", Data::option(manager.size_range.0)),
             ("max_size", Data::option(manager.size_range.1)),
-            ("control", Doc::from(format!("0x{:02X}", manager.control))),
+            ("control", Doc::from(hex8(manager.control))),
             ("enable", Doc::from((manager.enable).to_string())),
             ("op_only", Doc::from((manager.op_only).to_string())),
         ],
@@ -115,7 +116,7 @@ fn pdo_info(pdo: &Pdo, models: &PdoModels<'_>) -> Doc {
             ("fixed", Doc::from((pdo.fixed || !pdo.is_mapping_known()).to_string())),
             ("mandatory", Doc::from((pdo.mandatory).to_string())),
             ("depends_on", Doc::from(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
-            ("excludes", numbers(pdo.excludes.iter().map(|index| format!("0x{index:04X}")).collect())),
+            ("excludes", numbers(pdo.excludes.iter().map(|index| hex16(*index)).collect())),
             ("mapping", mapping(pdo, models)),
         ],
     )
@@ -168,7 +169,7 @@ fn init_command(command: &InitCommand) -> Doc {
         vec![
             ("transitions", transitions(known_transitions(command.transitions.iter().map(CompactString::as_str)))),
             ("index", Data::index(command.index)),
-            ("sub_index", Doc::from(format!("0x{:02X}", command.sub_index))),
+            ("sub_index", Doc::from(hex8(command.sub_index))),
             ("complete_access", Doc::from((command.complete_access).to_string())),
             ("depends_on", Doc::from(depends_on(command.depends_on_slot, command.depends_on_slot_group))),
             ("data", Doc::from(literal::bytes(&command.data))),
@@ -213,13 +214,13 @@ fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Doc {
 
 fn slot(slot: &Slot) -> Doc {
     let fit = |fit: &Fit| match fit {
-        Fit::Ident(ident) => Doc::from(format!("rt::ethercat::Fit::Ident(0x{ident:08X})")),
+        Fit::Ident(ident) => Doc::from(format!("rt::ethercat::Fit::Ident({})", hex32(*ident))),
         Fit::Class(name) | Fit::Name(name) => {
             Data::call("rt::ethercat::Fit::Class", vec![Doc::from(literal::string(name))])
         }
     };
     let default = match &slot.default {
-        Some(Fit::Ident(ident)) => Some(format!("0x{ident:08X}")),
+        Some(Fit::Ident(ident)) => Some(hex32(*ident)),
         _ => None,
     };
     Data::fields(
@@ -237,7 +238,7 @@ fn slot(slot: &Slot) -> Doc {
 }
 
 fn increments(index: u16, pdo: u16) -> Doc {
-    let numbers = [index, pdo].map(|number| Doc::from(format!("0x{number:X}")));
+    let numbers = [index, pdo].map(|number| Doc::from(hex(number)));
     Data::call("rt::ethercat::Increments::new", numbers)
 }
 
@@ -248,7 +249,7 @@ fn slot_group(number: u16, slot: &Slot) -> Doc {
 }
 
 fn pdo_group(group: &ModulePdoGroup) -> Doc {
-    let index = |index: Option<u16>| Data::option(index.map(|index| format!("0x{index:04X}")));
+    let index = |index: Option<u16>| Data::option(index.map(hex16));
     Data::fields(
         "rt::ethercat::PdoGroup",
         vec![

@@ -3,7 +3,9 @@
 
 use super::Assigned;
 use crate::backend::rust::code::Doc;
+use crate::backend::rust::literal;
 use crate::backend::rust::pdo;
+use crate::facts::number::hex16;
 use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
 
 /// Index of the object that assigns PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
@@ -38,8 +40,8 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
         }
         commands.push(write("u8", pdo.mapping_index, 0, "0"));
         for (entry, sub) in pdo.entries.iter().zip(1..=u8::MAX) {
-            let low = u32::from(entry.sub_index) << 8 | entry.bits;
-            commands.push(write("u32", pdo.mapping_index, sub, &format!("0x{:04X}_{low:04X}", entry.index)));
+            let word = u32::from(entry.index) << 16 | u32::from(entry.sub_index) << 8 | entry.bits;
+            commands.push(write("u32", pdo.mapping_index, sub, &literal::word(word)));
         }
         commands.push(write("u8", pdo.mapping_index, 0, &pdo.entries.len().to_string()));
     }
@@ -47,7 +49,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
         let object = ASSIGN + u16::from(manager.number);
         let list: Vec<u16> = of(manager.number).collect();
         let entries = list.iter().zip(1..=u8::MAX);
-        commands.extend(entries.map(|(index, sub)| write("u16", object, sub, &format!("0x{index:04X}"))));
+        commands.extend(entries.map(|(index, sub)| write("u16", object, sub, &hex16(*index))));
         if !list.is_empty() {
             commands.push(write("u8", object, 0, &list.len().to_string()));
         }

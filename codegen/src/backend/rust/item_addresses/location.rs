@@ -4,6 +4,7 @@ use super::ItemAddresses;
 use crate::backend::rust::code::{call, list, seq, Doc};
 use crate::backend::rust::located::Located;
 use crate::backend::rust::route::{Route, RouteBus};
+use crate::facts::number::{hex16, hex8};
 
 /// A function that creates locations, and the arguments for one item.
 pub(in crate::backend::rust) struct Maker {
@@ -38,7 +39,7 @@ impl ItemAddresses<'_> {
             (Some(canopen), Some(coe)) if canopen != coe => None,
             (canopen, coe) => {
                 let (index, sub) = canopen.or(coe)?;
-                Some(vec![format!("0x{index:04X}"), format!("0x{sub:02X}"), register])
+                Some(vec![hex16(index), hex8(sub), register])
             }
         }
     }
@@ -78,17 +79,17 @@ impl ItemAddresses<'_> {
                     (None, _) => "coe",
                     _ => "object",
                 };
-                Doc::from(format!("{path}::{method}(0x{index:04X}, 0x{sub:02X})"))
+                Doc::from(format!("{path}::{method}({}, {})", hex16(index), hex8(sub)))
             }
             (Some((index, sub)), Some(register), None) if same => {
-                let [index, sub] = [format!("0x{index:04X}"), format!("0x{sub:02X}")];
+                let [index, sub] = [hex16(index), hex8(sub)];
                 call!(seq![path, "::register"], index, sub, self.register(register))
             }
             (None, Some(register), None) => call!(seq![path, "::modbus"], self.register(register)),
             (None, None, Some(code)) => Doc::from(format!("{path}::serial({code})")),
             (None, None, None) => match (image, esc) {
                 (Some(field), _) => call!(seq![path, "::field"], field.code(self.is_bytes)),
-                (None, Some((address, length))) => Doc::from(format!("{path}::memory(0x{address:04X}, {length})")),
+                (None, Some((address, length))) => Doc::from(format!("{path}::memory({}, {length})", hex16(address))),
                 (None, None) => self.new_location(located, path, windows),
             },
             // There is no short constructor for different addresses on several buses or for rare combinations of
@@ -140,7 +141,7 @@ impl ItemAddresses<'_> {
         let mut arguments: Vec<String> = addressed().filter_map(|bus| self.address(bus)).collect();
         if let Some(number) = number {
             parameters.push("number: u32".to_owned());
-            arguments.push(format!("0x{number:04X}"));
+            arguments.push(hex16(number));
         }
         Some(Maker {
             parameters,
@@ -151,14 +152,16 @@ impl ItemAddresses<'_> {
 
     /// Returns the code that creates the item's address on a bus.
     pub(super) fn address(&self, bus: RouteBus) -> Option<String> {
-        let object = |(index, sub): (u16, u8)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})");
+        let object = |(index, sub): (u16, u8)| format!("rt::Object::new({}, {})", hex16(index), hex8(sub));
         match bus {
             RouteBus::CanOpen => self.canopen.map(object),
             RouteBus::CoE => self.coe.map(object),
             RouteBus::Modbus => self.register_code(),
             RouteBus::Serial => self.serial.map(|code| format!("rt::Parameter({code})")),
             RouteBus::Image => self.image.map(|field| field.code(self.is_bytes)),
-            RouteBus::Esc => self.esc.map(|(address, length)| format!("rt::EscMemory::new(0x{address:04X}, {length})")),
+            RouteBus::Esc => {
+                self.esc.map(|(address, length)| format!("rt::EscMemory::new({}, {length})", hex16(address)))
+            }
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{Field, ItemAddresses};
 use crate::backend::rust::route::{Route, RouteBus};
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::words::escape;
+use crate::facts::number::hex16;
 use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
@@ -24,7 +25,7 @@ impl ItemAddresses<'_> {
             self.modbus
                 .map(|register_binding| format!("Modbus {}", escape(&register::text(register_binding, item, tables)))),
         );
-        facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
+        facts.extend(self.serial.map(|code| format!("parameter {}", hex16(code))));
         facts.extend(self.image.map(|field| field.facts()));
         facts.extend(self.number_in_words());
         facts.join(", ")
@@ -37,12 +38,12 @@ impl ItemAddresses<'_> {
             Some(bit) => format!("register {} from bit {bit}", escape(&register::printed(register_binding))),
             None => format!("register {}", escape(&register::printed(register_binding))),
         });
-        let serial = self.serial.map(|code| format!("parameter 0x{code:04X}"));
+        let serial = self.serial.map(|code| format!("parameter {}", hex16(code)));
         let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
         if !found.is_empty() {
             return found.join(", ");
         }
-        let memory = self.esc.map(|(address, _)| format!("memory 0x{address:04X}"));
+        let memory = self.esc.map(|(address, _)| format!("memory {}", hex16(address)));
         self.image.map(|field| field.facts()).or(memory).or(self.number_in_words()).unwrap_or_default()
     }
 
@@ -52,7 +53,7 @@ impl ItemAddresses<'_> {
         let window = |route: &Route<'_>| route.access_paths().find_map(|access_path| access_path.window);
         let windowed = RouteBus::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
         let windowed: Vec<&str> = windowed.map(|(bus, _)| bus.title()).collect();
-        Some(format!("indirect access with number 0x{number:04X} ({})", windowed.join(", ")))
+        Some(format!("indirect access with number {} ({})", hex16(number), windowed.join(", ")))
     }
 
     /// Returns the number that selects the item in a window.

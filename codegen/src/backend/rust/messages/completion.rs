@@ -1,5 +1,6 @@
 //! Completion of commands: when a command is completed, and which field of a reply indicates the completion.
 
+use crate::facts::number::hex;
 use std::collections::HashMap;
 
 use super::field::{self, Field};
@@ -88,7 +89,7 @@ fn compare(
     }
     // The maximum number that the field's type can represent.
     let (_, maximum) = base.integer_range()?;
-    let number = |number: u64| (i128::from(number) <= maximum).then(|| format!("{number:#X}").replace("0X", "0x"));
+    let number = |number: u64| (i128::from(number) <= maximum).then(|| hex(number));
     let (offset, mask) = match bit {
         Some(bit) => bits(context, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),

@@ -7,7 +7,7 @@ use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::links::DocModule;
 use crate::backend::rust::literal;
 use crate::backend::rust::method_names::unused_name;
-use crate::ir::Message;
+use crate::ir::{Message, MessageRef};
 use crate::names::{self, Case};
 use crate::resolve::messages::Shaped;
 
@@ -63,8 +63,7 @@ pub(super) fn calls(
             1..=MAX_ARGUMENTS => (arguments, Data::fields(&ty, built)),
             _ => (vec![format!("message: {ty}{lifetime}")], Doc::from("message")),
         };
-        let after = shape.message.after.as_ref();
-        let selector = selector(shaped, messages, after.map(|previous| previous.as_str()));
+        let selector = selector(shaped, messages, shape.message.after.as_ref());
         calls.push(CallModel {
             method: names::escaped(&name),
             docs: docs(model, request),
@@ -106,14 +105,14 @@ pub(super) fn by_default(
     calls: &[CallModel],
 ) -> Option<DefaultModel> {
     let shape = shaped.iter().find(|shape| shape.message.by_default)?;
-    let selector = selector(shaped, messages, shape.message.after.as_ref().map(|previous| previous.as_str()))?;
+    let selector = selector(shaped, messages, shape.message.after.as_ref())?;
     calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
 }
 
 /// Returns a note about the replacement of a message. The note names the new message and the models that have it.
 fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
     let name = message.availability.as_ref()?.replaced_by.as_ref()?;
-    let other = all.iter().find(|shape| shape.message.name == *name);
+    let other = all.iter().find(|shape| name.id == Some(shape.id.into()));
     let models = other
         .and_then(|shape| shape.message.availability.as_ref())
         .map_or(&[][..], |availability| &availability.models);
@@ -123,8 +122,9 @@ fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
     })
 }
 
-/// Returns the type of the message with this name.
-fn selector(shaped: &[Shaped<'_>], messages: &[MessageModel], name: Option<&str>) -> Option<String> {
-    let at = shaped.iter().position(|shape| Some(shape.message.name.as_str()) == name)?;
+/// Returns the type of the referenced message.
+fn selector(shaped: &[Shaped<'_>], messages: &[MessageModel], message: Option<&MessageRef>) -> Option<String> {
+    let id = message?.id?;
+    let at = shaped.iter().position(|shape| shape.id == id)?;
     messages.get(at)?.request.as_ref().map(|request| request.name.clone())
 }

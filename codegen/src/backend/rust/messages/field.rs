@@ -88,22 +88,22 @@ fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, 
         Step::Blank { bits, space } => plain(
             "rt::Parameter",
             "Number of the parameter.",
-            FieldKind::Blank { space: (*space).to_owned(), bits: *bits },
+            FieldKind::Blank { space: space.to_string(), bits: *bits },
         ),
         Step::Setting { bits, space } => plain(
             "rt::message::Setting",
             "The parameter and its value.",
-            FieldKind::Setting { space: (*space).to_owned(), bits: *bits },
+            FieldKind::Setting { space: space.to_string(), bits: *bits },
         ),
         Step::Settings { bits, space, .. } => plain(
             "rt::message::Settings<'a>",
             "Parameters and their values.",
-            FieldKind::Settings { space: (*space).to_owned(), bits: *bits },
+            FieldKind::Settings { space: space.to_string(), bits: *bits },
         ),
         Step::ValueOnly { space, .. } => plain(
             "&'a [u8]",
             "Bytes of the parameter's value, in the byte order of the message.",
-            FieldKind::ValueOnly { space: (*space).to_owned() },
+            FieldKind::ValueOnly { space: space.to_string() },
         ),
         Step::List { .. } => Field {
             ty_at_top: format!("rt::message::List<'a, messages::{entry}>"),

@@ -3,6 +3,7 @@
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
+use crate::facts::number::{hex16, hex8};
 use crate::ir::{Device, Framing};
 use crate::resolve::messages::{Shaped, Step};
 
@@ -12,7 +13,7 @@ const UNBOUNDED_LENGTH: u32 = 256;
 /// Returns the expression of the framing constant. Returns `None` if frames have no end byte, or if the runtime does
 /// not support the checksum algorithm.
 pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
-    let byte = |byte: u8| Doc::from(format!("0x{byte:02X}"));
+    let byte = |byte: u8| Doc::from(hex8(byte));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
     let from = framing.check_from.as_deref().and_then(|field| check_start(field, shaped)).unwrap_or(0);
     let escape = |escape: u8| {
@@ -21,7 +22,7 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
         Data::call("Some", vec![Data::fields("rt::framing::Escape", fields)])
     };
     let fields = vec![
-        ("start", Data::option(framing.start.map(|start| format!("0x{start:02X}")))),
+        ("start", Data::option(framing.start.map(hex8))),
         ("end", byte(framing.end?)),
         ("escape", framing.escape.map_or_else(|| Doc::from("None"), escape)),
         ("check", Doc::from(format!("rt::framing::Check::{}", check(framing)?))),
@@ -43,10 +44,10 @@ fn check(framing: &Framing) -> Option<String> {
     let (byte, word) = (framing.check_seed & 0xFF, framing.check_seed & 0xFFFF);
     Some(match framing.check.as_str() {
         "" => "None".to_owned(),
-        "xor" => format!("Xor(0x{byte:02X})"),
-        "sum" => format!("Sum(0x{byte:02X})"),
-        "lrc" => format!("Lrc(0x{byte:02X})"),
-        "crc16" => format!("Crc16(0x{word:04X})"),
+        "xor" => format!("Xor({})", hex8(byte)),
+        "sum" => format!("Sum({})", hex8(byte)),
+        "lrc" => format!("Lrc({})", hex8(byte)),
+        "crc16" => format!("Crc16({})", hex16(word)),
         _ => return None,
     })
 }

@@ -9,7 +9,9 @@ use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
 use crate::backend::rust::machine::{self, Variants};
 use crate::backend::rust::named::Types;
-use crate::ir::{CommandOutcomes, Device, Outcome, StateMachine, StateOutcome};
+use crate::ir::{
+    CommandOutcomes, Device, DeviceStateId, MessageId, Outcome, StateId, StateMachine, StateOutcome, StateRef,
+};
 use crate::names::{self, Case, NameRequest};
 
 /// The effects of a message in each state, ready to be printed.
@@ -22,27 +24,27 @@ pub(in crate::backend::rust) struct OutcomesModel {
     pub value: Doc,
 }
 
-/// Returns the effects of all messages, keyed by message name.
-pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, Vec<OutcomesModel>> {
-    let machines: Vec<&StateMachine> = device.machines.iter().filter(|machine| !machine.outcomes.is_empty()).collect();
-    let mut all: HashMap<String, Vec<OutcomesModel>> = HashMap::new();
-    for machine in &machines {
-        let Some((ty, variants)) = states(context, device, machine, types) else { continue };
+/// Returns the effects of all messages.
+pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<MessageId, Vec<OutcomesModel>> {
+    let machines = || device.machines.iter().enumerate().filter(|(_, machine)| !machine.outcomes.is_empty());
+    let mut all: HashMap<MessageId, Vec<OutcomesModel>> = HashMap::new();
+    for (position, machine) in machines() {
+        let Some((ty, variants)) = states(context, machine, position, types) else { continue };
         let states = format!("super::types::{ty}");
-        let link = |name: &str| match variants.get(name) {
+        let link = |state: &StateRef| match variant(&variants, state) {
             Some(variant) => DocModule::MESSAGES.code(&format!("types::{ty}::{variant}")),
-            None => docs::escape(name),
+            None => docs::escape(state),
         };
-        let name = match machines.len() {
+        let name = match machines().count() {
             1 => "OUTCOMES".to_owned(),
             _ => constant(&machine.name),
         };
         for row in &machine.outcomes {
-            for command in &row.commands {
+            for message in row.commands.iter().filter_map(|command| command.id) {
                 let value = row_data(row, &states, &variants);
                 let docs = documentation(context, machine, row, &link);
                 let model = OutcomesModel { name: name.clone(), docs, states: states.clone(), value };
-                all.entry(command.to_string()).or_default().push(model);
+                all.entry(message).or_default().push(model);
             }
         }
     }
@@ -56,32 +58,36 @@ fn constant(machine: &str) -> String {
     names::unique(&[name_request], &[], Case::Snake).remove(0).to_ascii_uppercase()
 }
 
-/// Returns the type of a machine's states, and its variants keyed by the names of the states.
-fn states(context: &Context<'_>, device: &Device, machine: &StateMachine, types: &Types) -> Option<Variants> {
-    let at = device.machines.iter().position(|other| other.name == machine.name);
-    let model = at.and_then(|at| types.machines.get(at)).and_then(|model| model.states.as_ref());
+fn variant<'v>(variants: &'v HashMap<u32, String>, state: &StateRef) -> Option<&'v str> {
+    variants.get(&state.id?.0).map(String::as_str)
+}
+
+/// Returns the type of a machine's states, and its variants. `position` is the position of the machine in its device.
+fn states(context: &Context<'_>, machine: &StateMachine, position: usize, types: &Types) -> Option<Variants> {
+    let model = types.machines.get(position).and_then(|model| model.states.as_ref());
     machine::states_of(context, machine, model, &types.enumerations)
 }
 
-/// Returns the paths of the states of all machines, keyed by state name. If several machines have a state with the same
-/// name, the path leads to the state of the first machine.
-pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
+/// Returns the paths of the states of all machines.
+pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<DeviceStateId, String> {
     let mut links = HashMap::new();
-    for (ty, variants) in device.machines.iter().filter_map(|machine| states(context, device, machine, types)) {
-        for (name, variant) in variants {
-            links.entry(name).or_insert_with(|| format!("types::{ty}::{variant}"));
-        }
+    for (position, machine) in device.machines.iter().enumerate() {
+        let Some((ty, variants)) = states(context, machine, position, types) else { continue };
+        links.extend(variants.into_iter().map(|(state, variant)| {
+            let id = DeviceStateId { machine: position as u32, state: StateId(state) };
+            (id, format!("types::{ty}::{variant}"))
+        }));
     }
     links
 }
 
-fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, String>) -> Doc {
-    let state = |name: &str| Some(Doc::from(format!("{states}::{}", variants.get(name)?)));
+fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<u32, String>) -> Doc {
+    let state = |state: &StateRef| Some(Doc::from(format!("{states}::{}", variant(variants, state)?)));
     let outcome = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => Doc::from("rt::message::Outcome::Unchanged"),
         Outcome::Refused => Doc::from("rt::message::Outcome::Refused"),
         Outcome::States(to) => {
-            let to = to.iter().filter_map(|name| state(name)).collect::<Vec<_>>();
+            let to = to.iter().filter_map(state).collect::<Vec<_>>();
             Data::call("rt::message::Outcome::States", vec![Data::slice(to)])
         }
     };
@@ -96,7 +102,7 @@ fn documentation(
     context: &Context<'_>,
     machine: &StateMachine,
     row: &CommandOutcomes,
-    link: &dyn Fn(&str) -> String,
+    link: &dyn Fn(&StateRef) -> String,
 ) -> Vec<String> {
     let mut lines = vec![format!(
         "Reaction to the command in each state of the state machine \"{}\".",
@@ -106,7 +112,7 @@ fn documentation(
     let one = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => "state unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
-        Outcome::States(to) => to.iter().map(|name| link(name)).collect::<Vec<_>>().join(", then "),
+        Outcome::States(to) => to.iter().map(link).collect::<Vec<_>>().join(", then "),
     };
     let cell = |cell: &StateOutcome| {
         let mut words = Vec::new();

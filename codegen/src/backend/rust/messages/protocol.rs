@@ -13,7 +13,7 @@ use super::outcomes::OutcomesModel;
 use super::rules::{RuleModel, Rules};
 use super::{completion, device, field, framing, outcomes, parameters, steps};
 use super::{CallModel, DefaultModel, Field, ParametersModel, Statements};
-use crate::ir::{Completion, Message};
+use crate::ir::{Completion, DeviceStateId, DeviceStateRef, Message, MessageId};
 use crate::resolve::messages::{self, Shaped, Step};
 
 /// A message protocol, ready to be printed.
@@ -101,7 +101,7 @@ impl ProtocolModel {
             context,
             options,
             polled: completion::conditions(device),
-            selectors: shapes.iter().filter_map(|shape| Some(shape.message.after.as_ref()?.as_str())).collect(),
+            selectors: shapes.iter().filter_map(|shape| shape.message.after.as_ref()?.id).collect(),
             rules: &rules,
             shapes,
             names,
@@ -111,7 +111,7 @@ impl ProtocolModel {
         let mut messages: Vec<MessageModel> =
             shapes.iter().zip(names).map(|(shape, names)| make.message(shape, names)).collect();
         for (shape, model) in shapes.iter().zip(&mut messages) {
-            model.outcomes = outcomes.remove(shape.message.name.as_str()).unwrap_or_default();
+            model.outcomes = outcomes.remove(&shape.id).unwrap_or_default();
         }
         let calls = if options.accessors { device::calls(shapes, &messages, &rules, reserved) } else { Vec::new() };
         Some(ProtocolModel {
@@ -164,13 +164,13 @@ struct Maker<'m, 'a> {
     options: &'m RustOptions,
     /// Polling conditions that indicate that a command is completed.
     polled: completion::Conditions<'m>,
-    /// Names of messages that determine the meaning of other messages.
-    selectors: HashSet<&'m str>,
+    /// Messages that determine the meaning of other messages.
+    selectors: HashSet<MessageId>,
     rules: &'m Rules,
     shapes: &'m [Shaped<'a>],
     names: &'m [Names],
-    /// Paths of states, keyed by their names in the description.
-    states: &'m HashMap<String, String>,
+    /// Paths of states.
+    states: &'m HashMap<DeviceStateId, String>,
 }
 
 impl Maker<'_, '_> {
@@ -209,7 +209,7 @@ impl Maker<'_, '_> {
             refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
             completion: completion(&message.completion),
             outcomes: Vec::new(),
-            is_selector: self.selectors.contains(message.name.as_str()),
+            is_selector: self.selectors.contains(&shape.id),
         }
     }
 
@@ -281,11 +281,12 @@ impl Maker<'_, '_> {
         if !message.accepted_in.is_empty() {
             // Only the documentation of the message links to states. The documentation of the method links to the
             // message.
-            let state = |name: &str| match self.states.get(name).filter(|_| !doc_module.is_top()) {
+            let path = |state: &DeviceStateRef| self.states.get(&state.id?).filter(|_| !doc_module.is_top());
+            let state = |state: &DeviceStateRef| match path(state) {
                 Some(path) => doc_module.code(path),
-                None => docs::escape(name),
+                None => docs::escape(state),
             };
-            let states: Vec<String> = message.accepted_in.iter().map(|name| state(name)).collect();
+            let states: Vec<String> = message.accepted_in.iter().map(state).collect();
             sentences.push(format!("The device accepts the message in these states: {}.", states.join(", ")));
         }
         for condition in &message.accepted_when {

@@ -3,7 +3,8 @@
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
-use crate::ir::{Device, ParameterSpace, Type};
+use crate::facts::number::hex;
+use crate::ir::{Device, ParameterSpace, SpaceRef, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{numbered, Step};
 
@@ -35,7 +36,7 @@ impl Rules {
         steps: impl Iterator<Item = &'a Step<'a>>,
         types: &[&str],
     ) -> Self {
-        let mut used: Vec<(&str, u32)> = Vec::new();
+        let mut used: Vec<(&SpaceRef, u32)> = Vec::new();
         for step in steps {
             let space_and_bits = match step {
                 Step::Setting { bits, space } | Step::Blank { bits, space } | Step::Settings { bits, space, .. } => {
@@ -48,7 +49,7 @@ impl Rules {
                 used.push(space_and_bits);
             }
         }
-        let name_request = |(space, bits): &(&'a str, u32)| NameRequest {
+        let name_request = |(space, bits): &(&'a SpaceRef, u32)| NameRequest {
             name: space,
             fallback: "space".to_owned(),
             suffix: bits.to_string(),
@@ -62,12 +63,12 @@ impl Rules {
         reserved.extend(types.iter().map(String::as_str));
         let names = names::unique_up_to(&name_requests, &reserved, Case::Snake, MAX_NAME);
         let models = used.iter().zip(names).map(|((space, bits), name)| {
-            let definition = device.parameter_spaces.iter().find(|definition| definition.name == *space);
+            let definition = device.parameter_space(space);
             let order = definition
                 .map(|definition| definition.byte_order.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
             RuleModel {
                 name: name.to_ascii_uppercase(),
-                space: (*space).to_owned(),
+                space: space.to_string(),
                 docs: documentation(context, definition, space),
                 code_bits: *bits,
                 order: order.unwrap_or_default(),
@@ -98,7 +99,7 @@ fn documentation(context: &Context<'_>, definition: Option<&ParameterSpace>, spa
 }
 
 /// Returns ranges of consecutive parameter numbers with values of the same length.
-fn lengths(context: &Context<'_>, device: &Device, space: &str) -> Vec<String> {
+fn lengths(context: &Context<'_>, device: &Device, space: &SpaceRef) -> Vec<String> {
     let mut spans: Vec<(u32, u32, u32)> = Vec::new();
     for (code, item) in numbered(device, space) {
         let Some(length) = length(context.base(item.ty)) else { continue };
@@ -107,8 +108,7 @@ fn lengths(context: &Context<'_>, device: &Device, space: &str) -> Vec<String> {
             _ => spans.push((code, code, length)),
         }
     }
-    let one =
-        |(first, last, length): &(u32, u32, u32)| format!("({first:#X}, {last:#X}, {length})").replace("0X", "0x");
+    let one = |&(first, last, length): &(u32, u32, u32)| format!("({}, {}, {length})", hex(first), hex(last));
     spans.iter().map(one).collect()
 }
 

@@ -3,6 +3,7 @@
 use super::field::Field;
 use super::rules::Rules;
 use crate::backend::rust::code::{call, seq, Doc};
+use crate::facts::number::hex8;
 use crate::ir::{Limits, Value};
 use crate::resolve::messages::{tail, Step};
 
@@ -163,7 +164,7 @@ fn limit(count: &str, max: u16) -> [Doc; 2] {
 }
 
 fn array(bytes: &[u8]) -> String {
-    let bytes: Vec<String> = bytes.iter().map(|byte| format!("0x{byte:02X}")).collect();
+    let bytes: Vec<String> = bytes.iter().map(|byte| hex8(*byte)).collect();
     format!("[{}]", bytes.join(", "))
 }
 

@@ -10,7 +10,9 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     code.use_runtime();
     line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
     if let Some(identity) = &model.identity {
-        self::identity(code, identity, &format!("Identity of {}: vendor, product and revision.", model.title));
+        let title = format!("Identity of {}: vendor, product and revision.", model.title);
+        let sentences: Vec<&str> = [&title].into_iter().chain(&identity.origins).map(String::as_str).collect();
+        self::identity(code, identity, &sentences.join(" "));
     }
     if let Some(node_id) = model.node_id {
         code.doc("Node-ID of this device in the configuration file.");

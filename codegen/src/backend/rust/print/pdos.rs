@@ -5,6 +5,7 @@ use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
+use crate::facts::number::hex16;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let heading = "PDOs with their default mapping.";
@@ -37,7 +38,7 @@ pub(in crate::backend::rust) fn pdo(code: &mut Code, pdo: &PdoModel) {
     }
     code.close("}");
     open!(code, "impl rt::Pdo for ", pdo.name, " {");
-    line!(code, "const INDEX: u16 = ", format_args!("0x{:04X}", pdo.mapping_index), ";");
+    line!(code, "const INDEX: u16 = ", hex16(pdo.mapping_index), ";");
     line!(code, "const LEN: usize = Self::LEN;");
     open!(code, "const MAPPING: &'static [rt::MappedEntry] = &[");
     for entry in &pdo.mapping {

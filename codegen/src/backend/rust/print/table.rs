@@ -3,6 +3,7 @@
 use crate::backend::rust::code::{call, line, open, Code, Doc};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::table::EntryModel;
+use crate::facts::number::{hex16, hex8};
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(table) = &model.table else { return };
@@ -24,7 +25,7 @@ fn entry(code: &mut Code, entry: &EntryModel) {
     open!(code, "rt::table::Entry {");
     match entry.object {
         Some((index, sub_index)) => {
-            line!(code, format_args!("object: Some(rt::Object::new(0x{index:04X}, 0x{sub_index:02X})),"));
+            line!(code, format_args!("object: Some(rt::Object::new({}, {})),", hex16(index), hex8(sub_index)));
         }
         None => line!(code, "object: None,"),
     }

@@ -9,6 +9,7 @@ use super::scope::{AccessPoint, Scope};
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::doc_table;
 use crate::backend::rust::identity::IdentityModel;
+use crate::facts::number::{hex16, hex32};
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, SlotNumbers, Submodule, SubmoduleUse};
 
 /// A submodule, ready to be printed.
@@ -66,8 +67,8 @@ fn submodule_docs(
     records: &[RecordModel],
     is_safe: bool,
 ) -> Vec<String> {
-    let api = if submodule.api == 0 { String::new() } else { format!(" of API 0x{:04X}", submodule.api) };
-    let mut lines = vec![docs::titled(&submodule.name, &format!("submodule 0x{:08X}{api}", submodule.ident))];
+    let api = if submodule.api == 0 { String::new() } else { format!(" of API {}", hex16(submodule.api)) };
+    let mut lines = vec![docs::titled(&submodule.name, &format!("submodule {}{api}", hex32(submodule.ident)))];
     docs::paragraphs(&submodule.name, submodule.documentation.as_deref(), &mut lines);
     let too_long = submodule.records.iter().filter(|group| match &group.kind {
         crate::ir::GroupKind::Record(record) => !(1..=crate::limits::MAX_RECORD_BYTES).contains(&record.length),
@@ -100,7 +101,7 @@ fn length(data: Option<&IoData>) -> String {
 /// Returns the records sorted by transfer sequence. Records with sequence 0 have no fixed order and come last.
 fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Vec<Doc> {
     let element = |index: u16, sequence: u16, title: &str, data: &str| {
-        let index = format!("0x{index:04X}");
+        let index = hex16(index);
         let call = call!("rt::profinet::Record::new", index, sequence, title, seq!["&", data]);
         (if sequence == 0 { u16::MAX } else { sequence }, call)
     };
@@ -126,7 +127,7 @@ pub(in crate::backend::rust) struct ModuleModel<'a> {
 }
 
 pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str) -> ModuleModel<'s> {
-    let mut docs = vec![docs::titled(&module.name, &format!("module 0x{:08X}", module.number))];
+    let mut docs = vec![docs::titled(&module.name, &format!("module {}", hex32(module.number)))];
     docs::paragraphs(&module.name, module.documentation.as_deref(), &mut docs);
     list_submodules(scope, &module.submodules, &mut docs);
     ModuleModel {
@@ -166,7 +167,7 @@ pub(in crate::backend::rust) struct DapModel<'a> {
 pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>) -> DapModel<'s> {
     let AccessPoint { device, settings, name } = point;
     let outer = if scope.is_single() { "" } else { "super::" };
-    let facts = format!("device access point 0x{:08X}", settings.ident);
+    let facts = format!("device access point {}", hex32(settings.ident));
     let mut docs = vec![docs::titled(&device.name, &facts)];
     docs::paragraphs(&device.name, device.documentation.as_deref(), &mut docs);
     let lengths = settings.max_lengths;
@@ -181,12 +182,13 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
         slot,
         ident: settings.ident,
         identity: IdentityModel {
-            vendor_id: format!("Some(0x{vendor_id:04X})"),
-            product_code: format!("Some(0x{:04X})", settings.device_id),
+            vendor_id: format!("Some({})", hex16(vendor_id)),
+            product_code: format!("Some({})", hex16(settings.device_id)),
             revision_number: "None".to_owned(),
             vendor_name: literal::string(&device.identity.vendor_name),
             product_name: literal::string(&device.name),
             order_code: literal::string(&device.identity.order_code),
+            origins: Vec::new(),
         },
         submodules: submodule_uses(scope, &device.submodules, outer),
         slots: numbers(&settings.slots),
@@ -247,7 +249,7 @@ fn places(places: &SlotNumbers) -> Doc {
 
 fn numbers(numbers: &Numbers) -> Vec<String> {
     // By convention, subslots of interfaces and ports are hexadecimal.
-    let number = |number: u16| if number < 0x8000 { number.to_string() } else { format!("0x{number:04X}") };
+    let number = |number: u16| if number < 0x8000 { number.to_string() } else { hex16(number) };
     let range = |&(first, last): &(u16, u16)| format!("({}, {})", number(first), number(last));
     numbers.0.iter().map(range).collect()
 }

@@ -1,5 +1,6 @@
 //! Channel diagnosis and user-defined diagnosis structures.
 
+use crate::facts::number::hex16;
 use std::collections::BTreeMap;
 
 use super::docs;
@@ -54,13 +55,13 @@ fn error(key: Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) ->
     let (name, help) = row.map_or(("\"\"".to_owned(), "\"\"".to_owned()), texts);
     let extended = slice(extended.iter().map(|(code, row)| {
         let (name, help) = texts(row);
-        call!("rt::profinet::ExtendedError::new", format_args!("0x{code:04X}"), name, help)
+        call!("rt::profinet::ExtendedError::new", hex16(*code), name, help)
     }));
-    let code = format!("0x{code:04X}");
+    let code = hex16(code);
     match api {
         0 => call!("rt::profinet::ChannelError::new", code, name, help, extended),
         _ => {
-            let api = format!("0x{api:04X}");
+            let api = hex16(api);
             call!("rt::profinet::ChannelError::of_profile", api, code, name, help, extended)
         }
     }
@@ -121,7 +122,7 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
         FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
     };
     let fields: Vec<FieldModel> = found.iter().zip(names).map(field).collect();
-    let facts = format!("user structure 0x{:04X} of {}", unit.identifier, docs::bytes(length));
+    let facts = format!("user structure {} of {}", hex16(unit.identifier), docs::bytes(length));
     let mut lines = vec![docs::titled(&unit.name, &facts)];
     docs::paragraphs(&unit.name, unit.documentation.as_deref(), &mut lines);
     lines.extend(image::table(&fields, &["decode"], |_| String::new()));

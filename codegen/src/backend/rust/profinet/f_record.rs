@@ -1,6 +1,7 @@
 //! The F-parameter record of PROFIsafe.
 
 use crate::backend::rust::code::{call, seq, slice, Doc};
+use crate::facts::number::hex16;
 use crate::ir::{FParameter, FParameters};
 
 /// The F-parameter record, ready to be printed.
@@ -57,7 +58,7 @@ pub(super) fn model(record: &FParameters) -> FRecordModel {
         index: record.index,
         transfer_sequence: record.transfer_sequence,
         length,
-        docs: vec![format!("F-parameters (PROFIsafe): record 0x{:04X} of {length} bytes.", record.index)],
+        docs: vec![format!("F-parameters (PROFIsafe): record {} of {length} bytes.", hex16(record.index))],
         defaults,
         limits,
     }

@@ -4,6 +4,7 @@ use super::types::type_name;
 use super::values::{Enumeration, Values};
 use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
+use crate::facts::number::hex8;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
 /// Number of bits in a word, that is, in a `u64`. Only byte strings may be longer than a word.
@@ -209,7 +210,7 @@ impl<'v> Field<'v> {
             return call!(seq![enumeration.path, "::from_raw"], raw);
         }
         match self.kind {
-            FieldKind::Bit => seq![at(), format_args!(" & 0x{:02X} != 0", 1 << bit)],
+            FieldKind::Bit => seq![at(), format_args!(" & {} != 0", hex8(1 << bit))],
             FieldKind::Flag => seq![at(), " != 0"],
             FieldKind::Native { signed: false } if bits == 8 => at(),
             FieldKind::Native { .. } if bits == 8 => seq![at(), " as i8"],

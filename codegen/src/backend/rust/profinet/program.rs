@@ -98,8 +98,8 @@ impl<'s> Plan<'s> {
     /// Plugs the fixed and default modules and submodules of the device access point.
     fn add_defaults(&mut self) {
         let device = self.point.device;
-        let own = Slot { submodules: submodules(&device.submodules, true), uses: &device.submodules, subslots: None };
-        self.slots.insert(super::descriptor::slot(self.point), own);
+        let slot = Slot { submodules: submodules(&device.submodules, true), uses: &device.submodules, subslots: None };
+        self.slots.insert(super::descriptor::slot(self.point), slot);
         let fixed = device.modules.iter().flat_map(|usage| usage.places.fixed.iter().map(move |slot| (slot, usage)));
         let used = device.modules.iter().flat_map(|usage| usage.places.used.iter().map(move |slot| (slot, usage)));
         for (slot, usage) in fixed.chain(used) {

@@ -10,6 +10,7 @@ use super::literal;
 use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::Doc;
+use crate::facts::number::hex16;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
 use crate::names::{self, Case, NameRequest};
@@ -161,7 +162,7 @@ fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<
 }
 
 fn record_docs(group: &Group, record: &Record, left_out: usize) -> Vec<String> {
-    let facts = format!("parameter record 0x{:04X} of {}", record.index, docs::bytes(record.length));
+    let facts = format!("parameter record {} of {}", hex16(record.index), docs::bytes(record.length));
     let mut lines = vec![docs::titled(&group.name, &facts)];
     docs::paragraphs(&group.name, group.documentation.as_deref(), &mut lines);
     if let Some(bump) = record.changeable_with_bump {
