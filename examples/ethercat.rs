@@ -57,7 +57,8 @@ async fn drive(maindevice: &MainDevice<'_>, lost_replies: &Cell<u32>) -> Result<
     let found = group.iter(maindevice).position(|subdevice| is_a(&subdevice, &servo::IDENTITY));
     let position = found.ok_or("there is no demo servo")?;
     let subdevice = group.subdevice(maindevice, position)?;
-    let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice));
+    // The timer pauses between two polls of the mailbox.
+    let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep));
 
     // Access objects through the mailbox.
     let mut buffer = [0; 64];
@@ -82,7 +83,7 @@ async fn drive(maindevice: &MainDevice<'_>, lost_replies: &Cell<u32>) -> Result<
     let cycle = Cycle::of(maindevice, &group);
     let subdevice = group.subdevice(maindevice, position)?;
     let mut controlword = Controlword::new();
-    let mut walker = Walker::new(State::OperationEnabled);
+    let mut walker = Walker::new(State::OperationEnabled).with_deadline(Duration::from_secs(10));
     let mut target = 0;
     for number in 0..16 {
         {

@@ -247,7 +247,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));
         SdoWrite::new_u8(0x1A02, 0, 0).send_async(client).await.unwrap();
         let missing = SdoWrite::new_u32(0x1A02, 1, 0x5FFF_0020).send_async(client).await;
-        assert_eq!(missing, Err(Error::Abort(AbortCode::NOT_MAPPABLE)));
+        assert_eq!(missing.map_err(Error::from), Err(Error::Abort(AbortCode::NOT_MAPPABLE)));
         SdoWrite::new_u32(0x1A02, 1, u32::from_le_bytes(entry)).send_async(client).await.unwrap();
         SdoWrite::new_u8(0x1A02, 0, 1).send_async(client).await.unwrap();
         // Assign PDOs that exclude each other.
@@ -255,12 +255,12 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         SdoWrite::new_u16(0x1C12, 1, 0x1600).send_async(client).await.unwrap();
         SdoWrite::new_u16(0x1C12, 2, 0x1601).send_async(client).await.unwrap();
         let both = SdoWrite::new_u8(0x1C12, 0, 2).send_async(client).await;
-        assert_eq!(both, Err(Error::Abort(AbortCode::PARAMETER_INCOMPATIBLE)));
+        assert_eq!(both.map_err(Error::from), Err(Error::Abort(AbortCode::PARAMETER_INCOMPATIBLE)));
         SdoWrite::new_u8(0x1C12, 0, 1).send_async(client).await.unwrap();
 
         let _group = group.into_safe_op(maindevice).await.unwrap();
         let late = SdoWrite::new_u8(0x1A02, 0, 0).send_async(client).await;
-        assert_eq!(late, Err(Error::Abort(AbortCode::DEVICE_STATE)));
+        assert_eq!(late.map_err(Error::from), Err(Error::Abort(AbortCode::DEVICE_STATE)));
         assert_eq!(drive.modes_of_operation().read_async().await, Ok(ModesOfOperation::from_raw(0)));
     });
 }
@@ -430,6 +430,6 @@ fn what_goes_wrong_on_the_bus() {
         );
         let mut hasty = DemoServo::new(other.into_client().with_timeout(Duration::ZERO));
         let late = hasty.target_position().read_async().await.map_err(Error::from);
-        assert_eq!(late, Err(Error::Timeout));
+        assert_eq!(late.map_err(Error::from), Err(Error::Timeout));
     });
 }

@@ -15,14 +15,14 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// `is_set` states whether the bits were 1 before the command, or may have been.
-    pub(super) fn new(is_set: bool) -> Self {
-        Self { is_stale: is_set, remaining: Remaining::new(SETTLING) }
+    /// `now` is the time of the client's clock. `is_set` states whether the bits were 1 before the command, or may have been.
+    pub(super) fn new(now: Option<Duration>, is_set: bool) -> Self {
+        Self { is_stale: is_set, remaining: Remaining::new(now, SETTLING) }
     }
 
     /// Returns whether the bits are 1 as a result of the command. `is_set` states whether the bits are 1 now.
-    pub(super) fn confirms(&mut self, is_set: bool) -> bool {
-        self.is_stale &= is_set && self.remaining.pause().is_some();
+    pub(super) fn confirms(&mut self, now: Option<Duration>, is_set: bool) -> bool {
+        self.is_stale &= is_set && self.remaining.pause(now).is_some();
         is_set && !self.is_stale
     }
 }

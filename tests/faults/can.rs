@@ -70,6 +70,32 @@ fn late_replies_are_not_those_of_the_next_request() {
 }
 
 #[test]
+fn async_late_replies_are_not_those_of_the_next_request() {
+    let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    let (mut random, mut late, mut failed) = (Random::new(29), 0, 0);
+    for number in 0..10_000 {
+        let is_late = random.below(20) == 0;
+        late += u32::from(is_late);
+        let delay = TIMEOUT + Duration::from_millis(random.below(450));
+        node.port().bus.bus().count(number);
+        set(&mut node.port().bus, is_late.then_some(CanFault::Late(delay)));
+        let mut buffer = [0; 20];
+        let result = match random.below(2) {
+            0 => now(AsyncClient::read(&mut node, COUNT, &mut buffer[..4])).map(|_| number.to_le_bytes().to_vec()),
+            _ => now(AsyncClient::read(&mut node, TEXT, &mut buffer)).map(|_| text(number)),
+        };
+        match result {
+            Ok(expected) => assert_eq!(buffer[..expected.len()], expected, "request {number}"),
+            Err(Error::Timeout) => failed += 1,
+            Err(other) => panic!("request {number}: {other}"),
+        }
+    }
+    println!("10,000 async SDO transfers, {late} late: {failed} errors, no wrong value");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+#[test]
 fn foreign_replies_dont_prolong_a_transfer() {
     let mut node = node();
     node.port().bus().count(1);

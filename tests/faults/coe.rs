@@ -179,7 +179,7 @@ fn late_replies_are_not_those_of_the_next_request() {
     let (late, failed) = with_bench(|mut bench| async move {
         let mut random = Random::new(28);
         let (mut late, mut failed) = (0, 0);
-        for number in 0..2000 {
+        for number in 0..10_000 {
             let is_late = random.below(20) == 0;
             late += u32::from(is_late);
             let delay = TIMEOUT + Duration::from_millis(random.below(190));
@@ -193,8 +193,26 @@ fn late_replies_are_not_those_of_the_next_request() {
         }
         (late, failed)
     });
-    println!("2,000 transfers through a mailbox, {late} late: {failed} errors, no wrong value");
-    assert!(late > 80 && failed <= late, "{failed} errors for {late} late replies");
+    println!("10,000 transfers through a mailbox, {late} late: {failed} errors, no wrong value");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+/// A SubDevice that sends each reply just before the timeout.
+#[test]
+fn the_timeout_limits_the_whole_transfer() {
+    with_bench(|mut bench| async move {
+        let start = Instant::now();
+        // The text has three messages, so the transfer takes at most one timeout and two tenths of it.
+        let result = bench.request(1, Fault::Late(TIMEOUT * 9 / 10), TEXT).await;
+        assert_eq!(
+            (result, start.elapsed() <= TIMEOUT * 13 / 10),
+            (Err(Error::Timeout), true),
+            "{:?}",
+            start.elapsed()
+        );
+        bench.request(2, Fault::Nothing, TEXT).await.expect("the next transfer is right");
+        bench.request(3, Fault::Late(TIMEOUT * 3 / 10), TEXT).await.expect("within the limit");
+    });
 }
 
 #[test]

@@ -154,7 +154,12 @@ type Outcome = Result<(), Error<SerialError<Late>>>;
 fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
     let now = Rc::new(Cell::new(Duration::ZERO));
     let clock = now.clone();
-    (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(move || clock.get(), TIMEOUT), now)
+    let clock = move || {
+        // Time passes while the line polls.
+        clock.set(clock.get() + Duration::from_micros(1));
+        clock.get()
+    };
+    (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(clock, TIMEOUT), now)
 }
 
 /// Performs one exchange whose reply has a fault. Panics if the reply is wrong.
@@ -188,10 +193,43 @@ fn late_replies_are_not_those_of_the_next_request() {
 
 #[test]
 fn a_repeated_reply_isnt_that_of_the_next_request() {
-    let mut line = blocking().0.draining();
+    let mut line = blocking().0;
     for count in 0..10 {
         once(&mut line, count, StreamFault::Duplicated).expect("the reply");
     }
+}
+
+/// A device that sends a frame without a request, and rejects no request. No read times out.
+#[test]
+fn a_frame_without_a_request_is_no_reply() {
+    let (mut line, now) = blocking();
+    for count in 0..10 {
+        once(&mut line, count, None).expect("the reply");
+        now.set(now.get() + TIMEOUT);
+        line.stream().device.inner().bytes.extend(reply(99).into_iter().map(|byte| (Duration::ZERO, byte)));
+    }
+}
+
+/// The reply to a request arrives after a frame that the protocol rejects.
+#[test]
+fn after_a_rejected_reply_the_next_one_is_right() {
+    let (mut line, now) = blocking();
+    // The frame arrives during the exchange, so it is the reply. The right reply follows after 50 ms.
+    let noise = StreamFault::Foreign { bytes: reply(99), count: 1, period: Duration::ZERO };
+    line.stream().count = 1;
+    set(&mut line.stream().device, noise);
+    let mut wrong = [0; 20];
+    assert_eq!(Exchange::exchange(&mut line, &[1], &mut wrong).ok(), Some(4));
+    assert_eq!(wrong[..4], 99_u32.to_le_bytes());
+    Exchange::unsettle(&mut line);
+    let soon = now.get() + TIMEOUT / 2;
+    line.stream().device.inner().bytes.extend(reply(1).into_iter().map(|byte| (soon, byte)));
+    once(&mut line, 2, None).expect("the reply");
+    // The line does not wait longer than its timeout for a reply that never arrives.
+    Exchange::unsettle(&mut line);
+    let start = now.get();
+    once(&mut line, 3, None).expect("the reply");
+    assert!(now.get() - start <= TIMEOUT + 20 * SOON, "{:?}", now.get() - start);
 }
 
 #[test]
@@ -347,8 +385,7 @@ pub fn rows() -> Vec<Row> {
     ];
     let mut rows = Vec::new();
     for (fault_name, fault) in faults {
-        let (line, now) = blocking();
-        let mut line = line.draining();
+        let (mut line, now) = blocking();
         let result = name(&once(&mut line, 1, fault.clone()));
         let time = now.get();
         once(&mut line, 2, None).expect("the next request is right");
@@ -357,8 +394,7 @@ pub fn rows() -> Vec<Row> {
 
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
         rows.push(runtime.expect("a runtime").block_on(async {
-            let (line, world) = asynchronous();
-            let mut line = line.draining();
+            let (mut line, world) = asynchronous();
             let start = Instant::now();
             let result = name(&once_async(&mut line, &world, 1, fault.clone()).await);
             let time = start.elapsed();

@@ -36,6 +36,10 @@ impl Client for Simulated {
     fn wait(&mut self, time: Duration) -> Result<(), Error<CanError>> {
         CanPort::receive(self.0.port(), time, &mut |_| false).map(|_| ()).map_err(Error::Client)
     }
+
+    fn now(&mut self) -> Option<Duration> {
+        Client::now(&mut self.0)
+    }
 }
 
 fn fault(random: &mut Random) -> Option<CanFault> {

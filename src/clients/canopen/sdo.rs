@@ -165,6 +165,10 @@ macro_rules! transfers {
                 let transfer = Transfer::download(address, data, self.block_threshold())?;
                 self.$run(transfer)$(.$await)?.map(|_| ())
             }
+
+            fn now(&mut self) -> Option<Duration> {
+                self.port().now()
+            }
         }
     };
 }
