@@ -14,6 +14,7 @@ mod ethercat;
 mod faulty;
 mod faulty_stream;
 mod guarding;
+mod heartbeat;
 #[path = "../support/lane.rs"]
 mod lane;
 mod lss;
@@ -26,6 +27,7 @@ mod random;
 mod segment;
 mod serial;
 mod soak;
+mod sync;
 
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 lexibus::dictionary! {
