@@ -10,6 +10,7 @@ use ethercrab::subdevice_group::{Op, PreOp};
 use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
 use lexibus::clients::ethercat::{is_a, Cycle, CycleError, Memory, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
+use lexibus::sim::{EtherCatFault, FaultyFrames};
 use lexibus::Emergency;
 use lexibus::{
     AbortCode, AsyncClient, Error, EscMemory, Flags, Initial, Item, LengthError, Object, OctetString, OnEsc,
@@ -23,7 +24,7 @@ mod segment;
 
 use ethercat::objects::Dictionary;
 use ethercat::{Servo, SubDevice};
-use segment::with_segment;
+use segment::{with_faulty_segment, with_segment};
 
 lexibus::dictionary! {
     /// The bindings of the demo servo.
@@ -375,23 +376,55 @@ fn stale_inputs_are_an_error() {
 }
 
 #[test]
+fn faults_of_a_cycle() {
+    let faults = FaultyFrames::new();
+    with_faulty_segment(vec![servo().0, servo().0], faults.clone(), |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let station = group.subdevice(maindevice, 1).unwrap().configured_address();
+        let group: Group<Op> = group.into_op(maindevice).await.unwrap();
+        let cycle = Cycle::of(maindevice, &group);
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // One SubDevice doesn't process the datagram of the second cycle.
+        faults.inject_nth(EtherCatFault::WorkingCounter(3), 2);
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        let missing = CycleError::WorkingCounter { expected: 6, actual: 3 };
+        assert_eq!(cycle.run(maindevice, &group).await, Err(missing));
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // The second SubDevice leaves Operational with an error.
+        faults.inject(EtherCatFault::State(0x14), move |datagram| datagram.station == station);
+        for _ in 0..3 {
+            let left = cycle.run(maindevice, &group).await;
+            assert!(matches!(left, Err(CycleError::State { subdevice: 1, .. })), "{left:?}");
+        }
+        faults.clear_faults();
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // The frame is lost. `ethercrab` would report it after its own timeout, in real time.
+        faults.inject_nth(EtherCatFault::LostFrame, 1);
+        let lost = tokio::time::timeout(Duration::from_secs(1), cycle.run(maindevice, &group)).await;
+        assert!(lost.is_err(), "{lost:?}");
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+    });
+}
+
+#[test]
 fn a_lost_mailbox_reply_is_requested_again() {
     let (subdevice, device) = servo();
-    let lost = subdevice.lost_reads();
-    with_segment(vec![subdevice], |maindevice| async move {
+    let faults = FaultyFrames::new();
+    with_faulty_segment(vec![subdevice], faults.clone(), |maindevice| async move {
+        let lose = |count| (1..=count).for_each(|n| faults.inject_nth(EtherCatFault::LostReply, n));
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         for count in [1, 2, 3] {
-            lost.set(count);
+            lose(count);
             drive.target_position().write_async(100 + count as i32).await.unwrap();
             assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(100 + count as i32));
-            lost.set(count);
+            lose(count);
             assert_eq!(drive.target_position().read_async().await, Ok(100 + count as i32));
         }
         // A read fails because four replies are lost. The next read must return the right value.
-        lost.set(4);
+        lose(4);
         assert!(matches!(drive.target_position().read_async().await.map_err(Error::from), Err(Error::Client(_))));
-        lost.set(0);
+        faults.clear_faults();
         assert_eq!(drive.target_position().read_async().await, Ok(103));
     });
 }

@@ -46,6 +46,7 @@
 //!   several nodes. The CANopen clients of this crate can use both.
 //! - Faults of the bus: a `FaultyCan` delays, loses, repeats or changes frames, and simulates bus-off and restarts.
 //!   A [`FaultyStream`] does the same with the messages on a byte stream, for Modbus and serial protocols.
+//!   [`FaultyFrames`] loses and changes datagrams of an EtherCAT segment.
 //! - Further axes: [`Device::with_axes`] adds further axes.
 //! - Drives: [`Device::with_cia402`] adds the behavior of CiA 402, and [`Device::fail`] simulates faults of a drive.
 //! - Time: [`Device::step`] advances the simulated time.
@@ -63,6 +64,7 @@ mod clock;
 mod device;
 mod drive;
 mod emergency;
+mod ethercat;
 mod fault;
 mod faults;
 mod item_address;
@@ -82,6 +84,7 @@ mod values;
 pub use can::{CanBus, CanError, CanFault, CanNode, FaultyCan, SimulatedCan};
 pub use client::Connection;
 pub use device::{Device, DeviceAxis};
+pub use ethercat::{Datagram, EtherCatFault, FaultyFrames};
 pub use fault::{Exception, Fault};
 pub use item_address::ItemAddress;
 pub use stream::{FaultyStream, StreamFault};

@@ -24,6 +24,7 @@ mod modbus_rows;
 mod random;
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 #[path = "../support/segment.rs"]
+#[allow(dead_code)] // the segment without faults
 mod segment;
 mod serial;
 mod soak;
