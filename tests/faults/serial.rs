@@ -56,7 +56,7 @@ fn reply(count: u32) -> Vec<u8> {
 }
 
 /// The device's end of a line in simulated time.
-struct Wire {
+pub struct Wire {
     /// Time at which the device sends the next byte.
     time: Rc<Cell<Duration>>,
     bytes: VecDeque<(Duration, u8)>,
@@ -74,7 +74,7 @@ impl Write for Wire {
 }
 
 /// A stream with a read timeout, and a device that answers each frame with the number of the request.
-struct Port {
+pub struct Port {
     now: Rc<Cell<Duration>>,
     device: FaultyStream<Wire, Box<dyn FnMut(Duration)>>,
     count: u32,
@@ -90,7 +90,7 @@ impl Port {
 }
 
 #[derive(Debug)]
-struct Late(ErrorKind);
+pub struct Late(ErrorKind);
 
 impl std::fmt::Display for Late {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -149,9 +149,9 @@ impl embedded_io::Write for Port {
     }
 }
 
-type Outcome = Result<(), Error<SerialError<Late>>>;
+pub type Outcome = Result<(), Error<SerialError<Late>>>;
 
-fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
+pub fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
     let now = Rc::new(Cell::new(Duration::ZERO));
     let clock = now.clone();
     let clock = move || {
@@ -162,8 +162,13 @@ fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<
     (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(clock, TIMEOUT), now)
 }
 
+/// Returns the number of bytes that the line has not read.
+pub fn waiting<T>(line: &mut SerialLine<Port, Delimited, 64, T>) -> usize {
+    line.stream().device.inner().bytes.len()
+}
+
 /// Performs one exchange whose reply has a fault. Panics if the reply is wrong.
-fn once<T: lexibus::Clock>(
+pub fn once<T: lexibus::Clock>(
     line: &mut SerialLine<Port, Delimited, 64, T>,
     count: u32,
     fault: impl Into<Option<StreamFault>>,
@@ -252,7 +257,7 @@ fn after_each_fault_the_next_request_is_right() {
 }
 
 /// A `tokio` stream, and a byte that `read_ready` has already read from it.
-struct AsyncPort(DuplexStream, Option<u8>);
+pub struct AsyncPort(DuplexStream, Option<u8>);
 
 impl embedded_io::ErrorType for AsyncPort {
     type Error = Late;
@@ -289,7 +294,7 @@ impl embedded_io_async::Write for AsyncPort {
     }
 }
 
-type World = Arc<Mutex<(u32, Option<StreamFault>)>>;
+pub type World = Arc<Mutex<(u32, Option<StreamFault>)>>;
 
 async fn serve(line: DuplexStream, world: World) {
     let mut line = FaultyStream::new(line);
@@ -305,9 +310,9 @@ async fn serve(line: DuplexStream, world: World) {
     }
 }
 
-type AsyncLine = SerialLine<AsyncPort, Delimited, 64, fn(Duration) -> Sleep>;
+pub type AsyncLine = SerialLine<AsyncPort, Delimited, 64, fn(Duration) -> Sleep>;
 
-fn asynchronous() -> (AsyncLine, World) {
+pub fn asynchronous() -> (AsyncLine, World) {
     let world = Arc::new(Mutex::new((0, None)));
     let (line, device) = duplex(0x1_0000);
     tokio::spawn(serve(device, world.clone()));
@@ -315,7 +320,7 @@ fn asynchronous() -> (AsyncLine, World) {
     (SerialLine::new(AsyncPort(line, None), FRAMING).with_time(sleep, TIMEOUT), world)
 }
 
-async fn once_async<T: lexibus::Timer>(
+pub async fn once_async<T: lexibus::Timer>(
     line: &mut SerialLine<AsyncPort, Delimited, 64, T>,
     world: &World,
     count: u32,
