@@ -34,6 +34,9 @@ const PROCESS_DATA: usize = 64;
 const FRAMES: usize = 16;
 const FRAME: usize = PduStorage::element_size(1100);
 
+/// Maximum duration of a mailbox exchange.
+const TIMEOUT: Duration = Duration::from_millis(500);
+
 static STORAGE: PduStorage<FRAMES, FRAME> = PduStorage::new();
 
 #[tokio::main(flavor = "current_thread")]
@@ -59,7 +62,8 @@ async fn drive(maindevice: &MainDevice<'_>, faults: &FaultyFrames) -> Result<(),
     let position = found.ok_or("there is no demo servo")?;
     let subdevice = group.subdevice(maindevice, position)?;
     // The timer pauses between two polls of the mailbox.
-    let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep));
+    let client = Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep).with_timeout(TIMEOUT);
+    let mut drive = DemoServo::new(client);
 
     // Access objects through the mailbox.
     let mut buffer = [0; 64];

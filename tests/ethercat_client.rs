@@ -463,6 +463,6 @@ fn what_goes_wrong_on_the_bus() {
         );
         let mut hasty = DemoServo::new(other.into_client().with_timeout(Duration::ZERO));
         let late = hasty.target_position().read_async().await.map_err(Error::from);
-        assert_eq!(late.map_err(Error::from), Err(Error::Timeout));
+        assert_eq!(late, Err(Error::Timeout));
     });
 }

@@ -65,7 +65,7 @@ fn absent<E>() -> AccessError<E> {
 }
 
 /// Returns the error for an integer that doesn't fit the type of the item.
-fn out_of_range<B: Bus, E, V: Fixed, A, L: Copy>(item: &Item<V, A, L>, value: i32) -> AccessError<E>
+fn out_of_range<B: Bus, E, V: Fixed, A, L>(item: &Item<V, A, L>, value: i32) -> AccessError<E>
 where
     L: On<B, Route: WriteRoute<B>>,
 {

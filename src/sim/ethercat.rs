@@ -193,8 +193,11 @@ impl FaultyFrames {
     }
 }
 
-/// Splits the first datagram into its fields, its data and its working counter, and returns the following datagrams.
-fn split(bytes: &mut [u8]) -> Option<(Datagram, &mut [u8], &mut [u8], &mut [u8])> {
+/// A datagram, its data, its working counter, and the following datagrams.
+type Split<'b> = (Datagram, &'b mut [u8], &'b mut [u8], &'b mut [u8]);
+
+/// Splits the first datagram from the following ones.
+fn split(bytes: &mut [u8]) -> Option<Split<'_>> {
     let (head, rest) = bytes.split_first_chunk_mut::<DATAGRAM>()?;
     let [command, _, station_low, station_high, address_low, address_high, length_low, length_high, ..] = *head;
     let length = u16::from_le_bytes([length_low, length_high]);

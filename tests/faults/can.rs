@@ -297,7 +297,7 @@ fn further_rows() -> Vec<Row> {
     let mut rows = Vec::new();
     for (client, access) in accesses {
         for (fault_name, fault) in faults(frame) {
-            // The queue of the simulated interface has room for the segments of a block with less noise.
+            // The queue of the simulated interface can hold the segments of a block with less noise.
             let fault = if let CanFault::Noise(_) = fault { CanFault::Noise(100) } else { fault };
             for is_async in [false, true] {
                 let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };
@@ -319,7 +319,7 @@ fn further_rows() -> Vec<Row> {
                     let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
                     (name(&result), port.bus().now - start)
                 };
-                let (result, time) = run(1, Some(fault.clone()));
+                let (result, time) = run(1, Some(fault));
                 let (second, next) = run(2, None);
                 assert_eq!(second, "right value", "{client} after {fault_name}");
                 rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });

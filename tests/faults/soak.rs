@@ -50,7 +50,7 @@ const ALONE: &str = "LEXIBUS_SOAK";
 /// Maximum growth of the resident memory after the first fifth of a test, in KiB. The allocator keeps some free memory.
 const MAX_GROWTH: usize = 1024;
 
-/// Runs a soak test in a process of its own, so that no other test changes the memory of the process.
+/// Runs a soak test in a separate process, so that no other test changes the memory of the process.
 fn alone(name: &str, work: impl FnOnce()) {
     if lane::skips(name) {
         return;
