@@ -14,7 +14,7 @@ use lexibus::sim::{EtherCatFault, FaultyFrames};
 use lexibus::Emergency;
 use lexibus::{
     AbortCode, AsyncClient, Error, EscMemory, Flags, Initial, Item, LengthError, Object, OctetString, OnEsc,
-    OutOfRange, Pdo, Range, Ro, Rw, SdoWrite, Step,
+    OutOfRange, Pdo, Range, Ro, Rw, SdoWrite, Step, WalkError,
 };
 
 #[path = "../examples/support/ethercat/mod.rs"]
@@ -372,6 +372,24 @@ fn stale_inputs_are_an_error() {
         first.write(EscMemory::new(0x0120, 2), &[4, 0]).await.unwrap();
         let state = CycleError::State { subdevice: 0, state: SubDeviceState::SafeOp };
         assert_eq!(cycle.run(maindevice, &group).await, Err(state));
+    });
+}
+
+#[test]
+fn a_client_with_a_timer_can_wait() {
+    with_segment(vec![servo().0], |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let subdevice = group.subdevice(maindevice, 0).unwrap();
+        let limit = Duration::from_millis(100);
+        let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice));
+        let walked = drive.walk_async(State::OperationEnabled, limit).await;
+        assert!(matches!(walked, Err(WalkError::Wait(Error::NoClock))), "{walked:?}");
+        let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep));
+        let start = tokio::time::Instant::now();
+        // The servo changes its state only in Operational.
+        let walked = drive.walk_async(State::OperationEnabled, limit).await;
+        assert!(matches!(walked, Err(WalkError::Deadline { state: Some(State::SwitchOnDisabled), .. })), "{walked:?}");
+        assert!(start.elapsed() > Duration::ZERO, "the timer runs in simulated time");
     });
 }
 
