@@ -2,7 +2,8 @@
 //!
 //!     cargo run --example canopen --features std,canopen
 //!
-//! The node is simulated at the level of CAN frames, and behaves as a drive of CiA 402. One of its replies is lost. For a
+//! The node is simulated at the level of CAN frames, and behaves as a drive of CiA 402. One of its replies and
+//! one of its PDOs are lost. For a
 //! real node, replace `FaultyCan` with a CAN interface such as `socketcan::CanSocket::open("can0")?`.
 
 use std::error::Error;
@@ -27,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let id = NodeId::new(5).ok_or("a node-ID is 1 to 127")?;
     // Each CAN frame to the simulated node takes a millisecond of simulated time.
     let device = Device::new(ENTRIES).with_node_id(id).with_cia402().with_access_time(Duration::from_millis(1));
-    let mut drive = DemoDrive::new(Node::new(FaultyCan::new(CanNode::new(device)), id));
+    let mut drive = DemoDrive::new(Node::new(FaultyCan::new(CanNode::new(device)), id).with_timeout(PATIENCE));
     drive.client().nmt(NmtCommand::ResetNode)?;
     drive.client().wait_for(NmtState::BootUp, PATIENCE)?;
     println!("node {id} has booted");
@@ -65,12 +66,19 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     let new_set_point = enabled.in_profile_position().with_new_set_point(true).controlword();
     for cycle in 0..MOST_CYCLES {
         let controlword = if cycle == 0 { new_set_point } else { enabled };
-        // With a CAN interface, wait for the next cycle with a timer instead.
-        node.port().bus().advance(CYCLE);
         let output = pdo::RxPdo2 { controlword, target_position: target };
         node.send_pdo(pdo::RxPdo2::COB_ID, &output.pack())?;
+        if cycle == 3 {
+            node.port().inject_nth(CanFault::Lost, 1); // the PDO that the node sends after SYNC
+        }
         node.sync()?;
-        let frame = node.receive_pdo(pdo::TxPdo2::COB_ID, PATIENCE)?;
+        // With a CAN interface, wait for the next cycle with a timer instead.
+        node.port().bus().advance(CYCLE);
+        // Discards older PDOs. A real program stops after several cycles without a PDO.
+        let Some(frame) = node.latest_pdo(pdo::TxPdo2::COB_ID)? else {
+            println!("cycle {cycle}: no PDO");
+            continue;
+        };
         let input = pdo::TxPdo2::unpack(frame.data())?;
         println!("cycle {cycle}: at {}", input.position_actual_value);
         if input.statusword.target_reached() {

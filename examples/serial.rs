@@ -73,8 +73,12 @@ mod unix {
     }
 
     fn talk(port: TTYPort) -> Result<(), Box<dyn error::Error>> {
+        // The line discards bytes that arrive before a request.
+        let is_ready = |port: &mut FromStd<TTYPort>| port.inner().bytes_to_read().is_ok_and(|count| count > 0);
         // The buffer of the line has space for start, end, and twice the bytes of data and checksum.
-        let mut line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> = SerialLine::new(FromStd::new(port), FRAMING);
+        let line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> =
+            SerialLine::with_ready(FromStd::new(port), FRAMING, Some(is_ready));
+        let mut line = line.with_timeout(TIMEOUT);
         let mut reply = [0; MAX_DATA];
         let length = line.exchange(&[NODE, STATE], &mut reply)?;
         println!("state: {:02x?}", &reply[..length]);

@@ -108,6 +108,11 @@ impl<E> AccessError<E> {
         }
     }
 
+    /// Returns the error with the number of other items that the request reads or writes. The error must have no value.
+    pub(crate) fn with_others(self, count: usize) -> Self {
+        Self { numbers: [count as u64, 0, 0], ..self }
+    }
+
     /// Creates the error of a write of a value outside the range of the item.
     #[inline(always)]
     pub(crate) fn out_of_range(place: Place, value: Option<RawValue>, limits: Option<[RawValue; 2]>) -> Self {
@@ -139,6 +144,17 @@ impl<E> AccessError<E> {
     #[must_use]
     pub const fn address(&self) -> Option<BusAddress> {
         self.address
+    }
+
+    /// Returns the number of other items that the failed request reads or writes. It is 0 unless the request belongs to a
+    /// [block](crate::modbus::RegisterClient::read_block). The [address](Self::address) of such a request is that of
+    /// all its registers.
+    #[must_use]
+    pub const fn others(&self) -> usize {
+        match self.access {
+            Access::Read | Access::Write => self.numbers[0] as usize,
+            Access::WriteNumber | Access::OutOfRange | Access::Unscalable => 0,
+        }
     }
 
     /// Returns whether the access was a write.
@@ -193,6 +209,11 @@ impl<E> AccessError<E> {
             (None, None) => f.write_str(if self.is_write() { "write " } else { "read " })?,
         }
         f.write_str(self.name)?;
+        match self.others() {
+            0 => {}
+            1 => f.write_str(" and 1 other item")?,
+            others => write!(f, " and {others} other items")?,
+        }
         match self.address {
             Some(address) => write!(f, " ({address}): "),
             None => f.write_str(": "),

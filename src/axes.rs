@@ -151,6 +151,14 @@ macro_rules! axis {
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<C::Error>> {
                 self.client.wait(time)$(.$await)?
             }
+
+            fn now(&mut self) -> Option<Duration> {
+                self.client.now()
+            }
+
+            fn is_transient(&self, error: &C::Error) -> bool {
+                self.client.is_transient(error)
+            }
         }
     };
 }

@@ -4,6 +4,7 @@ use core::future::Future;
 use core::time::Duration;
 
 use crate::bus::Bus;
+use crate::clock::{Clock, DefaultClock};
 use crate::error::Error;
 
 /// Reads and writes the items of one device. Each call blocks until the device replies.
@@ -111,6 +112,14 @@ pub trait Client {
         sleep(time)
     }
 
+    /// Returns the time since a fixed moment, or `None` if the client has no clock. Operations with a deadline, such as
+    /// [`Machine::walk`](crate::Machine::walk), measure the time with this clock. Without a clock, they count only their
+    /// pauses between two accesses, so that accesses that take long prolong the operation. The default implementation
+    /// returns the time of the [`DefaultClock`].
+    fn now(&mut self) -> Option<Duration> {
+        DefaultClock.now()
+    }
+
     /// Returns whether another attempt may succeed after this error of the bus library.
     /// [`Retrying`](crate::Retrying) doesn't repeat an access after any other error. The default implementation returns
     /// true.
@@ -188,6 +197,11 @@ pub trait AsyncClient {
         Err(Error::NoClock)
     }
 
+    /// Returns the time since a fixed moment, as [`Client::now`] does.
+    fn now(&mut self) -> Option<Duration> {
+        DefaultClock.now()
+    }
+
     /// Returns whether another attempt may succeed after this error, as [`Client::is_transient`] does.
     fn is_transient(&self, error: &Self::Error) -> bool {
         let _ = error;
@@ -224,12 +238,20 @@ pub trait AsyncClient {
 pub struct Timed<C, D> {
     client: C,
     delay: D,
+    clock: Option<fn() -> Duration>,
 }
 
 impl<C, D> Timed<C, D> {
     /// Creates a client that uses `client` for transfers and `delay` to wait.
     pub const fn new(client: C, delay: D) -> Self {
-        Self { client, delay }
+        Self { client, delay, clock: None }
+    }
+
+    /// Returns the client with a clock for deadlines: a function that returns the time since any fixed moment. By default,
+    /// the clock is that of the wrapped client.
+    #[must_use]
+    pub fn with_clock(self, clock: fn() -> Duration) -> Self {
+        Self { clock: Some(clock), ..self }
     }
 
     /// Returns the wrapped client.
@@ -279,6 +301,10 @@ macro_rules! forwarding {
                 Ok(())
             }
 
+            fn now(&mut self) -> Option<Duration> {
+                self.clock.map_or_else(|| self.client.now(), |clock| Some(clock()))
+            }
+
             fn is_transient(&self, error: &Self::Error) -> bool {
                 self.client.is_transient(error)
             }
@@ -310,6 +336,10 @@ macro_rules! forwarding {
 
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
                 T::wait(self, time)$(.$await)?
+            }
+
+            fn now(&mut self) -> Option<Duration> {
+                T::now(self)
             }
 
             fn is_transient(&self, error: &Self::Error) -> bool {

@@ -183,7 +183,7 @@ pub use location::{
 pub use machine::{Machine, MachineState, StateWord, Step, Stopped, Transition, WalkError, Walked, Walker};
 pub use named::{display_name, find_name, parse_name, Named, UnknownName};
 pub use node_id::NodeId;
-pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWrite, Tpdo};
+pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWrite, SdoWriteError, Tpdo};
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
 pub use raw_value::RawValue;

@@ -22,5 +22,5 @@ pub use field::Field;
 pub use mapping::{MappedEntry, Pdo};
 pub use parameters::{PdoParameterError, PdoParameters, TransmissionType};
 pub(crate) use sdo_write::Hexadecimal;
-pub use sdo_write::SdoWrite;
+pub use sdo_write::{SdoWrite, SdoWriteError};
 pub use word::{from_bytes, mask, sign_extend, to_bytes};

@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use crate::clock::{elapsed, Clock, DefaultClock};
+use crate::clock::elapsed;
 
 /// Maximum pause between two polls of a device.
 const PAUSE: Duration = Duration::from_millis(5);
@@ -15,14 +15,14 @@ pub(crate) struct Remaining {
 }
 
 impl Remaining {
-    /// Starts a time measurement that ends after `deadline`.
-    pub(crate) fn new(deadline: Duration) -> Self {
-        Self { start: DefaultClock.now(), waited: Duration::ZERO, deadline }
+    /// Starts a time measurement that ends after `deadline`. `now` is the time of the client's clock.
+    pub(crate) fn new(now: Option<Duration>, deadline: Duration) -> Self {
+        Self { start: now, waited: Duration::ZERO, deadline }
     }
 
     /// Returns the next pause, or `None` after the deadline.
-    pub(crate) fn pause(&mut self) -> Option<Duration> {
-        let elapsed = elapsed(self.start, DefaultClock.now());
+    pub(crate) fn pause(&mut self, now: Option<Duration>) -> Option<Duration> {
+        let elapsed = elapsed(self.start, now);
         let rest = self.deadline.saturating_sub(elapsed.unwrap_or_default().max(self.waited));
         let pause = rest.min(PAUSE);
         self.waited += pause;

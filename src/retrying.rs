@@ -122,6 +122,10 @@ macro_rules! retrying {
                 self.client.wait(time)$(.$await)?
             }
 
+            fn now(&mut self) -> Option<Duration> {
+                self.client.now()
+            }
+
             fn is_transient(&self, error: &Self::Error) -> bool {
                 self.client.is_transient(error)
             }
@@ -236,6 +240,10 @@ impl<C: AsyncClient, T: Timer> AsyncClient for Deadline<C, T> {
 
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         self.client.wait(time).await
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        self.client.now()
     }
 
     fn is_transient(&self, error: &Self::Error) -> bool {

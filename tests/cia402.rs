@@ -21,6 +21,15 @@ const fn ms(time: u64) -> Duration {
     Duration::from_millis(time)
 }
 
+/// Returns the reason of a failed access.
+#[track_caller]
+fn reason<T: std::fmt::Debug, E: std::fmt::Debug>(result: Result<T, MotionError<E>>) -> Error<E> {
+    match result {
+        Err(MotionError::Access(error)) => error.error,
+        other => panic!("no failed access: {other:?}"),
+    }
+}
+
 /// The objects of the drive in most tests.
 struct Full;
 
@@ -252,7 +261,7 @@ fn modes() {
     // The drive refuses the access.
     rig.drive.device().on_write(MODE, |_, _| Err(AbortCode::DEVICE_STATE)).unwrap();
     let refused = rig.motion().set_mode(Mode::ProfilePosition, DEADLINE);
-    assert_eq!(refused, Err(MotionError::Access(Error::Abort(AbortCode::DEVICE_STATE))));
+    assert_eq!(reason(refused), Error::Abort(AbortCode::DEVICE_STATE));
 }
 
 #[test]
@@ -291,7 +300,7 @@ fn homing() {
     assert_eq!(rig.drive.device().get(HOMING_METHOD), Ok(35));
     // A homing method outside the range of its type is not sent.
     let refused = rig.motion().home_with(200, DEADLINE);
-    assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
+    assert!(matches!(reason(refused), Error::OutOfRange(_)));
 }
 
 #[test]
@@ -360,11 +369,11 @@ fn a_fault_during_homing() {
 #[test]
 fn the_start_bit_after_an_error_of_the_bus() {
     let mut rig = Rig::enabled(6).at(50, |rig| rig.broken = 1);
-    assert_eq!(rig.motion().home(DEADLINE), Err(MotionError::Access(Error::Timeout)));
+    assert_eq!(reason(rig.motion().home(DEADLINE)), Error::Timeout);
     assert_eq!(rig.controls(), [0x1F, 0x0F]);
     let mut rig = Rig::enabled(1).at(20, |rig| rig.broken = 1);
     rig.cleared = 1 << 12;
-    assert_eq!(rig.motion().move_to(Target::absolute(5), DEADLINE), Err(MotionError::Access(Error::Timeout)));
+    assert_eq!(reason(rig.motion().move_to(Target::absolute(5), DEADLINE)), Error::Timeout);
     assert_eq!(rig.controls(), [0x1F, 0x0F]);
 }
 
@@ -375,7 +384,7 @@ fn a_client_that_cannot_wait_starts_nothing() {
         rig.has_clock = false;
         let moved =
             if mode == 1 { rig.motion().move_to(Target::absolute(5), DEADLINE) } else { rig.motion().home(DEADLINE) };
-        assert_eq!(moved, Err(MotionError::Access(Error::NoClock)));
+        assert_eq!(moved, Err(MotionError::Wait(Error::NoClock)));
         assert_eq!(rig.controls(), [0; 0]);
     }
 }
@@ -592,7 +601,7 @@ fn a_quick_stop_is_written_before_any_read() {
     rig.write(0x6040, &0x001F_u16.to_le_bytes());
     rig.writes.clear();
     rig.broken = 1;
-    assert_eq!(rig.motion().quick_stop(DEADLINE), Err(MotionError::Access(Error::Timeout)));
+    assert_eq!(reason(rig.motion().quick_stop(DEADLINE)), Error::Timeout);
     assert_eq!((rig.controls(), rig.control_reads), (vec![0x02], 0));
 }
 
@@ -656,8 +665,9 @@ fn operations_in_another_mode_or_with_halt() {
 fn accesses_that_fail() {
     let mut rig = Rig::enabled(1).at(20, |rig| rig.drive.device().fail_next(AbortCode::DEVICE_STATE));
     rig.motion().move_to(Target::absolute(500), DEADLINE).unwrap();
-    let failed = rig.motion().wait_reached(DEADLINE);
-    assert_eq!(failed, Err(MotionError::Access(Error::Abort(AbortCode::DEVICE_STATE))));
+    let Err(MotionError::Access(error)) = rig.motion().wait_reached(DEADLINE) else { panic!("the access fails") };
+    assert_eq!(error.error, Error::Abort(AbortCode::DEVICE_STATE));
+    assert_eq!((error.address(), error.is_write()), (Some(lexibus::Object::new(0x6041, 0).into()), false));
 }
 
 #[tokio::test]
@@ -736,9 +746,11 @@ fn generated_drives() {
     assert_eq!(drive.position_actual_value().read(), Ok(-5));
     // The description declares the range of the target position, and the modes up to 8.
     let refused = drive.cia402().move_to(Target::absolute(1_000_001), DEADLINE);
-    assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
+    let text = "write 1000001 to Target position (0x607A:00): outside the range -1000000 to 1000000";
+    assert_eq!(refused.as_ref().err().map(ToString::to_string).as_deref(), Some(text));
+    assert!(matches!(reason(refused), Error::OutOfRange(_)));
     let refused = drive.cia402().set_mode(Mode::CyclicSynchronousVelocity, DEADLINE);
-    assert!(matches!(refused, Err(MotionError::Access(Error::OutOfRange(_)))), "{refused:?}");
+    assert!(matches!(reason(refused), Error::OutOfRange(_)));
     // The error code of this drive is in 0x1003.
     device.fail(0x2310).unwrap();
     let mut drive = demo_drive::DemoDrive::new(device.client::<CanOpen>());

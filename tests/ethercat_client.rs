@@ -10,10 +10,11 @@ use ethercrab::subdevice_group::{Op, PreOp};
 use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
 use lexibus::clients::ethercat::{is_a, Cycle, CycleError, Memory, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
+use lexibus::sim::{EtherCatFault, FaultyFrames};
 use lexibus::Emergency;
 use lexibus::{
     AbortCode, AsyncClient, Error, EscMemory, Flags, Initial, Item, LengthError, Object, OctetString, OnEsc,
-    OutOfRange, Pdo, Range, Ro, Rw, SdoWrite, Step,
+    OutOfRange, Pdo, Range, Ro, Rw, SdoWrite, Step, WalkError,
 };
 
 #[path = "../examples/support/ethercat/mod.rs"]
@@ -23,7 +24,7 @@ mod segment;
 
 use ethercat::objects::Dictionary;
 use ethercat::{Servo, SubDevice};
-use segment::with_segment;
+use segment::{with_faulty_segment, with_segment};
 
 lexibus::dictionary! {
     /// The bindings of the demo servo.
@@ -247,7 +248,7 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));
         SdoWrite::new_u8(0x1A02, 0, 0).send_async(client).await.unwrap();
         let missing = SdoWrite::new_u32(0x1A02, 1, 0x5FFF_0020).send_async(client).await;
-        assert_eq!(missing, Err(Error::Abort(AbortCode::NOT_MAPPABLE)));
+        assert_eq!(missing.map_err(Error::from), Err(Error::Abort(AbortCode::NOT_MAPPABLE)));
         SdoWrite::new_u32(0x1A02, 1, u32::from_le_bytes(entry)).send_async(client).await.unwrap();
         SdoWrite::new_u8(0x1A02, 0, 1).send_async(client).await.unwrap();
         // Assign PDOs that exclude each other.
@@ -255,12 +256,12 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         SdoWrite::new_u16(0x1C12, 1, 0x1600).send_async(client).await.unwrap();
         SdoWrite::new_u16(0x1C12, 2, 0x1601).send_async(client).await.unwrap();
         let both = SdoWrite::new_u8(0x1C12, 0, 2).send_async(client).await;
-        assert_eq!(both, Err(Error::Abort(AbortCode::PARAMETER_INCOMPATIBLE)));
+        assert_eq!(both.map_err(Error::from), Err(Error::Abort(AbortCode::PARAMETER_INCOMPATIBLE)));
         SdoWrite::new_u8(0x1C12, 0, 1).send_async(client).await.unwrap();
 
         let _group = group.into_safe_op(maindevice).await.unwrap();
         let late = SdoWrite::new_u8(0x1A02, 0, 0).send_async(client).await;
-        assert_eq!(late, Err(Error::Abort(AbortCode::DEVICE_STATE)));
+        assert_eq!(late.map_err(Error::from), Err(Error::Abort(AbortCode::DEVICE_STATE)));
         assert_eq!(drive.modes_of_operation().read_async().await, Ok(ModesOfOperation::from_raw(0)));
     });
 }
@@ -375,23 +376,73 @@ fn stale_inputs_are_an_error() {
 }
 
 #[test]
+fn a_client_with_a_timer_can_wait() {
+    with_segment(vec![servo().0], |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let subdevice = group.subdevice(maindevice, 0).unwrap();
+        let limit = Duration::from_millis(100);
+        let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice));
+        let walked = drive.walk_async(State::OperationEnabled, limit).await;
+        assert!(matches!(walked, Err(WalkError::Wait(Error::NoClock))), "{walked:?}");
+        let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep));
+        let start = tokio::time::Instant::now();
+        // The servo changes its state only in Operational.
+        let walked = drive.walk_async(State::OperationEnabled, limit).await;
+        assert!(matches!(walked, Err(WalkError::Deadline { state: Some(State::SwitchOnDisabled), .. })), "{walked:?}");
+        assert!(start.elapsed() > Duration::ZERO, "the timer runs in simulated time");
+    });
+}
+
+#[test]
+fn faults_of_a_cycle() {
+    let faults = FaultyFrames::new();
+    with_faulty_segment(vec![servo().0, servo().0], faults.clone(), |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let station = group.subdevice(maindevice, 1).unwrap().configured_address();
+        let group: Group<Op> = group.into_op(maindevice).await.unwrap();
+        let cycle = Cycle::of(maindevice, &group);
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // One SubDevice doesn't process the datagram of the second cycle.
+        faults.inject_nth(EtherCatFault::WorkingCounter(3), 2);
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        let missing = CycleError::WorkingCounter { expected: 6, actual: 3 };
+        assert_eq!(cycle.run(maindevice, &group).await, Err(missing));
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // The second SubDevice leaves Operational with an error.
+        faults.inject(EtherCatFault::State(0x14), move |datagram| datagram.station == station);
+        for _ in 0..3 {
+            let left = cycle.run(maindevice, &group).await;
+            assert!(matches!(left, Err(CycleError::State { subdevice: 1, .. })), "{left:?}");
+        }
+        faults.clear_faults();
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+        // The frame is lost. `ethercrab` would report it after its own timeout, in real time.
+        faults.inject_nth(EtherCatFault::LostFrame, 1);
+        let lost = tokio::time::timeout(Duration::from_secs(1), cycle.run(maindevice, &group)).await;
+        assert!(lost.is_err(), "{lost:?}");
+        assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
+    });
+}
+
+#[test]
 fn a_lost_mailbox_reply_is_requested_again() {
     let (subdevice, device) = servo();
-    let lost = subdevice.lost_reads();
-    with_segment(vec![subdevice], |maindevice| async move {
+    let faults = FaultyFrames::new();
+    with_faulty_segment(vec![subdevice], faults.clone(), |maindevice| async move {
+        let lose = |count| (1..=count).for_each(|n| faults.inject_nth(EtherCatFault::LostReply, n));
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         for count in [1, 2, 3] {
-            lost.set(count);
+            lose(count);
             drive.target_position().write_async(100 + count as i32).await.unwrap();
             assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(100 + count as i32));
-            lost.set(count);
+            lose(count);
             assert_eq!(drive.target_position().read_async().await, Ok(100 + count as i32));
         }
         // A read fails because four replies are lost. The next read must return the right value.
-        lost.set(4);
+        lose(4);
         assert!(matches!(drive.target_position().read_async().await.map_err(Error::from), Err(Error::Client(_))));
-        lost.set(0);
+        faults.clear_faults();
         assert_eq!(drive.target_position().read_async().await, Ok(103));
     });
 }

@@ -139,8 +139,10 @@ fn one_value_that_is_missing_fails_its_request() {
     type RegisterItem = Item<u16, Ro, OnModbus>;
     const MISSING: RegisterItem = RegisterItem::register(Register::new(Input, 5, 1), "Missing", Flags::NONE);
     let (device, _server, mut inverter) = connected();
-    let failed = inverter.client().read_block((objects::TEMPERATURE, MISSING));
-    assert!(matches!(failed, Err(Error::Client(ModbusError::Exception(ExceptionCode::IllegalDataAddress)))));
+    let failed = inverter.client().read_block((MISSING, objects::TEMPERATURE)).unwrap_err();
+    assert!(matches!(failed.error, Error::Client(ModbusError::Exception(ExceptionCode::IllegalDataAddress))));
+    let text = failed.to_string();
+    assert!(text.starts_with("read Missing and 1 other item (input register 4): "), "{text}");
     assert_eq!(device.requests(), ["ReadInputRegisters(4, 2)"]);
 }
 

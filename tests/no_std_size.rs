@@ -11,6 +11,10 @@ use std::process::{Command, Stdio};
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind};
 
+/// Size of code and data of the program with generated code, in bytes, with Rust 1.95. `examples/no_std/README.md`
+/// contains the same number.
+const RECORDED: usize = 451;
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -99,8 +103,9 @@ fn what_is_not_used_leaves_nothing() {
         let found = generated.loaded.windows(text.len()).any(|window| window == text.as_bytes());
         assert!(!found, "`{text}` is in the binary");
     }
-    // A table of the 585 registers would need thousands of bytes.
-    assert!(generated.code + generated.data < 1024, "{} + {} bytes", generated.code, generated.data);
+    // A table of the 585 registers would need thousands of bytes. The size may grow by 5 %.
+    let size = generated.code + generated.data;
+    assert!(size * 100 <= RECORDED * 105, "{size} bytes instead of {RECORDED}");
     assert!(generated.data <= by_hand.data, "{} bytes of data", generated.data);
     for name in &generated.symbols {
         assert!(!name.contains("5alloc"), "{name} belongs to the allocator");

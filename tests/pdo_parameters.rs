@@ -181,11 +181,11 @@ fn parameters_of_an_enabled_pdo_are_refused() {
     let mut drive = drive();
     configure(&mut drive, NEW.transmission(TransmissionType::ProfileEvent), Feedback::configuration(NODE));
     let refused = SdoWrite::new_u16(0x1800, 3, 10).send(&mut drive);
-    assert_eq!(refused, Err(Error::Abort(AbortCode::INVALID_VALUE)));
+    assert_eq!(refused.map_err(Error::from), Err(Error::Abort(AbortCode::INVALID_VALUE)));
     // The drive has no sub-index for the SYNC start value, so it refuses the configuration, and the PDO stays disabled.
     let parameters = NEW.transmission(TransmissionType::EverySync(1)).sync_start(1);
     let refused = parameters.configure(Feedback::configuration(NODE)).expect("valid").send(&mut drive);
-    assert_eq!(refused, Err(Error::Abort(AbortCode::NO_SUB_INDEX)));
+    assert_eq!(refused.map_err(Error::from), Err(Error::Abort(AbortCode::NO_SUB_INDEX)));
     count(&mut drive, Duration::ZERO);
     drive.sync().expect("sent");
     assert_eq!(count(&mut drive, Duration::from_secs(1)), 0);
@@ -268,5 +268,5 @@ fn the_sync_start_value_is_the_first_sync() {
         assert!(matches!(drive.sync_with_counter(counter), Err(Error::OutOfRange(_))));
     }
     let refused = SdoWrite::new_u8(0x1800, 6, 1).send(&mut drive);
-    assert_eq!(refused, Err(Error::Abort(AbortCode::INVALID_VALUE)), "the PDO is enabled");
+    assert_eq!(refused.map_err(Error::from), Err(Error::Abort(AbortCode::INVALID_VALUE)), "the PDO is enabled");
 }

@@ -197,12 +197,12 @@ type Answer = Result<Vec<u8>, Error<SerialError<Late>>>;
 fn exchanged(replies: &[u8]) -> Answer {
     let answer = |result: Result<usize, _>, reply: &[u8]| result.map(|length| reply[..length].to_vec());
     let mut reply = [0; 20];
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(Line::replying(replies.iter().copied()), FRAMING);
+    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(Line::replying(replies.iter().copied()), FRAMING, None);
     let blocking = answer(line.exchange(&[1, 2], &mut reply), &reply);
     assert_eq!(line.into_stream().received, framed(&[1, 2]));
 
     let stream = AsyncLine(Line { slow: true, ..Line::replying(replies.iter().copied()) });
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(stream, FRAMING);
+    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(stream, FRAMING, None);
     let other = answer(now(line.exchange(&[1, 2], &mut reply)), &reply);
     assert_eq!((&other, line.stream().0.received.len()), (&blocking, framed(&[1, 2]).len()));
     other
@@ -234,13 +234,15 @@ fn replies() {
 fn the_rest_of_a_reply_that_was_cut_off_isnt_the_next_one() {
     const LINES: Delimited = Delimited::new(None, b'\r');
     let mut reply = [0; 4];
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(Line::replying(*b"ABCDEFGH\rOK\r1\r"), LINES);
+    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(Line::replying(*b"ABCDEFGH\rOK\r1\r"), LINES, None);
     let too_long = Err(Error::Client(SerialError::Frame(FrameError::TooLong)));
     assert_eq!(line.exchange(b"?", &mut reply), too_long);
     assert_eq!((line.exchange(b"?", &mut reply), &reply[..2]), (Ok(2), &b"OK"[..]));
     assert_eq!(line.exchange(b"?", &mut reply), Ok(1));
-    assert!(format!("{:?}", SerialLine::<_, _, 8>::new((), LINES)).starts_with("SerialLine { stream: (), framing: "));
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(AsyncLine(Line::replying(*b"ABCDEFGH\rOK\r")), LINES);
+    assert!(format!("{:?}", SerialLine::<_, _, 8>::with_ready((), LINES, None))
+        .starts_with("SerialLine { stream: (), framing: "));
+    let mut line: SerialLine<_, _, 64> =
+        SerialLine::with_ready(AsyncLine(Line::replying(*b"ABCDEFGH\rOK\r")), LINES, None);
     assert!(now(AsyncExchange::exchange(&mut line, b"?", &mut reply)).is_err());
     assert_eq!(now(AsyncExchange::exchange(&mut line, b"?", &mut reply)), Ok(2));
 }
@@ -248,7 +250,7 @@ fn the_rest_of_a_reply_that_was_cut_off_isnt_the_next_one() {
 #[test]
 fn nothing_behind_the_reply_is_taken() {
     let replies = [framed(&[1]), framed(&[2, 0x03])].concat();
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(Line::replying(replies), FRAMING);
+    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(Line::replying(replies), FRAMING, None);
     let mut reply = [0; 20];
     assert_eq!(line.exchange(&[], &mut reply), Ok(1));
     assert_eq!(line.exchange(&[], &mut reply), Ok(2));
@@ -257,7 +259,7 @@ fn nothing_behind_the_reply_is_taken() {
 
 #[test]
 fn streams_that_end_and_requests_that_are_too_long() {
-    let mut line: SerialLine<_, _, 8> = SerialLine::new(Line::default(), &FRAMING);
+    let mut line: SerialLine<_, _, 8> = SerialLine::with_ready(Line::default(), &FRAMING, None);
     let closed = line.exchange(&[1], &mut [0; 8]).unwrap_err();
     assert_eq!((closed, closed.to_string()), (Error::Client(SerialError::Closed), "the serial line was closed".into()));
     assert_eq!(line.exchange(&[2; 3], &mut [0; 8]), Err(Error::Length(LengthError::new(9, 8))));
@@ -276,7 +278,7 @@ const MISSING: Item<u16, Rw, OnSerial> = item(9);
 #[test]
 fn parameters_are_items() {
     let stream = Line { drive: Some(Drive::default()), ..Line::default() };
-    let mut drive = Parameters::<_, _, 20>::new(SerialLine::<_, _, 64>::new(stream, FRAMING), Messages);
+    let mut drive = Parameters::<_, _, 20>::new(SerialLine::<_, _, 64>::with_ready(stream, FRAMING, None), Messages);
     GAIN.at(&mut drive).write(-2).unwrap();
     POSITION.at(&mut drive).write(0x0203_1BFF).unwrap();
     assert_eq!((GAIN.at(&mut drive).read(), POSITION.at(&mut drive).read()), (Ok(-2), Ok(0x0203_1BFF)));
@@ -288,17 +290,18 @@ fn parameters_are_items() {
     assert_eq!(short, Err(Error::Length(LengthError::new(4, 2))));
 
     let stream = drive.into_exchange().into_stream();
-    let mut drive = Parameters::<_, _, 20>::new(SerialLine::<_, _, 64>::new(AsyncLine(stream), FRAMING), Messages);
+    let mut drive =
+        Parameters::<_, _, 20>::new(SerialLine::<_, _, 64>::with_ready(AsyncLine(stream), FRAMING, None), Messages);
     now(async {
         POSITION.at(&mut drive).write_async(-7).await.unwrap();
         assert_eq!(POSITION.at(&mut drive).read_async().await, Ok(-7));
         assert_eq!(GAIN.at(&mut drive).read_async().await, Ok(-2));
     });
     // The reply in this test belongs to another request.
-    let line = SerialLine::<_, _, 64>::new(Line::replying(framed(b"w\x04")), FRAMING);
+    let line = SerialLine::<_, _, 64>::with_ready(Line::replying(framed(b"w\x04")), FRAMING, None);
     let mut drive = Parameters::<_, _, 20>::new(line, Messages);
     assert_eq!(GAIN.at(&mut drive).write(1).map_err(Error::from), Err(Error::UnexpectedReply));
-    let line = SerialLine::<_, _, 64>::new(Line::default(), FRAMING);
+    let line = SerialLine::<_, _, 64>::with_ready(Line::default(), FRAMING, None);
     let mut small = Parameters::<_, _, 3>::new(line, Messages);
     assert_eq!(GAIN.at(&mut small).write(1).map_err(Error::from), Err(Error::Length(LengthError::new(4, 3))));
 }
@@ -311,9 +314,9 @@ fn borrowed_exchanges() {
     async fn once_async(mut line: impl AsyncExchange) -> bool {
         line.exchange(&[1], &mut [0; 8]).await.is_ok()
     }
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(Line::replying(framed(&[1])), FRAMING);
+    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(Line::replying(framed(&[1])), FRAMING, None);
     assert!(once(&mut line) && !once(&mut line));
     let stream = AsyncLine(Line::replying(framed(&[1])));
-    let mut line: SerialLine<_, _, 64> = SerialLine::new(stream, FRAMING);
+    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(stream, FRAMING, None);
     assert!(now(once_async(&mut line)) && !now(once_async(&mut line)));
 }

@@ -190,7 +190,8 @@ fn process_data_go_both_ways() {
 fn a_mapping_of_ones_own() {
     let mut device = demo();
     let mut client = device.client::<CanOpen>();
-    let mut send = |writes: &[SdoWrite]| writes.iter().try_for_each(|write| write.send(&mut client));
+    let mut send =
+        |writes: &[SdoWrite]| writes.iter().try_for_each(|write| write.send(&mut client)).map_err(Error::from);
     let unused = SdoWrite::new_u32(0x1800, 1, 0x8000_0185);
     let clear = SdoWrite::new_u8(0x1A00, 0, 0);
     let word = |sub, word| SdoWrite::new_u32(0x1A00, sub, word);
@@ -225,12 +226,12 @@ fn a_frame_has_64_bits_on_can_only() {
     let mut device = vector();
     let mut client = device.client::<CanOpen>();
     clear.iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
-    assert_eq!(count.send(&mut client), abort(AbortCode::PDO_LENGTH));
+    assert_eq!(count.send(&mut client).map_err(Error::from), abort(AbortCode::PDO_LENGTH));
     // EtherCAT has no COB-IDs. If mapping entries are written before sub-index 0 is cleared, the abort codes on
     // EtherCAT and CANopen differ.
     let mut device = vector();
     let mut client = device.client::<CoE>();
-    assert_eq!(map[0].send(&mut client), abort(AbortCode(0x0601_0003)));
+    assert_eq!(map[0].send(&mut client).map_err(Error::from), abort(AbortCode(0x0601_0003)));
     clear[1..].iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
     assert_eq!(count.send(&mut client), Ok(()));
     assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));

@@ -66,7 +66,7 @@ async fn exchanges() {
     assert_eq!(client.exchange_async((CONTROL,), (5,), (TARGET, CONTROL)).await, Ok((-4, 5)));
     assert_eq!(client.write_block((CONTROL, TARGET), (6, 7)), Ok(()));
     // The device refuses the value. The control word in the same request isn't written either.
-    let refused = client.exchange((CONTROL, TARGET), (8, 1001), (CONTROL,));
+    let refused = client.exchange((CONTROL, TARGET), (8, 1001), (CONTROL,)).map_err(Error::from);
     assert_eq!(refused, Err(Error::Client(Fault::Exception(Exception::IllegalDataValue))));
     assert_eq!((device.get(CONTROL), device.get(TARGET)), (Ok(6), Ok(7)));
     // If the registers cannot be read, nothing is written.
@@ -77,6 +77,7 @@ async fn exchanges() {
     assert_eq!(device.exchange_words(10, &[9], 10, 2), Ok(vec![9, 0]));
     device.fail_next(Fault::Bus);
     let mut client = device.client::<Modbus>();
-    assert_eq!(client.exchange((CONTROL,), (1,), (CONTROL,)), Err(Error::Client(Fault::Bus)));
+    let failed = client.exchange((CONTROL,), (1,), (CONTROL,)).map_err(Error::from);
+    assert_eq!(failed, Err(Error::Client(Fault::Bus)));
     assert_eq!(device.get(CONTROL), Ok(9));
 }

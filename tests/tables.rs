@@ -281,7 +281,7 @@ fn a_fault_state_of_the_table_stops_the_walker() {
     let mut walker = Walker::new(State::Running);
     assert_eq!(walker.cycle(0x00_u16, 0x00_u16).map(|walked| walked.control), Ok(0x03));
     assert_eq!(walker.cycle(0x01_u16, 0x03_u16).map(|walked| walked.control), Ok(0x07));
-    assert_eq!(walker.cycle(0x04_u16, 0x07_u16), Err(Stopped::Fault(State::Fault)));
+    assert_eq!(walker.cycle(0x04_u16, 0x07_u16), Err(Stopped::Fault { state: State::Fault, code: None }));
 }
 
 #[test]

@@ -27,7 +27,7 @@ use crate::remaining::Remaining;
 ///
 /// The [module](super) describes the conditions that apply to all operations.
 pub struct Drive<'c, C, O> {
-    client: &'c mut C,
+    pub(super) client: &'c mut C,
     objects: PhantomData<fn() -> O>,
 }
 
@@ -85,7 +85,8 @@ macro_rules! operations {
                 deadline: Duration,
             ) -> Result<(), MotionError<C::Error>> {
                 let mode = Mode::from_native(mode.bits() as i8);
-                self.$change(mode, &mut Remaining::new(deadline))$(.$await)?
+                let mut remaining = Remaining::new(self.client.now(), deadline);
+                self.$change(mode, &mut remaining)$(.$await)?
             }
 
             /// Waits until the axis has reached its target, which bit 10 of the statusword reports. Use this method in
@@ -104,16 +105,16 @@ macro_rules! operations {
             ///   access fails.
             /// - [`MotionError::Deadline`] if the axis hasn't reached the target. The axis continues to move.
             pub $($async)? fn $wait_reached(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
-                let mut remaining = Remaining::new(deadline);
+                let mut remaining = Remaining::new(self.client.now(), deadline);
                 let mode = self.$mode()$(.$await)??;
                 let mut status = self.$watched(mode)$(.$await)??;
                 if !matches!(mode, Mode::ProfilePosition | Mode::ProfileVelocity | Mode::ProfileTorque) {
                     return Err(MotionError::WrongMode { active: mode });
                 }
                 self.$unhalted()$(.$await)??;
-                let mut settling = Settling::new(true);
+                let mut settling = Settling::new(self.client.now(), true);
                 loop {
-                    if settling.confirms(status & REACHED != 0) {
+                    if settling.confirms(self.client.now(), status & REACHED != 0) {
                         return Ok(());
                     }
                     if self.$is_late(&mut remaining)$(.$await)?? {
@@ -176,8 +177,8 @@ macro_rules! operations {
 
             /// Waits until the next poll and returns false, or returns true if the deadline has passed.
             pub(super) $($async)? fn $is_late(&mut self, remaining: &mut Remaining) -> Result<bool, MotionError<C::Error>> {
-                let Some(pause) = remaining.pause() else { return Ok(true) };
-                self.client.wait(pause)$(.$await)??;
+                let Some(pause) = remaining.pause(self.client.now()) else { return Ok(true) };
+                self.client.wait(pause)$(.$await)?.map_err(MotionError::Wait)?;
                 Ok(false)
             }
 
@@ -230,7 +231,7 @@ macro_rules! operations {
             /// - [`MotionError::Halted`] if the "halt" bit is 1, [`MotionError::OtherSource`] if another source
             ///   controls the drive, or [`MotionError::Access`] if an access fails.
             pub $($async)? fn $home(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
-                let mut remaining = Remaining::new(deadline);
+                let mut remaining = Remaining::new(self.client.now(), deadline);
                 self.$enabled()$(.$await)??;
                 self.$unhalted()$(.$await)??;
                 self.$run_homing(&mut remaining)$(.$await)?
@@ -248,7 +249,7 @@ macro_rules! operations {
                 method: i16,
                 deadline: Duration,
             ) -> Result<(), MotionError<C::Error>> {
-                let mut remaining = Remaining::new(deadline);
+                let mut remaining = Remaining::new(self.client.now(), deadline);
                 self.$enabled()$(.$await)??;
                 self.$unhalted()$(.$await)??;
                 O::homing_method().$write(self.client, method.into())$(.$await)??;
@@ -282,10 +283,10 @@ macro_rules! operations {
                 before: u16,
                 remaining: &mut Remaining,
             ) -> Result<(), MotionError<C::Error>> {
-                let mut outcome = Outcome::new(before);
+                let mut outcome = Outcome::new(self.client.now(), before);
                 loop {
                     let status = self.$enabled()$(.$await)??;
-                    if let Some(result) = outcome.of(status) {
+                    if let Some(result) = outcome.of(self.client.now(), status) {
                         return result;
                     }
                     if self.$is_late(remaining)$(.$await)?? {
@@ -321,7 +322,7 @@ macro_rules! operations {
                 target: Target,
                 deadline: Duration,
             ) -> Result<(), MotionError<C::Error>> {
-                let mut remaining = Remaining::new(deadline);
+                let mut remaining = Remaining::new(self.client.now(), deadline);
                 self.$enabled()$(.$await)??;
                 match self.$mode()$(.$await)?? {
                     Mode::ProfilePosition => {}
@@ -355,11 +356,11 @@ macro_rules! operations {
                 target: Target,
                 remaining: &mut Remaining,
             ) -> Result<bool, MotionError<C::Error>> {
-                let mut settling = Remaining::new(SETTLING);
+                let mut settling = Remaining::new(self.client.now(), SETTLING);
                 loop {
                     let status = self.$watched(Mode::ProfilePosition)$(.$await)??;
                     let is_confirmed = status & CONFIRMED != 0;
-                    if !is_confirmed || (target.is_immediate() && settling.pause().is_none()) {
+                    if !is_confirmed || (target.is_immediate() && settling.pause(self.client.now()).is_none()) {
                         return Ok(is_confirmed);
                     }
                     if self.$is_late(remaining)$(.$await)?? {
@@ -375,10 +376,10 @@ macro_rules! operations {
                 is_confirmed: bool,
                 remaining: &mut Remaining,
             ) -> Result<(), MotionError<C::Error>> {
-                let mut settling = Remaining::new(if is_confirmed { SETTLING } else { Duration::ZERO });
+                let mut settling = Remaining::new(self.client.now(), if is_confirmed { SETTLING } else { Duration::ZERO });
                 loop {
                     let status = self.$watched(Mode::ProfilePosition)$(.$await)??;
-                    if status & CONFIRMED != 0 && settling.pause().is_none() {
+                    if status & CONFIRMED != 0 && settling.pause(self.client.now()).is_none() {
                         return Ok(());
                     }
                     if self.$is_late(remaining)$(.$await)?? {

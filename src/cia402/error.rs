@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::state::{Mode, State};
+use crate::access_error::AccessError;
 use crate::error::Error;
 
 /// Reason why an operation of a [`Drive`](super::Drive) failed. `E` is the error type of the client.
@@ -10,7 +11,9 @@ use crate::error::Error;
 #[non_exhaustive]
 pub enum MotionError<E> {
     /// An access to an object failed. The drive may still execute a command that it has received.
-    Access(Error<E>),
+    Access(AccessError<E>),
+    /// The client failed to wait between two accesses.
+    Wait(Error<E>),
     /// The drive has a fault.
     Fault {
         /// State of the drive: [`State::FaultReactionActive`] or [`State::Fault`].
@@ -70,8 +73,8 @@ impl<E> MotionError<E> {
     }
 }
 
-impl<E> From<Error<E>> for MotionError<E> {
-    fn from(error: Error<E>) -> Self {
+impl<E> From<AccessError<E>> for MotionError<E> {
+    fn from(error: AccessError<E>) -> Self {
         Self::Access(error)
     }
 }
@@ -80,6 +83,7 @@ impl<E: fmt::Display> fmt::Display for MotionError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Access(error) => error.fmt(f),
+            Self::Wait(error) => error.fmt(f),
             Self::Fault { state, code } => {
                 write!(f, "the drive has a fault: state \"{state}\"")?;
                 code.map_or(Ok(()), |code| write!(f, ", error code 0x{code:04X}"))
@@ -118,6 +122,7 @@ impl<E: core::error::Error> core::error::Error for MotionError<E> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
             Self::Access(error) => error.source(),
+            Self::Wait(error) => error.source(),
             _ => None,
         }
     }

@@ -2,13 +2,14 @@
 
 use crate::abort::AbortCode;
 use crate::access::{Readable, Writable};
+use crate::access_error::AccessError;
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
-use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
 use crate::machine::StateWord;
 use crate::pdo::sign_extend;
+use crate::raw_value::{limits, RawValue};
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Fixed;
 use crate::value_error::OutOfRange;
@@ -21,7 +22,7 @@ pub trait ReadInteger<B: Bus>: Copy {
     /// # Errors
     ///
     /// Returns the errors of [`Accessor::read`](crate::Accessor::read).
-    fn read<C: Client<Bus = B>>(self, client: &mut C) -> Result<i64, Error<C::Error>>;
+    fn read<C: Client<Bus = B>>(self, client: &mut C) -> Result<i64, AccessError<C::Error>>;
 
     /// Reads the raw value without blocking.
     ///
@@ -29,7 +30,7 @@ pub trait ReadInteger<B: Bus>: Copy {
     ///
     /// Returns the errors of [`Accessor::read`](crate::Accessor::read).
     #[allow(async_fn_in_trait)]
-    async fn read_async<C: AsyncClient<Bus = B>>(self, client: &mut C) -> Result<i64, Error<C::Error>>;
+    async fn read_async<C: AsyncClient<Bus = B>>(self, client: &mut C) -> Result<i64, AccessError<C::Error>>;
 }
 
 /// An item that a client of bus `B` can write as an integer, under the same conditions as [`ReadInteger`].
@@ -40,7 +41,7 @@ pub trait WriteInteger<B: Bus>: Copy {
     ///
     /// Returns [`Error::OutOfRange`], and sends nothing, if the value doesn't fit the type or is outside the item's
     /// range. Otherwise, returns the errors of the client.
-    fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), Error<C::Error>>;
+    fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), AccessError<C::Error>>;
 
     /// Writes the raw value without blocking.
     ///
@@ -48,20 +49,37 @@ pub trait WriteInteger<B: Bus>: Copy {
     ///
     /// Returns the errors of [`write`](Self::write).
     #[allow(async_fn_in_trait)]
-    async fn write_async<C: AsyncClient<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), Error<C::Error>>;
+    async fn write_async<C: AsyncClient<Bus = B>>(
+        self,
+        client: &mut C,
+        value: i32,
+    ) -> Result<(), AccessError<C::Error>>;
 }
 
 /// An object that the device doesn't have. A read returns [`AbortCode::NO_OBJECT`] without a bus access.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Absent;
 
+fn absent<E>() -> AccessError<E> {
+    AccessError::read(AbortCode::NO_OBJECT.into(), ("an object that the device doesn't have", None))
+}
+
+/// Returns the error for an integer that doesn't fit the type of the item.
+fn out_of_range<B: Bus, E, V: Fixed, A, L>(item: &Item<V, A, L>, value: i32) -> AccessError<E>
+where
+    L: On<B, Route: WriteRoute<B>>,
+{
+    let place = (item.name(), item.location().route().write_address());
+    AccessError::out_of_range(place, Some(RawValue::Signed(value.into())), limits::<V>(item.range()))
+}
+
 impl<B: Bus> ReadInteger<B> for Absent {
-    fn read<C: Client<Bus = B>>(self, _: &mut C) -> Result<i64, Error<C::Error>> {
-        Err(AbortCode::NO_OBJECT.into())
+    fn read<C: Client<Bus = B>>(self, _: &mut C) -> Result<i64, AccessError<C::Error>> {
+        Err(absent())
     }
 
-    async fn read_async<C: AsyncClient<Bus = B>>(self, _: &mut C) -> Result<i64, Error<C::Error>> {
-        Err(AbortCode::NO_OBJECT.into())
+    async fn read_async<C: AsyncClient<Bus = B>>(self, _: &mut C) -> Result<i64, AccessError<C::Error>> {
+        Err(absent())
     }
 }
 
@@ -69,11 +87,11 @@ impl<B: Bus, V: Fixed<Native: StateWord>, A: Readable, L: Copy> ReadInteger<B> f
 where
     L: On<B, Route: ReadRoute<B>>,
 {
-    fn read<C: Client<Bus = B>>(self, client: &mut C) -> Result<i64, Error<C::Error>> {
+    fn read<C: Client<Bus = B>>(self, client: &mut C) -> Result<i64, AccessError<C::Error>> {
         Ok(integer::<V>(self.at(client).read()?))
     }
 
-    async fn read_async<C: AsyncClient<Bus = B>>(self, client: &mut C) -> Result<i64, Error<C::Error>> {
+    async fn read_async<C: AsyncClient<Bus = B>>(self, client: &mut C) -> Result<i64, AccessError<C::Error>> {
         Ok(integer::<V>(self.at(client).read_async().await?))
     }
 }
@@ -82,16 +100,18 @@ impl<B: Bus, V: Fixed<Native: StateWord>, A: Writable, L: Copy> WriteInteger<B> 
 where
     L: On<B, Route: WriteRoute<B>>,
 {
-    fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), Error<C::Error>> {
-        let native = native::<V>(value)?;
-        self.at(client).write(native)?;
-        Ok(())
+    fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), AccessError<C::Error>> {
+        let native = native::<V>(value).map_err(|_| out_of_range(&self, value))?;
+        self.at(client).write(native)
     }
 
-    async fn write_async<C: AsyncClient<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), Error<C::Error>> {
-        let native = native::<V>(value)?;
-        self.at(client).write_async(native).await?;
-        Ok(())
+    async fn write_async<C: AsyncClient<Bus = B>>(
+        self,
+        client: &mut C,
+        value: i32,
+    ) -> Result<(), AccessError<C::Error>> {
+        let native = native::<V>(value).map_err(|_| out_of_range(&self, value))?;
+        self.at(client).write_async(native).await
     }
 }
 

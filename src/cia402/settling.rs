@@ -16,13 +16,13 @@ pub(super) struct Settling {
 
 impl Settling {
     /// `is_set` is true if the bits were 1, or may have been 1, before the command.
-    pub(super) fn new(is_set: bool) -> Self {
-        Self { is_stale: is_set, remaining: Remaining::new(SETTLING) }
+    pub(super) fn new(now: Option<Duration>, is_set: bool) -> Self {
+        Self { is_stale: is_set, remaining: Remaining::new(now, SETTLING) }
     }
 
     /// Returns whether the bits are 1 as a result of the command. `is_set` is true if the bits are 1 now.
-    pub(super) fn confirms(&mut self, is_set: bool) -> bool {
-        self.is_stale &= is_set && self.remaining.pause().is_some();
+    pub(super) fn confirms(&mut self, now: Option<Duration>, is_set: bool) -> bool {
+        self.is_stale &= is_set && self.remaining.pause(now).is_some();
         is_set && !self.is_stale
     }
 }

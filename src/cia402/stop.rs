@@ -43,10 +43,10 @@ macro_rules! stops {
             /// - [`MotionError::Deadline`] if the axis hasn't stopped before the deadline. The command stays active.
             /// - [`MotionError::Access`] if an access fails. The drive may have received the command.
             pub $($async)? fn $quick_stop(&mut self, deadline: Duration) -> Result<State, MotionError<C::Error>> {
-                let mut remaining = Remaining::new(deadline);
+                let mut remaining = Remaining::new(self.client.now(), deadline);
                 // Without a read, whose reply could be lost. A bit 4 that stays 1 would start homing when the drive is enabled.
                 self.$command(QUICK_STOP)$(.$await)??;
-                let mut settling = Settling::new(true);
+                let mut settling = Settling::new(self.client.now(), true);
                 loop {
                     // Reads the error code of a fault, and the state.
                     let status = match self.$enabled()$(.$await)? {
@@ -55,7 +55,7 @@ macro_rules! stops {
                             return Ok(State::SwitchOnDisabled);
                         }
                         Err(MotionError::NotEnabled { state: Some(State::QuickStopActive), status }) => {
-                            if settling.confirms(status & REACHED != 0) {
+                            if settling.confirms(self.client.now(), status & REACHED != 0) {
                                 return Ok(State::QuickStopActive);
                             }
                             status
@@ -91,14 +91,14 @@ macro_rules! stops {
             /// - [`MotionError::OtherSource`] if another source controls the drive, or [`MotionError::Access`] if an
             ///   access fails.
             pub $($async)? fn $halt(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
-                let mut remaining = Remaining::new(deadline);
+                let mut remaining = Remaining::new(self.client.now(), deadline);
                 self.$enabled()$(.$await)??;
                 let control = enables(self.$control()$(.$await)??)?;
                 self.$command(control | HALT)$(.$await)??;
-                let mut settling = Settling::new(true);
+                let mut settling = Settling::new(self.client.now(), true);
                 loop {
                     let status = self.$enabled()$(.$await)??;
-                    if settling.confirms(status & REACHED != 0) {
+                    if settling.confirms(self.client.now(), status & REACHED != 0) {
                         return Ok(());
                     }
                     if self.$is_late(&mut remaining)$(.$await)?? {

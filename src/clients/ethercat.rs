@@ -20,7 +20,8 @@
 //!     // In Pre-Operational: write objects and assign PDOs.
 //!     let subdevice = group.subdevice(maindevice, 0)?;
 //!     assert!(is_a(&subdevice, &servo::IDENTITY));
-//!     let mut drive = servo::DemoServo::new(Sdo::new(maindevice, &subdevice));
+//!     let client = Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep); // pauses between polls
+//!     let mut drive = servo::DemoServo::new(client);
 //!     drive.profile_velocity().write_async(250_000).await?;
 //!     let assignment = Assignment::<8>::by_default(&servo::DEVICE)?;
 //!     drive.client().configure(assignment.startup()).await?;
@@ -84,9 +85,10 @@ use crate::emergency::Emergency;
 use crate::error::Error;
 use crate::ethercat::StartupCommand;
 use crate::identity::Identity;
+use crate::pdo::SdoWriteError;
 use crate::value_error::LengthError;
 
-/// Default timeout of a mailbox exchange.
+/// Default timeout of a mailbox exchange, and of a transfer with one message.
 pub const TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Returns whether a SubDevice matches a description: vendor and product code are equal, unless the description omits
@@ -172,14 +174,15 @@ impl<'m, T: Timer> Sdo<'m, T> {
     ///
     /// # Errors
     ///
-    /// Returns the error of the first command that fails. The remaining commands are not sent.
+    /// Returns the first command that fails, as a write with its error. The remaining commands are not sent.
     pub async fn configure(
         &mut self,
         commands: impl IntoIterator<Item: Into<StartupCommand>>,
-    ) -> Result<(), Error<BusError>> {
+    ) -> Result<(), SdoWriteError<BusError>> {
         for command in commands {
             let command = command.into();
-            self.download(command.object, command.complete_access, command.data()).await?;
+            let sent = self.download(command.object, command.complete_access, command.data()).await;
+            sent.map_err(|error| SdoWriteError { write: command.write(), error })?;
         }
         Ok(())
     }
@@ -204,6 +207,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
     }
 
     async fn upload(&mut self, object: Object, complete: bool, buffer: &mut [u8]) -> Result<usize, Error<BusError>> {
+        self.mailbox.begin().await?;
         let request = protocol::upload(object, complete);
         let begun = self.mailbox.exchange(&request, &[], |answer| match answer {
             Answer::Upload { object: of, size, data } if of == object => {
@@ -222,6 +226,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
         }
         let mut toggle = false;
         while have < size {
+            self.mailbox.extend();
             let request = protocol::upload_segment(toggle);
             let segment = self.mailbox.exchange(&request, &[], |answer| match answer {
                 Answer::UploadSegment { toggle: of, last, data } if of == toggle => {
@@ -241,6 +246,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
 
     async fn download(&mut self, object: Object, complete: bool, data: &[u8]) -> Result<(), Error<BusError>> {
         let room = self.mailbox.room().await?;
+        self.mailbox.begin().await?;
         let (request, mut sent) = protocol::download(object, complete, data, room);
         let first = data.get(..sent).filter(|_| request.command() == Command::Normal).unwrap_or(&[]);
         let begun = self.mailbox.exchange(&request, first, |answer| match answer {
@@ -251,6 +257,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
         begun.await?;
         let mut toggle = false;
         while let Some(rest) = data.get(sent..).filter(|rest| !rest.is_empty()) {
+            self.mailbox.extend();
             let (request, length) = protocol::download_segment(toggle, rest.len(), room);
             let part = rest.get(..length).unwrap_or(rest);
             let segment = self.mailbox.exchange(&request, part, |answer| match answer {
@@ -282,5 +289,14 @@ impl<T: Timer> AsyncClient for Sdo<'_, T> {
 
     async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<BusError>> {
         self.download(address, false, data).await
+    }
+
+    /// Waits with the [timer](Sdo::with_timer). Returns [`Error::NoClock`] without a timer.
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<BusError>> {
+        self.mailbox.wait(time).await
+    }
+
+    fn now(&mut self) -> Option<Duration> {
+        self.mailbox.now()
     }
 }

@@ -1,7 +1,7 @@
 //! Messages over a byte stream of `embedded-io`, blocking or async.
 //!
 //! ```
-//! use embedded_io::{Read, Write};
+//! use embedded_io::{Read, ReadReady, Write};
 //! use lexibus::clients::serial::{SerialError, SerialLine};
 //! use lexibus::framing::{Check, Delimited};
 //! use lexibus::{Error, Exchange};
@@ -12,7 +12,7 @@
 //!     .with_max_data(68);
 //!
 //! /// Requests the state of node 5 over any serial interface of a microcontroller or a computer.
-//! fn state<S: Read + Write>(port: S) -> Result<u8, Error<SerialError<S::Error>>> {
+//! fn state<S: Read + Write + ReadReady>(port: S) -> Result<u8, Error<SerialError<S::Error>>> {
 //!     let mut line: SerialLine<_, _, 140> = SerialLine::new(port, FRAMING);
 //!     let mut reply = [0; 68];
 //!     let length = line.exchange(&[0x05, 0x08, 0xA8, 0x00, 0x00, 0x00], &mut reply)?;
@@ -27,9 +27,14 @@
 //!
 //! # Timeouts
 //!
-//! A blocking stream has its own timeout for reads. If a read times out, the exchange returns the error of the stream.
-//! [`SerialLine::with_time`] limits the time of the whole exchange, even if noise arrives continuously. Async streams
-//! have no timeout, so an async line needs a timer:
+//! A blocking line limits the time of an exchange in two ways. The stream has its own timeout for each read. If a read
+//! times out, the exchange returns the error of the stream. The timeout of the line, by default [`TIMEOUT`], limits the
+//! time of the whole exchange, even if noise arrives continuously. The timeout of the line needs a clock. With the
+//! feature `std`, the line has a clock. Without `std`, set a clock with [`SerialLine::with_time`]; without a clock, an
+//! exchange ends after 4096 bytes of noise.
+//!
+//! Async streams have no timeout, so an async line needs a timer. Without a timer, an async exchange waits for the reply
+//! forever:
 //!
 //! ```
 //! use core::time::Duration;
@@ -37,23 +42,30 @@
 //! use lexibus::framing::Delimited;
 //!
 //! # let (port, other) = ((), ());
+//! const LINES: Delimited = Delimited::new(None, b'\r');
 //! // A blocking line; `|| timer.elapsed()` without the feature `std`.
-//! let line: SerialLine<_, _, 140> = SerialLine::new(port, Delimited::new(None, b'\r')).with_timeout(Duration::from_secs(1));
+//! let line = SerialLine::<_, _, 140>::with_ready(port, LINES, None).with_timeout(Duration::from_secs(2));
 //! // An async line; `embassy_time::Timer::after` on a microcontroller.
-//! let line: SerialLine<_, _, 140, _> =
-//!     SerialLine::new(other, Delimited::new(None, b'\r')).with_time(tokio::time::sleep, Duration::from_secs(1));
+//! let line = SerialLine::<_, _, 140>::with_ready(other, LINES, None).with_time(tokio::time::sleep, Duration::from_secs(1));
 //! ```
 //!
 //! # Late replies
 //!
-//! A frame does not identify the request to which it replies. After a timeout, an invalid reply or a dropped exchange,
-//! the next exchange first discards the late reply. Before its request, the next exchange waits until a frame arrives,
-//! a read of the stream times out, or the line's timeout expires. A blocking line can discard late replies only if
-//! reads of the stream time out. An async line can discard late replies only if the line has a timer. If the stream
-//! implements `embedded_io::ReadReady`, [`SerialLine::draining`] discards repeated replies as well.
+//! A frame does not identify the request to which it replies. Bytes that arrived before a request cannot belong to its
+//! reply: they are late or repeated replies, noise, or messages that the device sends without a request. Each exchange
+//! first discards all bytes that the stream has already received. It does not wait for further bytes. This step needs
+//! to know whether a read returns at once: `embedded_io::ReadReady`, or the function that you pass to
+//! [`SerialLine::with_ready`]. A line without this information cannot discard bytes before a request unless the last
+//! exchange failed.
+//!
+//! After a timeout, an invalid reply or a dropped exchange, the late reply can still be on its way. The next exchange
+//! therefore waits before its request until a frame arrives, a read of the stream times out, or the timeout of the line
+//! expires, and discards what it receives. An async line needs a timer to wait. A blocking line needs a clock and the
+//! information above, or a stream whose reads have timed out before. Without these, the exchange does not wait.
 
 use core::error;
 use core::fmt;
+use core::hint::spin_loop;
 use core::time::Duration;
 
 use crate::clock::{Clock, DefaultClock, Timer};
@@ -63,6 +75,9 @@ use crate::framing::{FrameError, Framing};
 
 pub use embedded_io;
 pub use embedded_io_async;
+
+/// Default timeout of an exchange.
+pub const TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Maximum number of bytes of an exchange that aren't part of the reply.
 const MOST_NOISE: usize = 4096;
@@ -83,7 +98,7 @@ const MOST_NOISE: usize = 4096;
 pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
     line: Line<S, F, N>,
     time: T,
-    timeout: Option<Duration>,
+    timeout: Duration,
     /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
     /// True if a read of the stream has timed out, which means that reads don't block forever.
@@ -121,14 +136,28 @@ impl<S: fmt::Debug, F: Framing + fmt::Debug, const N: usize, T> fmt::Debug for S
 }
 
 impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
-    /// Creates a client for the device that `stream` is connected to.
-    pub const fn new(stream: S, framing: F) -> Self {
-        let line = Line { stream, framing, ready: None, within: None };
-        Self { line, time: DefaultClock, timeout: None, is_unsettled: false, times_out: false }
+    /// Creates a client for the device that `stream` is connected to. The client discards waiting bytes before each
+    /// request.
+    pub const fn new(stream: S, framing: F) -> Self
+    where
+        S: embedded_io::ReadReady,
+    {
+        Self::with_ready(stream, framing, Some(|stream| stream.read_ready().unwrap_or(false)))
     }
 
-    /// Returns the line with a timeout for each exchange, measured with the [`DefaultClock`]. Without the feature `std`,
-    /// and for async lines, use [`with_time`](Self::with_time).
+    /// Creates a client for a stream that doesn't implement `embedded_io::ReadReady`. `ready` returns whether a read of
+    /// the stream returns at once. For a port of the crate `serialport` in a `FromStd` adapter, `ready` is
+    /// `|port| port.inner().bytes_to_read().is_ok_and(|count| count > 0)`.
+    ///
+    /// Pass `None` only if the stream has no such information. Then a repeated reply, or a message that the device
+    /// sends without a request, is taken for the reply to the next request, unless the protocol detects it.
+    pub const fn with_ready(stream: S, framing: F, ready: Option<fn(&mut S) -> bool>) -> Self {
+        let line = Line { stream, framing, ready, within: None };
+        Self { line, time: DefaultClock, timeout: TIMEOUT, is_unsettled: false, times_out: false }
+    }
+
+    /// Returns the line with another timeout for each exchange, measured with the [`DefaultClock`]. Without the feature
+    /// `std`, and for async lines, use [`with_time`](Self::with_time).
     #[must_use]
     pub fn with_timeout(self, timeout: Duration) -> Self {
         self.with_time(DefaultClock, timeout)
@@ -140,22 +169,11 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     #[must_use]
     pub fn with_time<T>(self, time: T, timeout: Duration) -> SerialLine<S, F, N, T> {
         let Self { line, is_unsettled, times_out, .. } = self;
-        SerialLine { line, time, timeout: Some(timeout), is_unsettled, times_out }
+        SerialLine { line, time, timeout, is_unsettled, times_out }
     }
 }
 
 impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
-    /// Returns the line with this option: each exchange discards all waiting bytes before its request. Waiting bytes
-    /// are repeated replies, and messages that the device sends without a request.
-    #[must_use]
-    pub fn draining(mut self) -> Self
-    where
-        S: embedded_io::ReadReady,
-    {
-        self.line.ready = Some(|stream| stream.read_ready().unwrap_or(false));
-        self
-    }
-
     /// Returns the stream.
     pub fn stream(&mut self) -> &mut S {
         &mut self.line.stream
@@ -180,6 +198,31 @@ impl<S, F: Framing, const N: usize> Line<S, F, N> {
             self.within = Some(decoder);
         }
         error
+    }
+
+    /// Returns whether a read returns at once.
+    fn is_ready(&mut self) -> bool {
+        self.ready.is_some_and(|ready| ready(&mut self.stream))
+    }
+
+    /// Waits until a read returns at once. Returns false if `is_late` returns true before.
+    fn await_byte(&mut self, is_late: &mut impl FnMut() -> bool) -> bool {
+        while !self.is_ready() {
+            if is_late() {
+                return false;
+            }
+            spin_loop();
+        }
+        true
+    }
+
+    /// Decodes a byte that arrived before the request. The byte can be the end of an invalid reply.
+    fn skip(&mut self, byte: u8, data: &mut [u8]) {
+        if let Some(within) = &mut self.within {
+            if matches!(self.framing.decode(within, byte, data), Ok(Some(_))) {
+                self.within = None;
+            }
+        }
     }
 
     /// Decodes one byte of the reply.
@@ -248,21 +291,19 @@ fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
 macro_rules! exchanges {
     ($io:ident $call:ident $receive:ident $discard:ident $($async:ident $await:ident)?) => {
         impl<S: $io::Read + $io::Write, F: Framing, const N: usize> Line<S, F, N> {
-            /// Discards waiting bytes if the stream can report them, sends a frame, and reads until the reply is
-            /// complete or `is_late` returns true.
+            /// Discards waiting bytes, sends a frame, and reads until the reply is complete or `is_late` returns true.
             $($async)? fn $call(
                 &mut self,
                 frame: &[u8],
                 reply: &mut [u8],
                 mut is_late: impl FnMut() -> bool,
             ) -> Result<usize, Error<SerialError<S::Error>>> {
-                if let Some(ready) = self.ready {
-                    for _ in 0..MOST_NOISE {
-                        if !ready(&mut self.stream) {
-                            break;
-                        }
-                        self.$receive()$(.$await)??;
+                for _ in 0..MOST_NOISE {
+                    if !self.is_ready() {
+                        break;
                     }
+                    let byte = self.$receive()$(.$await)??;
+                    self.skip(byte, reply);
                 }
                 self.stream.write_all(frame)$(.$await)?.map_err(failed)?;
                 self.stream.flush()$(.$await)?.map_err(failed)?;
@@ -279,13 +320,18 @@ macro_rules! exchanges {
                 Err(Error::Timeout)
             }
 
-            /// Discards bytes up to the end of a frame, or until `is_late` returns true.
+            /// Discards bytes up to the end of a frame, or until `is_late` returns true. `blocks` is false if a read may
+            /// wait forever.
             $($async)? fn $discard(
                 &mut self,
+                blocks: bool,
                 mut is_late: impl FnMut() -> bool,
             ) -> Result<(), Error<SerialError<S::Error>>> {
                 let (mut decoder, mut data) = (self.decoder(), [0; N]);
                 for _ in 0..MOST_NOISE {
+                    if !blocks && !self.await_byte(&mut is_late) {
+                        break;
+                    }
                     let byte = self.$receive()$(.$await)??;
                     let decoded = self.framing.decode(&mut decoder, byte, &mut data);
                     if matches!(decoded, Ok(Some(_))) || is_late() {
@@ -307,10 +353,10 @@ macro_rules! exchanges {
 exchanges! { embedded_io call receive discard }
 exchanges! { embedded_io_async call_async receive_async discard_async async await }
 
-/// Returns a function that returns whether at least `timeout` has passed since this call. Without a timeout or a clock,
-/// the function returns `false`.
-fn deadline<T: Clock>(time: &mut T, timeout: Option<Duration>) -> impl FnMut() -> bool + '_ {
-    let end = timeout.and_then(|timeout| Some(time.now()?.saturating_add(timeout)));
+/// Returns a function that returns whether at least `timeout` has passed since this call. Without a clock, the function
+/// returns `false`.
+fn deadline<T: Clock>(time: &mut T, timeout: Duration) -> impl FnMut() -> bool + '_ {
+    let end = time.now().map(|now| now.saturating_add(timeout));
     move || end.is_some_and(|end| time.now().is_some_and(|now| now >= end))
 }
 
@@ -325,8 +371,10 @@ where
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
         let mut frame = [0; N];
         let length = self.line.framing.encode(request, &mut frame)?;
-        if self.is_unsettled && self.times_out {
-            match self.line.discard(deadline(&mut self.time, self.timeout)) {
+        // Without one of these, the line can't wait for a limited time.
+        let waits = self.times_out || (self.line.ready.is_some() && self.time.now().is_some());
+        if self.is_unsettled && waits {
+            match self.line.discard(self.times_out, deadline(&mut self.time, self.timeout)) {
                 Err(error) if !is_timeout(&error) => return Err(error),
                 _ => {}
             }
@@ -355,16 +403,16 @@ where
         let mut frame = [0; N];
         let length = self.line.framing.encode(request, &mut frame)?;
         let frame = frame.get(..length).unwrap_or_default();
-        let Some(timeout) = self.timeout.filter(|_| T::EXPIRES) else {
+        if !T::EXPIRES {
             return self.line.call_async(frame, reply, || false).await;
-        };
+        }
         if self.is_unsettled {
-            self.time.limit(timeout, self.line.discard_async(|| false)).await.unwrap_or(Ok(()))?;
+            self.time.limit(self.timeout, self.line.discard_async(true, || false)).await.unwrap_or(Ok(()))?;
         }
         // The line stays unsettled if the exchange is dropped.
         self.is_unsettled = true;
         let call = self.line.call_async(frame, reply, || false);
-        let received = self.time.limit(timeout, call).await.unwrap_or(Err(Error::Timeout));
+        let received = self.time.limit(self.timeout, call).await.unwrap_or(Err(Error::Timeout));
         self.is_unsettled = received.is_err();
         received
     }

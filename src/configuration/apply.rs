@@ -66,7 +66,7 @@ impl Configuration {
         C::Bus: Bus<Address = Object>,
     {
         for step in self.steps(node_id) {
-            step.write.send(client).map_err(|error| step.failed(error))?;
+            step.write.send(client).map_err(|failed| step.failed(failed.error))?;
             progress(step);
         }
         Ok(())
@@ -87,7 +87,7 @@ impl Configuration {
         C::Bus: Bus<Address = Object>,
     {
         for step in self.steps(node_id) {
-            step.write.send_async(client).await.map_err(|error| step.failed(error))?;
+            step.write.send_async(client).await.map_err(|failed| step.failed(failed.error))?;
             progress(step);
         }
         Ok(())

@@ -4,8 +4,7 @@ use super::depends_on::Growth;
 use super::mailbox::{InitCommand, Transition};
 use crate::bus::{CoE, Object};
 use crate::client::{AsyncClient, Client};
-use crate::error::Error;
-use crate::pdo::SdoWrite;
+use crate::pdo::{SdoWrite, SdoWriteError};
 
 /// A value that the master writes to an object during a state transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +47,15 @@ impl StartupCommand {
         }
     }
 
+    /// Returns the write, without the information about complete access.
+    #[must_use]
+    pub const fn write(&self) -> SdoWrite {
+        match self.data {
+            StartupData::Number(write) => write,
+            StartupData::Bytes(bytes) => SdoWrite::new_bytes(self.object.index, self.object.sub_index, bytes),
+        }
+    }
+
     /// Returns the bytes to write.
     #[must_use]
     pub const fn data(&self) -> &[u8] {
@@ -64,18 +72,18 @@ impl StartupCommand {
     ///
     /// # Errors
     ///
-    /// Returns the errors of the client.
-    pub fn send<C: Client<Bus = CoE>>(&self, client: &mut C) -> Result<(), Error<C::Error>> {
-        client.write(self.object, self.data())
+    /// Returns the error of the client, with the object and the value.
+    pub fn send<C: Client<Bus = CoE>>(&self, client: &mut C) -> Result<(), SdoWriteError<C::Error>> {
+        self.write().send(client)
     }
 
     /// Writes the value through an asynchronous CoE client, as [`send`](Self::send) does.
     ///
     /// # Errors
     ///
-    /// Returns the errors of the client.
-    pub async fn send_async<C: AsyncClient<Bus = CoE>>(&self, client: &mut C) -> Result<(), Error<C::Error>> {
-        client.write(self.object, self.data()).await
+    /// Returns the error of the client, with the object and the value.
+    pub async fn send_async<C: AsyncClient<Bus = CoE>>(&self, client: &mut C) -> Result<(), SdoWriteError<C::Error>> {
+        self.write().send_async(client).await
     }
 }
 
@@ -109,11 +117,11 @@ impl From<&SdoWrite> for StartupCommand {
 ///
 /// # Errors
 ///
-/// Returns the first error of the client. The remaining commands are not sent.
+/// Returns the first write that failed. The remaining commands are not sent.
 pub fn configure<C: Client<Bus = CoE>>(
     client: &mut C,
     commands: impl IntoIterator<Item: Into<StartupCommand>>,
-) -> Result<(), Error<C::Error>> {
+) -> Result<(), SdoWriteError<C::Error>> {
     commands.into_iter().try_for_each(|command| command.into().send(client))
 }
 
@@ -121,11 +129,11 @@ pub fn configure<C: Client<Bus = CoE>>(
 ///
 /// # Errors
 ///
-/// Returns the first error of the client. The remaining commands are not sent.
+/// Returns the first write that failed. The remaining commands are not sent.
 pub async fn configure_async<C: AsyncClient<Bus = CoE>>(
     client: &mut C,
     commands: impl IntoIterator<Item: Into<StartupCommand>>,
-) -> Result<(), Error<C::Error>> {
+) -> Result<(), SdoWriteError<C::Error>> {
     for command in commands {
         command.into().send_async(client).await?;
     }

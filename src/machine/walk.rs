@@ -3,7 +3,7 @@
 use core::fmt;
 use core::time::Duration;
 
-use super::walker::{MachineState, Stopped, Walker};
+use super::walker::{late, MachineState, Stopped, Walker};
 use super::word::StateWord;
 use crate::access::{Readable, Writable};
 use crate::access_error::AccessError;
@@ -76,22 +76,24 @@ impl<S, E> From<AccessError<E>> for WalkError<S, E> {
     }
 }
 
+impl<S, E> From<Stopped<S>> for WalkError<S, E> {
+    fn from(stopped: Stopped<S>) -> Self {
+        match stopped {
+            Stopped::Fault { state, code } => Self::Fault { state, code },
+            Stopped::Unreachable(state) | Stopped::Left(state) => Self::Unreachable { state },
+            Stopped::Deadline { state, status } => Self::Deadline { state, status },
+        }
+    }
+}
+
 impl<S: MachineState, E: fmt::Display> fmt::Display for WalkError<S, E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Access(error) => error.fmt(f),
             Self::Wait(error) => error.fmt(f),
-            Self::Fault { state, code } => {
-                Stopped::Fault(*state).fmt(f)?;
-                code.map_or(Ok(()), |code| write!(f, ", error code 0x{code:04X}"))
-            }
+            Self::Fault { state, code } => Stopped::Fault { state: *state, code: *code }.fmt(f),
             Self::Unreachable { state } => Stopped::Unreachable(*state).fmt(f),
-            Self::Deadline { state: Some(state), .. } => {
-                write!(f, "timeout: the device is still in the state \"{}\"", state.name())
-            }
-            Self::Deadline { state: None, status } => {
-                write!(f, "timeout: the status word 0x{status:04X} matches no state")
-            }
+            Self::Deadline { state, status } => Stopped::Deadline { state: *state, status: *status }.fmt(f),
         }
     }
 }
@@ -150,13 +152,10 @@ macro_rules! walks {
                 M: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
                 let (mut walker, mut control) = (Walker::new(target), control);
-                let (mut remaining, mut is_written) = (Remaining::new(deadline), false);
+                let (mut remaining, mut is_written) = (Remaining::new(client.now(), deadline), false);
                 loop {
                     let status = self.status.at(client).$read()$(.$await)??;
-                    let walked = walker.cycle(status, control).map_err(|stopped| match stopped {
-                        Stopped::Fault(state) => WalkError::Fault { state, code: None },
-                        Stopped::Unreachable(state) | Stopped::Left(state) => WalkError::Unreachable { state },
-                    })?;
+                    let walked = walker.cycle(status, control)?;
                     if walked.is_reached {
                         return Ok(());
                     }
@@ -166,9 +165,9 @@ macro_rules! walks {
                         self.control.at(client).$write(walked.control)$(.$await)??;
                         (control, is_written) = (walked.control, true);
                     }
-                    match remaining.pause() {
+                    match remaining.pause(client.now()) {
                         Some(pause) => client.wait(pause)$(.$await)?.map_err(WalkError::Wait)?,
-                        None => return Err(late(status.bits())),
+                        None => return Err(late(status.bits()).into()),
                     }
                 }
             }
@@ -183,14 +182,6 @@ walks! { Client walk read write
 walks! { AsyncClient walk_async read_async write_async
     /// Moves the machine to the state `target`, as [`walk`](Self::walk) does, without blocking.
     async await
-}
-
-/// Returns the error for a device that has this status word at the deadline.
-fn late<S: MachineState, E>(status: u32) -> WalkError<S, E> {
-    match S::of_status(status) {
-        Some(state) if state.is_fault() => WalkError::Fault { state, code: None },
-        state => WalkError::Deadline { state, status },
-    }
 }
 
 #[cfg(test)]
@@ -256,6 +247,43 @@ mod tests {
             self.status = self.status.max(1);
             Ok(())
         }
+    }
+
+    /// A device that never changes its state. Each access takes 400 ms.
+    struct Stuck(Duration);
+
+    impl Client for Stuck {
+        type Bus = CanOpen;
+        type Error = ();
+
+        fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<()>> {
+            self.0 += Duration::from_millis(400);
+            buffer.fill(0);
+            Ok(buffer.len())
+        }
+
+        fn write(&mut self, _: Object, _: &[u8]) -> Result<(), Error<()>> {
+            Ok(())
+        }
+
+        fn wait(&mut self, time: Duration) -> Result<(), Error<()>> {
+            self.0 += time;
+            Ok(())
+        }
+
+        fn now(&mut self) -> Option<Duration> {
+            Some(self.0)
+        }
+    }
+
+    #[test]
+    fn slow_accesses_count_for_the_deadline() {
+        let status: Item<u8, Ro, OnCanOpen> = Item::object(0x2000, 0, "status");
+        let control: Item<u8, Wo, OnCanOpen> = Item::object(0x2001, 0, "control");
+        let mut stuck = Stuck(Duration::ZERO);
+        let walked = Machine::new(status, control).walk(&mut stuck, 0, State::On, Duration::from_secs(1));
+        assert_eq!(walked, Err(WalkError::Deadline { state: Some(State::Starting), status: 0 }));
+        assert!(stuck.0 <= Duration::from_millis(1500), "{:?}", stuck.0);
     }
 
     #[test]

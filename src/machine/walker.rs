@@ -1,6 +1,7 @@
 //! Moves a state machine to a target state through cyclic process data, one control word per cycle.
 
 use core::fmt;
+use core::time::Duration;
 
 use super::word::StateWord;
 use super::{Step, Transition};
@@ -86,6 +87,24 @@ pub struct Walker<S> {
     /// True if the device has been in the target state, with a control word that contains no command to leave this
     /// state.
     was_reached: bool,
+    deadline: Option<Deadline>,
+}
+
+/// Limit of the time that a device takes to reach its target state.
+#[derive(Clone, Copy, Debug)]
+struct Deadline {
+    clock: fn() -> Duration,
+    limit: Duration,
+    /// Time of the first cycle.
+    start: Option<Duration>,
+}
+
+impl Deadline {
+    /// Returns whether more time than the limit has passed since the first call.
+    fn is_over(&mut self) -> bool {
+        let now = (self.clock)();
+        now.saturating_sub(*self.start.get_or_insert(now)) >= self.limit
+    }
 }
 
 /// Result of a cycle of a [`Walker`].
@@ -100,24 +119,71 @@ pub struct Walked<W> {
 /// Reason why a [`Walker`] cannot continue. The current control word of the device can still contain a command, so the
 /// program must decide which control word is safe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stopped<S> {
-    /// A new fault occurred. Contains the state of the device.
-    Fault(S),
+    /// A new fault occurred, or a fault that was active at the start could not be reset before the deadline.
+    Fault {
+        /// State of the device.
+        state: S,
+        /// Error code of the device, from [`with_code`](Stopped::with_code).
+        code: Option<u16>,
+    },
     /// No sequence of commands leads from this state to the target state.
     Unreachable(S),
     /// The device left the target state without a command. Contains the state of the device.
     Left(S),
+    /// The device was not in the target state at the deadline.
+    Deadline {
+        /// State of the device, or `None` if its status word matches no state.
+        state: Option<S>,
+        /// Status word of the device.
+        status: u32,
+    },
+}
+
+impl<S> Stopped<S> {
+    /// Adds the error code of the device to a fault. The code is the value of 0x603F, or of 0x1003:01, of which only the
+    /// low 16 bits are the error code. Read it from process data, or with an access to the object.
+    ///
+    /// ```
+    /// # use lexibus::{MachineState, Stopped, Walker};
+    /// # fn run<S: MachineState>(walker: &mut Walker<S>, status: u16, error_code: u16) -> Result<u16, Stopped<S>> {
+    /// let walked = walker.cycle(status, 0_u16).map_err(|stopped| stopped.with_code(error_code))?;
+    /// # Ok(walked.control)
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn with_code(self, code: impl StateWord) -> Self {
+        match self {
+            Self::Fault { state, .. } => Self::Fault { state, code: Some(code.bits() as u16) },
+            other => other,
+        }
+    }
+
+    /// Returns whether the device has a fault.
+    pub const fn is_fault(&self) -> bool {
+        matches!(self, Self::Fault { .. })
+    }
 }
 
 impl<S: MachineState> fmt::Display for Stopped<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Fault(state) => write!(f, "a fault occurred: the device is in the state \"{}\"", state.name()),
+            Self::Fault { state, code } => {
+                write!(f, "a fault occurred: the device is in the state \"{}\"", state.name())?;
+                code.map_or(Ok(()), |code| write!(f, ", error code 0x{code:04X}"))
+            }
             Self::Unreachable(state) => {
                 write!(f, "no command leads from the state \"{}\" to the target state", state.name())
             }
             Self::Left(state) => {
                 write!(f, "the device left the target state, and is in the state \"{}\"", state.name())
+            }
+            Self::Deadline { state: Some(state), .. } => {
+                write!(f, "timeout: the device is still in the state \"{}\"", state.name())
+            }
+            Self::Deadline { state: None, status } => {
+                write!(f, "timeout: the status word 0x{status:04X} matches no state")
             }
         }
     }
@@ -129,7 +195,21 @@ impl<S: MachineState> Walker<S> {
     /// Creates a walker with the target state `target`.
     #[must_use]
     pub const fn new(target: S) -> Self {
-        Self { target, sent: None, was_healthy: false, was_reached: false }
+        Self { target, sent: None, was_healthy: false, was_reached: false, deadline: None }
+    }
+
+    /// Returns the walker with a deadline, measured from the first cycle with the clock of the standard library.
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn with_deadline(self, deadline: Duration) -> Self {
+        self.with_clock(|| crate::clock::Clock::now(&mut crate::clock::DefaultClock).unwrap_or_default(), deadline)
+    }
+
+    /// Returns the walker with a deadline, measured from the first cycle with `clock`: a function that returns the time
+    /// since any fixed moment.
+    #[must_use]
+    pub const fn with_clock(self, clock: fn() -> Duration, deadline: Duration) -> Self {
+        Self { deadline: Some(Deadline { clock, limit: deadline, start: None }), ..self }
     }
 
     /// Returns whether the walker has sent a command.
@@ -144,7 +224,12 @@ impl<S: MachineState> Walker<S> {
     /// Returns [`Stopped`] if a new fault occurred, if no command leads to the target state, or if the device left the
     /// target state.
     pub fn cycle<W: StateWord>(&mut self, status: impl StateWord, control: W) -> Result<Walked<W>, Stopped<S>> {
-        let walked = self.bits(status.bits(), control.bits())?;
+        let status = status.bits();
+        let walked = self.bits(status, control.bits())?;
+        let is_late = self.deadline.as_mut().is_some_and(Deadline::is_over);
+        if is_late && !walked.is_reached && !self.was_reached {
+            return Err(late(status));
+        }
         Ok(Walked { control: W::from_bits(walked.control), is_reached: walked.is_reached })
     }
 
@@ -153,7 +238,7 @@ impl<S: MachineState> Walker<S> {
         // A status word without a state occurs while the device starts.
         let Some(state) = S::of_status(status) else { return Ok(unchanged) };
         if state.is_fault() && self.was_healthy && state.number() != self.target.number() {
-            return Err(Stopped::Fault(state));
+            return Err(Stopped::Fault { state, code: None });
         }
         if self.was_reached && state.number() != self.target.number() {
             return Err(Stopped::Left(state));
@@ -185,6 +270,14 @@ impl<S: MachineState> Walker<S> {
             return others | (value & !exclusive::<S>(mask, value));
         }
         others | value
+    }
+}
+
+/// Returns the reason why a device with this status word was not in its target state at the deadline.
+pub(super) fn late<S: MachineState>(status: u32) -> Stopped<S> {
+    match S::of_status(status) {
+        Some(state) if state.is_fault() => Stopped::Fault { state, code: None },
+        state => Stopped::Deadline { state, status },
     }
 }
 
@@ -313,8 +406,10 @@ mod tests {
         let mut walker = Walker::new(State::Enabled);
         assert_eq!(walker.cycle(0x21_u16, 0x06_u16), Ok(Walked { control: 0x0F, is_reached: false }));
         let stopped = walker.cycle(0x0F_u16, 0x0F_u16).unwrap_err();
-        assert_eq!(stopped, Stopped::Fault(State::Reaction));
+        assert_eq!(stopped, Stopped::Fault { state: State::Reaction, code: None });
         assert_eq!(stopped.to_string(), "a fault occurred: the device is in the state \"a state\"");
+        let text = stopped.with_code(0x0102_8611_u32).to_string();
+        assert_eq!(text, "a fault occurred: the device is in the state \"a state\", error code 0x8611");
         assert_eq!(Walker::new(State::Fault).cycle(0x21_u16, 0_u16), Err(Stopped::Unreachable(State::Ready)));
     }
 
@@ -326,6 +421,34 @@ mod tests {
         assert_eq!(walker.cycle(0x21_u16, 0x0106_u16), Ok(Walked { control: 0x0106, is_reached: true }));
         // Afterwards, another state stops the walker, so that it never enables the drive again.
         assert_eq!(walker.cycle(0x40_u16, 0x0106_u16), Err(Stopped::Left(State::Disabled)));
+    }
+
+    #[test]
+    fn a_walker_gives_up_at_its_deadline() {
+        use core::sync::atomic::{AtomicU64, Ordering};
+        static TIME: AtomicU64 = AtomicU64::new(7);
+        let clock = || Duration::from_millis(TIME.load(Ordering::Relaxed));
+        let run = |states: &[State]| {
+            let mut walker = Walker::new(State::Enabled).with_clock(clock, Duration::from_millis(30));
+            let mut control = 0_u16;
+            for state in states {
+                control = walker.cycle(STATUS[*state as usize] as u16, control)?.control;
+                TIME.fetch_add(10, Ordering::Relaxed);
+            }
+            Ok(())
+        };
+        use State::{Disabled, Enabled, Fault, Ready};
+        let late = Err(Stopped::Deadline { state: Some(Ready), status: 0x21 });
+        assert_eq!(run(&[Disabled, Ready, Ready, Ready]), late);
+        assert_eq!(run(&[Fault, Fault, Fault, Fault]), Err(Stopped::Fault { state: Fault, code: None }));
+        assert_eq!(
+            run(&[Disabled, Ready, Enabled, Enabled, Enabled, Enabled]),
+            Ok(()),
+            "the target is reached in time"
+        );
+        assert_eq!(run(&[Disabled, Ready, Ready, Enabled]), Ok(()), "at the deadline");
+        let text = Stopped::<State>::Deadline { state: None, status: 0x2F }.to_string();
+        assert_eq!(text, "timeout: the status word 0x002F matches no state");
     }
 
     #[test]

@@ -22,6 +22,9 @@ pub trait BlockItem {
     /// Length of the value in bytes, at most 8.
     const LENGTH: usize;
 
+    /// Returns the name of the item.
+    fn name(&self) -> &'static str;
+
     /// Returns the register of the item.
     fn register(&self) -> Register;
 
@@ -38,6 +41,10 @@ impl<V: Fixed, A: Readable, L: On<Modbus, Route: Direct<Modbus>>> BlockItem for 
 
     const LENGTH: usize = byte_len(V::BITS);
 
+    fn name(&self) -> &'static str {
+        Item::name(self)
+    }
+
     fn register(&self) -> Register {
         self.location().route().address()
     }
@@ -51,6 +58,10 @@ impl<T: BlockItem> BlockItem for &T {
     type Native = T::Native;
 
     const LENGTH: usize = T::LENGTH;
+
+    fn name(&self) -> &'static str {
+        T::name(self)
+    }
 
     fn register(&self) -> Register {
         T::register(self)
@@ -77,6 +88,9 @@ pub trait Block<const N: usize> {
     /// Length of each value in bytes, at most 8.
     const LENGTHS: [usize; N];
 
+    /// Returns the name of each item.
+    fn names(&self) -> [&'static str; N];
+
     /// Returns the register of each item.
     fn registers(&self) -> [Register; N];
 
@@ -93,6 +107,10 @@ impl<T: BlockItem, const N: usize> Block<N> for [T; N] {
     type Values = [T::Native; N];
 
     const LENGTHS: [usize; N] = [T::LENGTH; N];
+
+    fn names(&self) -> [&'static str; N] {
+        self.each_ref().map(|item| item.name())
+    }
 
     fn registers(&self) -> [Register; N] {
         self.each_ref().map(|item| item.register())
@@ -119,6 +137,10 @@ macro_rules! tuples {
             type Values = ($($item::Native,)*);
 
             const LENGTHS: [usize; $count] = [$($item::LENGTH),*];
+
+            fn names(&self) -> [&'static str; $count] {
+                [$(self.$at.name()),*]
+            }
 
             fn registers(&self) -> [Register; $count] {
                 [$(self.$at.register()),*]

@@ -7,6 +7,7 @@ use super::block::Block;
 use super::limits::Limits;
 use super::reading::{Reading, MAX_BYTES};
 use super::write_block::{masked, masks, WriteBlock, WriteItem, Writing};
+use crate::access_error::AccessError;
 use crate::bus::Modbus;
 use crate::client::{AsyncClient, Client, Timed};
 use crate::error::Error;
@@ -18,8 +19,8 @@ macro_rules! read_all {
         while let Some((request, length)) = $reading.request() {
             let mut answer = [0; MAX_BYTES];
             let answer = answer.get_mut(..length).unwrap_or_default();
-            let received = $client.read(request, answer)$(.$await)??;
-            $reading.answered(answer, received)?;
+            let received = $client.read(request, answer)$(.$await)?.map_err(|error| $reading.failed(error))?;
+            $reading.answered(answer, received).map_err(|error| $reading.failed(error.into()))?;
         }
     };
 }
@@ -35,16 +36,17 @@ macro_rules! exchange {
             let Some((register, data)) = writing.write(at) else { break };
             let combined = reading.request().filter(|(request, _)| at == last && is_combined(&register, request));
             let Some((request, length)) = combined else {
-                $client.write(register, data)$(.$await)??;
+                $client.write(register, data)$(.$await)?.map_err(|error| writing.failed(at, error))?;
                 continue;
             };
             let mut answer = [0; MAX_BYTES];
             let answer = answer.get_mut(..length).unwrap_or_default();
-            let received = $client.write_and_read(register, data, request, answer)$(.$await)??;
-            reading.answered(answer, received)?;
+            let received = $client.write_and_read(register, data, request, answer)$(.$await)?;
+            let received = received.map_err(|error| writing.failed(at, error))?;
+            reading.answered(answer, received).map_err(|error| reading.failed(error.into()))?;
         }
         read_all!($client, reading $(, $await)?);
-        Ok($read.values(reading.values())?)
+        reading.values(&$read)
     }};
 }
 
@@ -118,17 +120,19 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     ///
     /// # Errors
     ///
+    /// The error names the first item of the failed request and the number of its [other items](AccessError::others).
+    ///
     /// - The errors of [`Client::read`].
     /// - [`Error::Length`] if an item exceeds one request and the device doesn't allow a
     ///   [split](super::TableLimits::split). The client then sends no request.
     /// - [`Error::Length`] if the length of an item's type differs from the length of its registers.
-    fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
+    fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, AccessError<Self::Error>>
     where
         Self: Sized,
     {
         let mut reading = Reading::new(&block, self.limits())?;
         read_all!(self, reading);
-        Ok(block.values(reading.values())?)
+        reading.values(&block)
     }
 
     /// Sets the bits of `mask` to their values in `value`, in an item of one holding register. The other bits of the
@@ -146,12 +150,12 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         item: I,
         value: I::Native,
         mask: I::Native,
-    ) -> Result<(), Error<Self::Error>>
+    ) -> Result<(), AccessError<Self::Error>>
     where
         Self: Sized,
     {
-        let (address, and, or) = masks(&item, value, mask)?;
-        self.mask_register(address, and, or)
+        let (address, and, or) = masks(&item, value, mask).map_err(|error| mask_failed(&item, value, error))?;
+        self.mask_register(address, and, or).map_err(|error| mask_failed(&item, value, error))
     }
 
     /// Writes items. If the items are adjacent holding registers without gaps, and the device allows it, one request
@@ -165,14 +169,14 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         &mut self,
         block: B,
         values: B::Values,
-    ) -> Result<(), Error<Self::Error>>
+    ) -> Result<(), AccessError<Self::Error>>
     where
         Self: Sized,
     {
         let writing = Writing::new(&block, values, self.limits())?;
         for at in 0..writing.len() {
             if let Some((register, data)) = writing.write(at) {
-                self.write(register, data)?;
+                self.write(register, data).map_err(|error| writing.failed(at, error))?;
             }
         }
         Ok(())
@@ -195,7 +199,7 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         write: W,
         values: W::Values,
         read: B,
-    ) -> Result<B::Values, Error<Self::Error>>
+    ) -> Result<B::Values, AccessError<Self::Error>>
     where
         Self: Sized,
     {
@@ -252,13 +256,16 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     /// # Errors
     ///
     /// Returns the errors of [`RegisterClient::read_block`].
-    async fn read_block_async<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
+    async fn read_block_async<const N: usize, B: Block<N>>(
+        &mut self,
+        block: B,
+    ) -> Result<B::Values, AccessError<Self::Error>>
     where
         Self: Sized,
     {
         let mut reading = Reading::new(&block, self.limits())?;
         read_all!(self, reading, await);
-        Ok(block.values(reading.values())?)
+        reading.values(&block)
     }
 
     /// Sets the bits of `mask` to their values in `value`, in an item of one holding register. The other bits of the
@@ -276,12 +283,12 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         item: I,
         value: I::Native,
         mask: I::Native,
-    ) -> Result<(), Error<Self::Error>>
+    ) -> Result<(), AccessError<Self::Error>>
     where
         Self: Sized,
     {
-        let (address, and, or) = masks(&item, value, mask)?;
-        self.mask_register(address, and, or).await
+        let (address, and, or) = masks(&item, value, mask).map_err(|error| mask_failed(&item, value, error))?;
+        self.mask_register(address, and, or).await.map_err(|error| mask_failed(&item, value, error))
     }
 
     /// Writes items. If the items are adjacent holding registers without gaps, and the device allows it, one request
@@ -295,14 +302,14 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         &mut self,
         block: B,
         values: B::Values,
-    ) -> Result<(), Error<Self::Error>>
+    ) -> Result<(), AccessError<Self::Error>>
     where
         Self: Sized,
     {
         let writing = Writing::new(&block, values, self.limits())?;
         for at in 0..writing.len() {
             if let Some((register, data)) = writing.write(at) {
-                self.write(register, data).await?;
+                self.write(register, data).await.map_err(|error| writing.failed(at, error))?;
             }
         }
         Ok(())
@@ -326,12 +333,17 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         write: W,
         values: W::Values,
         read: B,
-    ) -> Result<B::Values, Error<Self::Error>>
+    ) -> Result<B::Values, AccessError<Self::Error>>
     where
         Self: Sized,
     {
         exchange!(self, write, values, read, await)
     }
+}
+
+/// Returns the error of a mask write request for an item.
+fn mask_failed<I: WriteItem, E>(item: &I, value: I::Native, error: Error<E>) -> AccessError<E> {
+    AccessError::write(error, (item.name(), Some(item.register().into())), item.raw_value(value))
 }
 
 /// Returns whether one request with function 23 can write and read these registers.

@@ -71,4 +71,4 @@ pub use limits::{Limits, Span, TableLimits};
 pub use plan::Plan;
 #[cfg(feature = "std")]
 pub(crate) use write_block::masked;
-pub use write_block::{WriteBlock, WriteItem};
+pub use write_block::{Encoded, WriteBlock, WriteItem};

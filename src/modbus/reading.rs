@@ -3,7 +3,9 @@
 use super::block::Block;
 use super::limits::Limits;
 use super::plan::{bytes, Plan};
+use crate::access_error::AccessError;
 use crate::bits;
+use crate::error::Error;
 use crate::register::{Register, RegisterTable};
 use crate::value_error::LengthError;
 
@@ -12,6 +14,7 @@ pub(super) const MAX_BYTES: usize = 250;
 
 /// A block read that is in progress.
 pub(super) struct Reading<const N: usize> {
+    names: [&'static str; N],
     items: [Register; N],
     lengths: [usize; N],
     plan: Plan<N>,
@@ -21,10 +24,25 @@ pub(super) struct Reading<const N: usize> {
 }
 
 impl<const N: usize> Reading<N> {
-    pub(super) fn new<B: Block<N>>(block: &B, limits: &Limits) -> Result<Self, LengthError> {
-        let items = block.registers();
+    pub(super) fn new<B: Block<N>, E>(block: &B, limits: &Limits) -> Result<Self, AccessError<E>> {
+        let (names, items) = (block.names(), block.registers());
         let lengths = B::LENGTHS.map(|length| length.min(8));
-        Ok(Self { items, lengths, plan: Plan::new(items, limits)?, answered: 0, values: [[0; 8]; N] })
+        let plan = Plan::new(items, limits).map_err(|error| {
+            // The error of the first item that no request can read.
+            let mut each = names.iter().zip(items);
+            let found = each.find(|(_, item)| Plan::new([*item], limits).is_err());
+            let (name, item) = found.map_or(("", None), |(name, item)| (*name, Some(item.into())));
+            AccessError::read(error.into(), (name, item))
+        })?;
+        Ok(Self { names, items, lengths, plan, answered: 0, values: [[0; 8]; N] })
+    }
+
+    /// Returns the error of the current request.
+    pub(super) fn failed<E>(&self, error: Error<E>) -> AccessError<E> {
+        let mut names = self.names.iter().zip(self.plan.request_of()).filter(|(_, of)| **of == self.answered);
+        let name = names.next().map_or("", |(name, _)| *name);
+        let address = self.plan.requests().get(self.answered).map(|request| (*request).into());
+        AccessError::read(error, (name, address)).with_others(names.count())
     }
 
     /// Returns the next request and the length of its response in bytes.
@@ -60,9 +78,9 @@ impl<const N: usize> Reading<N> {
         Ok(())
     }
 
-    /// Returns the bytes of all values. Call this function after the last response.
-    pub(super) fn values(&self) -> &[[u8; 8]; N] {
-        &self.values
+    /// Returns all values. Call this function after the last response.
+    pub(super) fn values<B: Block<N>, E>(&self, block: &B) -> Result<B::Values, AccessError<E>> {
+        block.values(&self.values).map_err(|error| self.failed(error.into()))
     }
 
     /// Returns the index of the item, if the current request reads only one item. A request for one item reads the item

@@ -4,10 +4,12 @@ use super::limits::Limits;
 use super::plan::{bytes, Plan};
 use super::reading::MAX_BYTES;
 use crate::access::Writable;
+use crate::access_error::AccessError;
 use crate::bus::Modbus;
 use crate::error::Error;
 use crate::item::Item;
 use crate::location::On;
+use crate::raw_value::{limits, RawValue};
 use crate::register::{Register, RegisterTable};
 use crate::route::Direct;
 use crate::value::{byte_len, Fixed};
@@ -26,6 +28,9 @@ pub trait WriteItem {
     /// Length of the value in bytes, at most 8.
     const LENGTH: usize;
 
+    /// Returns the name of the item.
+    fn name(&self) -> &'static str;
+
     /// Returns the register of the item.
     fn register(&self) -> Register;
 
@@ -38,12 +43,22 @@ pub trait WriteItem {
 
     /// Returns whether the value is within the range of the item.
     fn is_in_range(&self, value: Self::Native) -> bool;
+
+    /// Returns the value as a number, or `None` if it isn't a number.
+    fn raw_value(&self, value: Self::Native) -> Option<RawValue>;
+
+    /// Returns the minimum and the maximum of the item as raw values, or `None` if the values aren't numbers.
+    fn limits(&self) -> Option<[RawValue; 2]>;
 }
 
 impl<V: Fixed, A: Writable, L: On<Modbus, Route: Direct<Modbus>>> WriteItem for Item<V, A, L> {
     type Native = V::Native;
 
     const LENGTH: usize = byte_len(V::BITS);
+
+    fn name(&self) -> &'static str {
+        Item::name(self)
+    }
 
     fn register(&self) -> Register {
         self.location().route().address()
@@ -58,12 +73,24 @@ impl<V: Fixed, A: Writable, L: On<Modbus, Route: Direct<Modbus>>> WriteItem for 
     fn is_in_range(&self, value: V::Native) -> bool {
         V::in_range(value, self.range())
     }
+
+    fn raw_value(&self, value: V::Native) -> Option<RawValue> {
+        V::raw_value(value)
+    }
+
+    fn limits(&self) -> Option<[RawValue; 2]> {
+        limits::<V>(self.range())
+    }
 }
 
 impl<T: WriteItem> WriteItem for &T {
     type Native = T::Native;
 
     const LENGTH: usize = T::LENGTH;
+
+    fn name(&self) -> &'static str {
+        T::name(self)
+    }
 
     fn register(&self) -> Register {
         T::register(self)
@@ -75,6 +102,14 @@ impl<T: WriteItem> WriteItem for &T {
 
     fn is_in_range(&self, value: T::Native) -> bool {
         T::is_in_range(self, value)
+    }
+
+    fn raw_value(&self, value: T::Native) -> Option<RawValue> {
+        T::raw_value(self, value)
+    }
+
+    fn limits(&self) -> Option<[RawValue; 2]> {
+        T::limits(self)
     }
 }
 
@@ -91,6 +126,9 @@ pub trait WriteBlock<const N: usize> {
     /// Length of each value in bytes, at most 8.
     const LENGTHS: [usize; N];
 
+    /// Returns the name of each item.
+    fn names(&self) -> [&'static str; N];
+
     /// Returns the register of each item.
     fn registers(&self) -> [Register; N];
 
@@ -98,16 +136,26 @@ pub trait WriteBlock<const N: usize> {
     ///
     /// # Errors
     ///
-    /// Returns [`OutOfRange`] if a value is outside the range of its item.
-    fn encode(&self, values: Self::Values) -> Result<[[u8; 8]; N], OutOfRange>;
+    /// Returns an error with [`Error::OutOfRange`] if a value is outside the range of its item.
+    fn encode<E>(&self, values: Self::Values) -> Result<[Encoded; N], AccessError<E>>;
+}
+
+/// The bytes of a value of a [`WriteBlock`], and the value if it is a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Encoded {
+    bytes: [u8; 8],
+    value: Option<RawValue>,
 }
 
 /// Checks the range of a value and encodes the value.
-fn encode<T: WriteItem>(item: &T, value: T::Native) -> Result<[u8; 8], OutOfRange> {
-    if item.is_in_range(value) {
-        item.encode(value)
-    } else {
-        Err(OutOfRange)
+fn encode<T: WriteItem, E>(item: &T, value: T::Native) -> Result<Encoded, AccessError<E>> {
+    let raw_value = item.raw_value(value);
+    match item.encode(value) {
+        Ok(bytes) if item.is_in_range(value) => Ok(Encoded { bytes, value: raw_value }),
+        _ => {
+            let place = (item.name(), Some(item.register().into()));
+            Err(AccessError::out_of_range(place, raw_value, item.limits()))
+        }
     }
 }
 
@@ -118,11 +166,15 @@ macro_rules! tuples {
 
             const LENGTHS: [usize; $count] = [$($item::LENGTH),*];
 
+            fn names(&self) -> [&'static str; $count] {
+                [$(self.$at.name()),*]
+            }
+
             fn registers(&self) -> [Register; $count] {
                 [$(self.$at.register()),*]
             }
 
-            fn encode(&self, values: Self::Values) -> Result<[[u8; 8]; $count], OutOfRange> {
+            fn encode<Error>(&self, values: Self::Values) -> Result<[Encoded; $count], AccessError<Error>> {
                 Ok([$(encode(&self.$at, values.$at)?),*])
             }
         }
@@ -146,19 +198,35 @@ tuples! {
 
 /// The writes of a block.
 pub(super) struct Writing<const N: usize> {
+    names: [&'static str; N],
     registers: [Register; N],
     lengths: [usize; N],
-    bytes: [[u8; 8]; N],
+    values: [Encoded; N],
     /// One write for all items, if one request can write them.
     joined: Option<(Register, [u8; MAX_BYTES])>,
 }
 
 impl<const N: usize> Writing<N> {
-    pub(super) fn new<B: WriteBlock<N>, E>(block: &B, values: B::Values, limits: &Limits) -> Result<Self, Error<E>> {
+    pub(super) fn new<B: WriteBlock<N>, E>(
+        block: &B,
+        values: B::Values,
+        limits: &Limits,
+    ) -> Result<Self, AccessError<E>> {
         let (registers, lengths) = (block.registers(), B::LENGTHS.map(|length| length.min(8)));
-        let mut writing = Self { registers, lengths, bytes: block.encode(values)?, joined: None };
-        writing.joined = writing.join(limits)?;
+        let values = block.encode(values)?;
+        let mut writing = Self { names: block.names(), registers, lengths, values, joined: None };
+        writing.joined = writing.join(limits).map_err(|error| writing.failed(0, error.into()))?;
         Ok(writing)
+    }
+
+    /// Returns the error of write `at`.
+    pub(super) fn failed<E>(&self, at: usize, error: Error<E>) -> AccessError<E> {
+        let name = self.names.get(at).copied().unwrap_or_default();
+        let Some((register, _)) = self.joined else {
+            let value = self.values.get(at).and_then(|encoded| encoded.value);
+            return AccessError::write(error, (name, self.registers.get(at).map(|register| (*register).into())), value);
+        };
+        AccessError::write(error, (name, Some(register.into())), None).with_others(N.saturating_sub(1))
     }
 
     /// Returns the number of writes.
@@ -177,7 +245,7 @@ impl<const N: usize> Writing<N> {
                 Some((*register, data.get(..bytes(register.table, register.count)).unwrap_or(data)))
             }
             Some(_) => None,
-            None => Some((*self.registers.get(at)?, self.bytes.get(at)?.get(..*self.lengths.get(at)?)?)),
+            None => Some((*self.registers.get(at)?, self.values.get(at)?.bytes.get(..*self.lengths.get(at)?)?)),
         }
     }
 
@@ -199,7 +267,7 @@ impl<const N: usize> Writing<N> {
             return Ok(None);
         }
         let mut words = [0; MAX_BYTES / 2];
-        for ((item, bytes), length) in self.registers.iter().zip(&self.bytes).zip(self.lengths) {
+        for ((item, Encoded { bytes, .. }), length) in self.registers.iter().zip(&self.values).zip(self.lengths) {
             let first = usize::from(item.address.saturating_sub(register.address)) * usize::from(item.step());
             let count = usize::from(item.count);
             let part = words.get_mut(first..first + count).ok_or(LengthError::new(MAX_BYTES, 2 * (first + count)))?;
@@ -300,8 +368,9 @@ mod tests {
     fn values_outside_the_range_are_not_written() {
         const LIMITED: RegisterItem<i16> =
             RegisterItem::register_within(Register::holding(9), "", crate::Range::Between(-5, 5), "", Flags::NONE);
-        let refused = Writing::new::<_, ()>(&(LIMITED, CONTROL), (6, 0), &Limits::STANDARD).map(|_| ());
-        assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
+        let refused = Writing::new::<_, ()>(&(LIMITED, CONTROL), (6, 0), &Limits::STANDARD).map(|_| ()).unwrap_err();
+        assert_eq!(refused.error, Error::OutOfRange(OutOfRange));
+        assert_eq!((refused.value(), refused.address()), (Some(6_i16.into()), Some(Register::holding(9).into())));
     }
 
     #[test]

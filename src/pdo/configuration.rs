@@ -1,11 +1,10 @@
 //! Configuration of a PDO with communication parameters.
 
 use super::parameters::{Defaults, PdoParameterError, PdoParameters, RawParameters};
-use super::sdo_write::SdoWrite;
+use super::sdo_write::{SdoWrite, SdoWriteError};
 use super::word::from_bytes;
 use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
-use crate::error::Error;
 
 /// Bit 31 of a COB-ID: the PDO is disabled. Bit 30: the PDO refuses remote requests.
 const DISABLED: u32 = 1 << 31;
@@ -125,8 +124,8 @@ impl<const N: usize> PdoConfiguration<N> {
     ///
     /// # Errors
     ///
-    /// Returns the first error of the client. The PDO may then be disabled.
-    pub fn send<C: Client>(self, client: &mut C) -> Result<(), Error<C::Error>>
+    /// Returns the first write that failed. The PDO may then be disabled.
+    pub fn send<C: Client>(self, client: &mut C) -> Result<(), SdoWriteError<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
     {
@@ -141,7 +140,7 @@ impl<const N: usize> PdoConfiguration<N> {
     /// # Errors
     ///
     /// Returns the errors of [`send`](Self::send).
-    pub async fn send_async<C: AsyncClient>(self, client: &mut C) -> Result<(), Error<C::Error>>
+    pub async fn send_async<C: AsyncClient>(self, client: &mut C) -> Result<(), SdoWriteError<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
     {

@@ -95,24 +95,60 @@ impl SdoWrite {
     ///
     /// # Errors
     ///
-    /// Returns the errors of the client.
-    pub fn send<C: Client>(&self, client: &mut C) -> Result<(), Error<C::Error>>
+    /// Returns the error of the client, with this write.
+    pub fn send<C: Client>(&self, client: &mut C) -> Result<(), SdoWriteError<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
     {
-        client.write(self.object, self.data())
+        client.write(self.object, self.data()).map_err(|error| SdoWriteError { write: *self, error })
     }
 
     /// Writes the value through an asynchronous client, as [`send`](Self::send) does.
     ///
     /// # Errors
     ///
-    /// Returns the errors of the client.
-    pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), Error<C::Error>>
+    /// Returns the error of the client, with this write.
+    pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), SdoWriteError<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
     {
-        client.write(self.object, self.data()).await
+        client.write(self.object, self.data()).await.map_err(|error| SdoWriteError { write: *self, error })
+    }
+}
+
+/// An [`SdoWrite`] that failed. The operator `?` converts it to [`Error`], which contains only the reason.
+///
+/// ```
+/// use lexibus::{AbortCode, Error, SdoWrite, SdoWriteError};
+///
+/// let write = SdoWrite::new_u32(0x1400, 1, 0x8000_0205);
+/// let error = SdoWriteError { write, error: Error::<core::fmt::Error>::Abort(AbortCode::READ_ONLY) };
+/// let text = "write 0x1400:01 = 0x80000205: the device refused: 0x06010002: attempt to write a read-only object";
+/// assert_eq!(error.to_string(), text);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SdoWriteError<E> {
+    /// The object and the value.
+    pub write: SdoWrite,
+    /// Reason why the write failed.
+    pub error: Error<E>,
+}
+
+impl<E: fmt::Display> fmt::Display for SdoWriteError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "write {}: {}", self.write, self.error)
+    }
+}
+
+impl<E: core::error::Error> core::error::Error for SdoWriteError<E> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        self.error.source()
+    }
+}
+
+impl<E> From<SdoWriteError<E>> for Error<E> {
+    fn from(error: SdoWriteError<E>) -> Self {
+        error.error
     }
 }
 

@@ -120,7 +120,7 @@ impl<const N: usize> Server<N> {
             return Some(reply);
         }
         match &mut self.state {
-            State::BlockUpload { sender, is_started: true, .. } => sender.segment(&self.buffer[..self.length]),
+            State::BlockUpload { sender, is_started: true, .. } => sender.segment(self.buffer.get(..self.length)?),
             _ => None,
         }
     }

@@ -11,12 +11,12 @@ pub(super) struct Faults<F, M: ?Sized> {
 
 struct Rule<F, M: ?Sized> {
     fault: F,
-    affected: Affected<M>,
+    affected: Affected<F, M>,
 }
 
-enum Affected<M: ?Sized> {
-    /// One message: 1 is the next one.
-    Nth(u64),
+enum Affected<F, M: ?Sized> {
+    /// One of the messages for which the function returns true: 1 is the next one.
+    Nth(u64, fn(&F, &M) -> bool),
     /// All messages for which the function returns true.
     Selected(Box<dyn FnMut(&M) -> bool + Send>),
 }
@@ -35,7 +35,12 @@ impl<F: Clone, M: ?Sized> Faults<F, M> {
 
     /// Adds a fault that affects the `n`th message from now on. The value 0 has the same effect as 1.
     pub fn add_nth(&mut self, fault: F, n: u64) {
-        self.rules.push(Rule { fault, affected: Affected::Nth(n) });
+        self.add_nth_of(fault, n, |_, _| true);
+    }
+
+    /// Adds a fault of the `n`th message from now on for which `is_counted` returns true. 0 has the same effect as 1.
+    pub fn add_nth_of(&mut self, fault: F, n: u64, is_counted: fn(&F, &M) -> bool) {
+        self.rules.push(Rule { fault, affected: Affected::Nth(n, is_counted) });
     }
 
     pub fn clear(&mut self) {
@@ -49,7 +54,8 @@ impl<F: Clone, M: ?Sized> Faults<F, M> {
         self.rules.retain_mut(|rule| {
             let (is_affected, remains) = match &mut rule.affected {
                 Affected::Selected(selects) => (selects(message), true),
-                Affected::Nth(left) => {
+                Affected::Nth(_, is_counted) if !is_counted(&rule.fault, message) => (false, true),
+                Affected::Nth(left, _) => {
                     *left = left.saturating_sub(1);
                     (*left == 0, *left > 0)
                 }

@@ -1,14 +1,14 @@
 //! Tests SDO transfers with a simulated node and faults of the bus.
 
 mod bus;
-mod pdo;
+pub mod pdo;
 
 use std::pin::pin;
 use std::task::Poll;
 use std::time::Duration;
 
 use lexibus::clients::canopen::{CanFrame, Node};
-use lexibus::sim::{CanFault, FaultyCan};
+use lexibus::sim::{CanError, CanFault, FaultyCan};
 use lexibus::{AsyncClient, Client, Error, NodeId};
 
 use self::bus::*;
@@ -66,6 +66,32 @@ fn late_replies_are_not_those_of_the_next_request() {
         _ => None,
     });
     println!("10,000 SDO transfers, {late} late: {failed} errors, no wrong value");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+#[test]
+fn async_late_replies_are_not_those_of_the_next_request() {
+    let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };
+    let mut node = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+    let (mut random, mut late, mut failed) = (Random::new(29), 0, 0);
+    for number in 0..10_000 {
+        let is_late = random.below(20) == 0;
+        late += u32::from(is_late);
+        let delay = TIMEOUT + Duration::from_millis(random.below(450));
+        node.port().bus.bus().count(number);
+        set(&mut node.port().bus, is_late.then_some(CanFault::Late(delay)));
+        let mut buffer = [0; 20];
+        let result = match random.below(2) {
+            0 => now(AsyncClient::read(&mut node, COUNT, &mut buffer[..4])).map(|_| number.to_le_bytes().to_vec()),
+            _ => now(AsyncClient::read(&mut node, TEXT, &mut buffer)).map(|_| text(number)),
+        };
+        match result {
+            Ok(expected) => assert_eq!(buffer[..expected.len()], expected, "request {number}"),
+            Err(Error::Timeout) => failed += 1,
+            Err(other) => panic!("request {number}: {other}"),
+        }
+    }
+    println!("10,000 async SDO transfers, {late} late: {failed} errors, no wrong value");
     assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
 }
 
@@ -235,11 +261,79 @@ fn late_segments_are_discarded() {
     assert_eq!((number, node.port().bus.bus().aborts), ([1, 2, 3, 4], 1));
 }
 
+/// A kind of transfer in the table of faults, in addition to reads.
+#[derive(Clone, Copy)]
+enum Access {
+    Write,
+    BlockRead,
+    BlockWrite,
+}
+
+/// Performs a transfer with the number `count`. Panics if its result is wrong.
+fn transfer<P>(
+    node: &mut Node<P>,
+    access: Access,
+    count: u32,
+    read: impl FnOnce(&mut Node<P>, &mut [u8]) -> Result<usize, Error<CanError>>,
+    write: impl FnOnce(&mut Node<P>, &[u8]) -> Result<(), Error<CanError>>,
+    mut bus: impl FnMut(&mut Node<P>) -> &mut Bus,
+) -> Result<(), Error<CanError>> {
+    let value = if let Access::Write = access { count.to_le_bytes().to_vec() } else { block(count) };
+    if let Access::BlockRead = access {
+        bus(node).objects.0.insert(TEXT, value.clone());
+        let mut buffer = [0; BLOCK];
+        return read(node, &mut buffer).map(|length| assert!(buffer[..length] == value, "a wrong value"));
+    }
+    write(node, &value)?;
+    assert!(bus(node).objects.0[&SETPOINT] == value, "a wrong value");
+    Ok(())
+}
+
+/// Returns the rows for writes and for block transfers.
+fn further_rows() -> Vec<Row> {
+    let frame = CanFrame::new(0x585, &[0x60, 0x34, 0x12, 1, 0, 0, 0, 0]).expect("a frame");
+    let accesses =
+        [("SDO write", Access::Write), ("block read", Access::BlockRead), ("block write", Access::BlockWrite)];
+    let mut rows = Vec::new();
+    for (client, access) in accesses {
+        for (fault_name, fault) in faults(frame) {
+            // The queue of the simulated interface can hold the segments of a block with less noise.
+            let fault = if let CanFault::Noise(_) = fault { CanFault::Noise(100) } else { fault };
+            for is_async in [false, true] {
+                let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };
+                let mut asynchronous = Node::new(bus, NodeId::new(NODE).expect("a node-ID")).with_timeout(TIMEOUT);
+                let mut blocking = node();
+                let mut run = |count: u32, fault: Option<CanFault>| {
+                    let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                    set(port, fault);
+                    let start = port.bus().now;
+                    let result = if is_async {
+                        let read = |node: &mut Node<_>, buffer: &mut [u8]| now(AsyncClient::read(node, TEXT, buffer));
+                        let write = |node: &mut Node<_>, data: &[u8]| now(AsyncClient::write(node, SETPOINT, data));
+                        transfer(&mut asynchronous, access, count, read, write, |node| node.port().bus.bus())
+                    } else {
+                        let read = |node: &mut Node<_>, buffer: &mut [u8]| Client::read(node, TEXT, buffer);
+                        let write = |node: &mut Node<_>, data: &[u8]| Client::write(node, SETPOINT, data);
+                        transfer(&mut blocking, access, count, read, write, |node| node.port().bus())
+                    };
+                    let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                    (name(&result), port.bus().now - start)
+                };
+                let (result, time) = run(1, Some(fault));
+                let (second, next) = run(2, None);
+                assert_eq!(second, "right value", "{client} after {fault_name}");
+                rows.push(Row { client, is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
+            }
+        }
+    }
+    rows
+}
+
 /// Returns the rows for SDO transfers in the table of faults. Only a segmented transfer has toggle bits.
 pub fn rows() -> Vec<Row> {
     let frame = CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame");
     let faults = faults(frame).into_iter().map(|(name, fault)| (name, fault, COUNT));
-    let mut rows = Vec::new();
+    let mut rows = further_rows();
     for (fault_name, fault, object) in faults.chain([("wrong toggle", CanFault::WrongToggle, TEXT)]) {
         for is_async in [false, true] {
             let mut blocking = node();

@@ -9,6 +9,7 @@ use ethercrab::error::Error as BusError;
 use ethercrab::subdevice_group::PreOp;
 use ethercrab::{DefaultLock, SubDeviceGroup};
 use lexibus::clients::ethercat::Sdo;
+use lexibus::sim::{EtherCatFault, FaultyFrames};
 use lexibus::{AbortCode, AsyncClient, Error, Object};
 use tokio::time::{sleep, timeout, Instant, Sleep};
 
@@ -16,7 +17,7 @@ use crate::ethercat::objects::Dictionary;
 use crate::ethercat::SubDevice;
 use crate::matrix::{name, Row};
 use crate::random::Random;
-use crate::segment::with_segment;
+use crate::segment::with_faulty_segment;
 
 const TIMEOUT: Duration = Duration::from_millis(200);
 /// Object that contains the number of the current request.
@@ -117,7 +118,7 @@ type Client = Sdo<'static, fn(Duration) -> Sleep>;
 struct Bench {
     client: Client,
     world: Shared,
-    lost_reads: Rc<Cell<u32>>,
+    faults: FaultyFrames,
 }
 
 thread_local! {
@@ -135,7 +136,10 @@ impl Bench {
     /// Sends one request, and panics if the value is wrong.
     async fn request(&mut self, count: u32, fault: Fault, object: Object) -> Result<(), Error<BusError>> {
         (self.world.borrow_mut().count, self.world.borrow_mut().fault) = (count, fault);
-        self.lost_reads.set(u32::from(fault == Fault::LostDatagram));
+        self.faults.clear_faults();
+        if fault == Fault::LostDatagram {
+            self.faults.inject_nth(EtherCatFault::LostReply, 1);
+        }
         let mut buffer = [0; 300];
         match object {
             SETPOINT => {
@@ -163,14 +167,14 @@ fn with_bench<T, F: std::future::Future<Output = T>>(work: impl FnOnce(Bench) ->
     let filtered = world.clone();
     let subdevice = SubDevice::new(&crate::servo::DEVICE, Objects(world.clone()))
         .with_filter(Box::new(move |reply| filtered.borrow_mut().filter(reply)));
-    let lost_reads = subdevice.lost_reads();
-    with_segment(vec![subdevice], |maindevice| async move {
+    let faults = FaultyFrames::new();
+    with_faulty_segment(vec![subdevice], faults.clone(), |maindevice| async move {
         type Group = SubDeviceGroup<4, 64, DefaultLock, PreOp>;
         let group: Group = maindevice.init_single_group(|| 1_000_000).await.expect("Pre-Operational");
         let sdo = Sdo::new(maindevice, &group.subdevice(maindevice, 0).expect("a SubDevice"));
         let timer: fn(Duration) -> Sleep = sleep;
         let client = sdo.with_timeout(TIMEOUT).with_clock(clock).with_timer(timer);
-        work(Bench { client, world, lost_reads }).await
+        work(Bench { client, world, faults }).await
     })
 }
 
@@ -179,7 +183,7 @@ fn late_replies_are_not_those_of_the_next_request() {
     let (late, failed) = with_bench(|mut bench| async move {
         let mut random = Random::new(28);
         let (mut late, mut failed) = (0, 0);
-        for number in 0..2000 {
+        for number in 0..10_000 {
             let is_late = random.below(20) == 0;
             late += u32::from(is_late);
             let delay = TIMEOUT + Duration::from_millis(random.below(190));
@@ -193,8 +197,26 @@ fn late_replies_are_not_those_of_the_next_request() {
         }
         (late, failed)
     });
-    println!("2,000 transfers through a mailbox, {late} late: {failed} errors, no wrong value");
-    assert!(late > 80 && failed <= late, "{failed} errors for {late} late replies");
+    println!("10,000 transfers through a mailbox, {late} late: {failed} errors, no wrong value");
+    assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
+}
+
+/// A SubDevice that sends each reply just before the timeout.
+#[test]
+fn the_timeout_limits_the_whole_transfer() {
+    with_bench(|mut bench| async move {
+        let start = Instant::now();
+        // The text has three messages, so the transfer takes at most one timeout and two tenths of it.
+        let result = bench.request(1, Fault::Late(TIMEOUT * 9 / 10), TEXT).await;
+        assert_eq!(
+            (result, start.elapsed() <= TIMEOUT * 13 / 10),
+            (Err(Error::Timeout), true),
+            "{:?}",
+            start.elapsed()
+        );
+        bench.request(2, Fault::Nothing, TEXT).await.expect("the next transfer is right");
+        bench.request(3, Fault::Late(TIMEOUT * 3 / 10), TEXT).await.expect("within the limit");
+    });
 }
 
 #[test]

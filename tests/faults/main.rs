@@ -14,6 +14,7 @@ mod ethercat;
 mod faulty;
 mod faulty_stream;
 mod guarding;
+mod heartbeat;
 #[path = "../support/lane.rs"]
 mod lane;
 mod lss;
@@ -23,9 +24,11 @@ mod modbus_rows;
 mod random;
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 #[path = "../support/segment.rs"]
+#[allow(dead_code)] // the segment without faults
 mod segment;
 mod serial;
 mod soak;
+mod sync;
 
 #[cfg(all(feature = "ethercat", feature = "macros"))]
 lexibus::dictionary! {

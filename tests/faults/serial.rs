@@ -56,7 +56,7 @@ fn reply(count: u32) -> Vec<u8> {
 }
 
 /// The device's end of a line in simulated time.
-struct Wire {
+pub struct Wire {
     /// Time at which the device sends the next byte.
     time: Rc<Cell<Duration>>,
     bytes: VecDeque<(Duration, u8)>,
@@ -74,7 +74,7 @@ impl Write for Wire {
 }
 
 /// A stream with a read timeout, and a device that answers each frame with the number of the request.
-struct Port {
+pub struct Port {
     now: Rc<Cell<Duration>>,
     device: FaultyStream<Wire, Box<dyn FnMut(Duration)>>,
     count: u32,
@@ -90,7 +90,7 @@ impl Port {
 }
 
 #[derive(Debug)]
-struct Late(ErrorKind);
+pub struct Late(ErrorKind);
 
 impl std::fmt::Display for Late {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -149,16 +149,26 @@ impl embedded_io::Write for Port {
     }
 }
 
-type Outcome = Result<(), Error<SerialError<Late>>>;
+pub type Outcome = Result<(), Error<SerialError<Late>>>;
 
-fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
+pub fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>, Rc<Cell<Duration>>) {
     let now = Rc::new(Cell::new(Duration::ZERO));
     let clock = now.clone();
-    (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(move || clock.get(), TIMEOUT), now)
+    let clock = move || {
+        // Time passes while the line polls.
+        clock.set(clock.get() + Duration::from_micros(1));
+        clock.get()
+    };
+    (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(clock, TIMEOUT), now)
+}
+
+/// Returns the number of bytes that the line has not read.
+pub fn waiting<T>(line: &mut SerialLine<Port, Delimited, 64, T>) -> usize {
+    line.stream().device.inner().bytes.len()
 }
 
 /// Performs one exchange whose reply has a fault. Panics if the reply is wrong.
-fn once<T: lexibus::Clock>(
+pub fn once<T: lexibus::Clock>(
     line: &mut SerialLine<Port, Delimited, 64, T>,
     count: u32,
     fault: impl Into<Option<StreamFault>>,
@@ -188,10 +198,43 @@ fn late_replies_are_not_those_of_the_next_request() {
 
 #[test]
 fn a_repeated_reply_isnt_that_of_the_next_request() {
-    let mut line = blocking().0.draining();
+    let mut line = blocking().0;
     for count in 0..10 {
         once(&mut line, count, StreamFault::Duplicated).expect("the reply");
     }
+}
+
+/// A device that sends a frame without a request, and rejects no request. No read times out.
+#[test]
+fn a_frame_without_a_request_is_no_reply() {
+    let (mut line, now) = blocking();
+    for count in 0..10 {
+        once(&mut line, count, None).expect("the reply");
+        now.set(now.get() + TIMEOUT);
+        line.stream().device.inner().bytes.extend(reply(99).into_iter().map(|byte| (Duration::ZERO, byte)));
+    }
+}
+
+/// The reply to a request arrives after a frame that the protocol rejects.
+#[test]
+fn after_a_rejected_reply_the_next_one_is_right() {
+    let (mut line, now) = blocking();
+    // The frame arrives during the exchange, so it is the reply. The right reply follows after 50 ms.
+    let noise = StreamFault::Foreign { bytes: reply(99), count: 1, period: Duration::ZERO };
+    line.stream().count = 1;
+    set(&mut line.stream().device, noise);
+    let mut wrong = [0; 20];
+    assert_eq!(Exchange::exchange(&mut line, &[1], &mut wrong).ok(), Some(4));
+    assert_eq!(wrong[..4], 99_u32.to_le_bytes());
+    Exchange::unsettle(&mut line);
+    let soon = now.get() + TIMEOUT / 2;
+    line.stream().device.inner().bytes.extend(reply(1).into_iter().map(|byte| (soon, byte)));
+    once(&mut line, 2, None).expect("the reply");
+    // The line does not wait longer than its timeout for a reply that never arrives.
+    Exchange::unsettle(&mut line);
+    let start = now.get();
+    once(&mut line, 3, None).expect("the reply");
+    assert!(now.get() - start <= TIMEOUT + 20 * SOON, "{:?}", now.get() - start);
 }
 
 #[test]
@@ -214,7 +257,7 @@ fn after_each_fault_the_next_request_is_right() {
 }
 
 /// A `tokio` stream, and a byte that `read_ready` has already read from it.
-struct AsyncPort(DuplexStream, Option<u8>);
+pub struct AsyncPort(DuplexStream, Option<u8>);
 
 impl embedded_io::ErrorType for AsyncPort {
     type Error = Late;
@@ -251,7 +294,7 @@ impl embedded_io_async::Write for AsyncPort {
     }
 }
 
-type World = Arc<Mutex<(u32, Option<StreamFault>)>>;
+pub type World = Arc<Mutex<(u32, Option<StreamFault>)>>;
 
 async fn serve(line: DuplexStream, world: World) {
     let mut line = FaultyStream::new(line);
@@ -267,9 +310,9 @@ async fn serve(line: DuplexStream, world: World) {
     }
 }
 
-type AsyncLine = SerialLine<AsyncPort, Delimited, 64, fn(Duration) -> Sleep>;
+pub type AsyncLine = SerialLine<AsyncPort, Delimited, 64, fn(Duration) -> Sleep>;
 
-fn asynchronous() -> (AsyncLine, World) {
+pub fn asynchronous() -> (AsyncLine, World) {
     let world = Arc::new(Mutex::new((0, None)));
     let (line, device) = duplex(0x1_0000);
     tokio::spawn(serve(device, world.clone()));
@@ -277,7 +320,7 @@ fn asynchronous() -> (AsyncLine, World) {
     (SerialLine::new(AsyncPort(line, None), FRAMING).with_time(sleep, TIMEOUT), world)
 }
 
-async fn once_async<T: lexibus::Timer>(
+pub async fn once_async<T: lexibus::Timer>(
     line: &mut SerialLine<AsyncPort, Delimited, 64, T>,
     world: &World,
     count: u32,
@@ -347,8 +390,7 @@ pub fn rows() -> Vec<Row> {
     ];
     let mut rows = Vec::new();
     for (fault_name, fault) in faults {
-        let (line, now) = blocking();
-        let mut line = line.draining();
+        let (mut line, now) = blocking();
         let result = name(&once(&mut line, 1, fault.clone()));
         let time = now.get();
         once(&mut line, 2, None).expect("the next request is right");
@@ -357,8 +399,7 @@ pub fn rows() -> Vec<Row> {
 
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
         rows.push(runtime.expect("a runtime").block_on(async {
-            let (line, world) = asynchronous();
-            let mut line = line.draining();
+            let (mut line, world) = asynchronous();
             let start = Instant::now();
             let result = name(&once_async(&mut line, &world, 1, fault.clone()).await);
             let time = start.elapsed();

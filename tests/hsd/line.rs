@@ -45,14 +45,19 @@ fn served(patience: Duration) -> TTYPort {
 
 fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
     let near = served(Duration::from_millis(if node == 5 { 5000 } else { 50 }));
-    HsdMotor::on(SerialLine::new(FromStd::new(near), messages::FRAMING), node)
+    let line = SerialLine::with_ready(FromStd::new(near), messages::FRAMING, Some(is_ready));
+    HsdMotor::on(line.with_timeout(Duration::from_secs(5)), node)
+}
+
+fn is_ready(port: &mut FromStd<TTYPort>) -> bool {
+    port.inner().bytes_to_read().is_ok_and(|count| count > 0)
 }
 
 /// The sample code in docs/src/serial.md. The test compares the text of this function with the page.
 #[test]
 fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     let port = served(Duration::from_secs(5));
-    let line = SerialLine::<_, _, 140>::new(FromStd::new(port), messages::FRAMING);
+    let line = SerialLine::<_, _, 140>::with_ready(FromStd::new(port), messages::FRAMING, Some(is_ready));
     let mut motor = HsdMotor::on(line, 5); // 5 is the device number; `on` takes no number if requests contain none
     motor.cmd_traj(100_000).send()?; // or `send_async().await?`
     let mut positions = motor.cmd_get_pos().select()?; // selects what later polls return

@@ -1,5 +1,5 @@
 //! Tests generated accessors and PDOs with independent implementations: a node of the Python library `canopen`, and
-//! servers of `pymodbus`. `README.md` explains the tests.
+//! servers and clients of `pymodbus`. `README.md` explains the tests.
 #![cfg(unix)]
 
 #[macro_use]
@@ -8,6 +8,7 @@ mod ways;
 mod canopen;
 mod modbus;
 mod modbus_broadcast;
+mod modbus_client;
 mod pty;
 mod python;
 mod slcan;

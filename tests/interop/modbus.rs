@@ -18,7 +18,7 @@ use crate::python::{python, Script};
 
 lexibus::dictionary! {
     /// The bindings of the server's registers.
-    pub mod registers = "tests/interop/registers.toml";
+    pub mod registers = "tests/interop/registers.toml" { table: true }
 }
 
 use registers::objects::{COILS, HIGH_I16, HIGH_U16, HIGH_U32, INPUT_U32, LOW_F32, LOW_I32, NEXT_COIL};

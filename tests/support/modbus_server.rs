@@ -30,6 +30,27 @@ pub trait Registers: Send + 'static {
     ///
     /// Returns the exception of the device.
     fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), ExceptionCode>;
+
+    /// Changes bits of a holding register (function 22).
+    ///
+    /// # Errors
+    ///
+    /// Returns the exception of the device.
+    fn mask_word(&mut self, address: u16, and: u16, or: u16) -> Result<(), ExceptionCode> {
+        let held = self.read_words(RegisterTable::Holding, address, 1)?;
+        self.write_words(RegisterTable::Holding, address, &[held[0] & and | or & !and])
+    }
+
+    /// Writes `words` to the holding registers from `write` on, then reads `count` holding registers from `read` on
+    /// (function 23).
+    ///
+    /// # Errors
+    ///
+    /// Returns the exception of the device.
+    fn exchange_words(&mut self, write: u16, words: &[u16], read: u16, count: u16) -> Result<Vec<u16>, ExceptionCode> {
+        self.write_words(RegisterTable::Holding, write, words)?;
+        self.read_words(RegisterTable::Holding, read, count)
+    }
 }
 
 /// Registers in memory. Registers without a value do not exist.
@@ -132,13 +153,11 @@ impl<S: Registers> Device<S> {
                 Response::ReadDiscreteInputs(bits(registers.read_words(DiscreteInput, address, count)?))
             }
             Request::MaskWriteRegister(address, and, or) => {
-                let held = registers.read_words(Holding, address, 1)?;
-                registers.write_words(Holding, address, &[held[0] & and | or & !and])?;
+                registers.mask_word(address, and, or)?;
                 Response::MaskWriteRegister(address, and, or)
             }
             Request::ReadWriteMultipleRegisters(read, count, write, ref words) => {
-                registers.write_words(Holding, write, words)?;
-                Response::ReadWriteMultipleRegisters(registers.read_words(Holding, read, count)?)
+                Response::ReadWriteMultipleRegisters(registers.exchange_words(write, words, read, count)?)
             }
             _ => return Err(ExceptionCode::IllegalFunction),
         })

@@ -1,8 +1,6 @@
 //! The slave controller: 64 KiB of memory, of which 4 KiB are registers (ETG.1000.4 6).
 
-use std::cell::Cell;
 use std::ops::Range;
-use std::rc::Rc;
 
 /// Register addresses.
 const STATION: usize = 0x0010;
@@ -51,8 +49,6 @@ pub struct Controller {
     pub exchanged: bool,
     /// The last message that the master read from the mailbox.
     last: Vec<u8>,
-    /// Number of mailbox reads whose replies will be lost.
-    pub lost_reads: Rc<Cell<u32>>,
 }
 
 impl Controller {
@@ -61,8 +57,7 @@ impl Controller {
         // Type, revision and build; 8 FMMUs, 8 sync managers and 8 KiB of memory; two Ethernet ports; 64-bit clocks.
         memory[..10].copy_from_slice(&[0x11, 0, 1, 0, 8, 8, 8, 0x0F, 0x0C, 0]);
         memory[AL_STATUS] = 1;
-        let (last, lost_reads) = (Vec::new(), Rc::default());
-        Self { memory, eeprom, time: 0, position: 0, count: 1, request: None, exchanged: false, last, lost_reads }
+        Self { memory, eeprom, time: 0, position: 0, count: 1, request: None, exchanged: false, last: Vec::new() }
     }
 
     /// Sets the position in the segment. The position determines which ports have a link.
@@ -120,11 +115,6 @@ impl Controller {
             if range.end == mailbox.range.end {
                 self.memory[mailbox.state] &= !FULL;
                 self.last = self.load(&mailbox);
-                let lost = self.lost_reads.get();
-                self.lost_reads.set(lost.saturating_sub(1));
-                if lost > 0 {
-                    return None;
-                }
             }
         }
         self.memory.get(range).map(<[u8]>::to_vec)

@@ -5,6 +5,7 @@ use std::task::Poll;
 
 use ethercrab::error::Error;
 use ethercrab::{PduRx, PduTx};
+use lexibus::sim::FaultyFrames;
 
 use super::controller::Controller;
 use super::subdevice::SubDevice;
@@ -20,6 +21,7 @@ const COUNTER: usize = 2;
 /// A line of SubDevices.
 pub struct Segment {
     subdevices: Vec<SubDevice>,
+    faults: FaultyFrames,
 }
 
 impl Segment {
@@ -29,7 +31,12 @@ impl Segment {
         for (position, subdevice) in subdevices.iter_mut().enumerate() {
             subdevice.controller.connect(position, count);
         }
-        Self { subdevices }
+        Self { subdevices, faults: FaultyFrames::new() }
+    }
+
+    /// Returns the segment with faults of the frames that return to the master.
+    pub fn with_faults(self, faults: FaultyFrames) -> Self {
+        Self { faults, ..self }
     }
 
     /// Transfers frames between the master and the SubDevices until the master drops its frame storage. Run this
@@ -44,7 +51,9 @@ impl Segment {
                     Ok(sent.len())
                 })?;
                 self.pass(&mut bytes);
-                rx.receive_frame(&bytes)?;
+                if self.faults.apply(&mut bytes) {
+                    rx.receive_frame(&bytes)?;
+                }
             }
             if tx.should_exit() {
                 Poll::Ready(Ok(()))

@@ -1,8 +1,6 @@
 //! The firmware of a SubDevice: state machine (ETG.1000.6 6.4), mailbox and process data.
 
-use std::cell::Cell;
 use std::collections::VecDeque;
-use std::rc::Rc;
 
 use lexibus::ethercat::{Device, SyncManagerPurpose};
 use lexibus::{AbortCode, MappedEntry};
@@ -62,13 +60,6 @@ impl SubDevice {
     #[allow(dead_code)]
     pub fn with_filter(self, filter: Filter) -> Self {
         Self { filter: Some(filter), ..self }
-    }
-
-    /// Returns the number of mailbox reads whose replies will be lost. Set the number to simulate lost replies. A read
-    /// whose reply is lost also empties the mailbox.
-    #[allow(dead_code)]
-    pub fn lost_reads(&self) -> Rc<Cell<u32>> {
-        self.controller.lost_reads.clone()
     }
 
     /// Runs the firmware once between two frames.

@@ -240,7 +240,7 @@ macro_rules! boot {
                 let steps = configuration.steps(self.id());
                 for step in steps.filter(|step| step.write.object().index != VERIFY) {
                     let result = step.write.$send_step(self)$(.$await)?;
-                    result.map_err(|error| BootError::Configuration(step.failed(error)))?;
+                    result.map_err(|failed| BootError::Configuration(step.failed(failed.error)))?;
                 }
                 Ok(())
             }

@@ -44,8 +44,9 @@ impl<const N: usize> Kept<N> {
     }
 
     fn remove(&mut self, at: usize) -> Option<CanFrame> {
-        let frame = self.frames.get_mut(at)?.take();
-        self.frames[at..].rotate_left(1);
+        let rest = self.frames.get_mut(at..)?;
+        let frame = rest.first_mut()?.take();
+        rest.rotate_left(1);
         self.count = self.count.saturating_sub(1);
         frame
     }

@@ -51,6 +51,7 @@ mod buffered;
 mod emergency;
 mod frame;
 mod guarding;
+mod heartbeat;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 mod linux;
 #[cfg(all(feature = "socketcan-tokio", target_os = "linux"))]
@@ -62,6 +63,7 @@ mod node;
 mod polled;
 mod port;
 mod sdo;
+mod sync_producer;
 mod time_stamp;
 
 pub use crate::sdo::Channel;
@@ -69,14 +71,16 @@ pub use boot::{Boot, BootError, Booted, ErrorControl, VersionText};
 pub use buffered::Buffered;
 pub use frame::CanFrame;
 pub use guarding::{GuardError, Guarding};
+pub use heartbeat::{HeartbeatConsumer, HeartbeatError};
 pub use lss::LssMaster;
 pub use network::{Network, NetworkPort};
-pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState};
+pub use nmt::{sync, sync_with_counter, NmtCommand, NmtState, SYNC};
 pub use node::{Node, TIMEOUT};
 pub use polled::Polled;
 pub use port::{AsyncCanPort, CanPort};
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 pub use socketcan;
+pub use sync_producer::SyncProducer;
 
 #[cfg(all(test, feature = "std"))]
 mod slow;

@@ -119,8 +119,10 @@ macro_rules! transfers {
                         let is_sent = self.port().send(&frame, patience)$(.$await)?;
                         if let Err(error) = is_sent.map_err(Error::Client).and_then(sent) {
                             // A node that did not receive the first request of a transfer does not reply. If the unsent
-                            // message is an abort, the node can still reply to the request before it.
-                            self.owed = self.owed.filter(|owed| owed.is_aborted || owed.reply.is_continued());
+                            // message is an abort, the node can still reply to the request before it, and the next
+                            // transfer sends the abort.
+                            let is_open = |owed: &Owed| owed.is_aborted || owed.reply.is_continued();
+                            self.owed = self.owed.filter(is_open).map(|owed| Owed { is_aborted: false, ..owed });
                             return Err(error);
                         }
                     }
@@ -143,8 +145,11 @@ macro_rules! transfers {
                             // gets the first error, even if the abort message cannot be sent.
                             transfer.transfer.fail();
                             if let Some(abort) = transfer.request() {
-                                self.owed = transfer.owed();
-                                let _ = self.$send(&abort)$(.$await)?;
+                                // If the abort cannot be sent, the next transfer sends it. Otherwise, the node would take
+                                // the next request for a part of this transfer.
+                                let unsent = Owed { reply: transfer.transfer.expected(), is_aborted: false };
+                                let is_sent = self.$send(&abort)$(.$await)?.is_ok();
+                                self.owed = if is_sent { transfer.owed() } else { Some(unsent) };
                             }
                             return Err(Error::Client(error));
                         }
@@ -164,6 +169,10 @@ macro_rules! transfers {
             $($async)? fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<P::Error>> {
                 let transfer = Transfer::download(address, data, self.block_threshold())?;
                 self.$run(transfer)$(.$await)?.map(|_| ())
+            }
+
+            fn now(&mut self) -> Option<Duration> {
+                self.port().now()
             }
         }
     };

@@ -38,35 +38,44 @@ const MOST_REPEATS: u32 = 3;
 /// Maximum number of polls in an exchange without a clock and without pauses.
 const POLLS: u32 = 20_000;
 
+/// Number of further segments for which a transfer takes one more timeout, as on CANopen.
+const SEGMENTS_PER_TIMEOUT: u32 = 10;
+
 /// Pause between two polls of a mailbox.
 const PAUSE: Duration = Duration::from_micros(500);
 
-/// Limit of an exchange: its end time, or the number of remaining polls. The timer pauses between polls.
-struct Deadline<'t, T> {
-    timer: &'t mut T,
-    clock: Option<fn() -> Duration>,
+/// A limit: an end time, or without a clock the number of remaining polls.
+#[derive(Clone, Copy, Debug, Default)]
+struct Limit {
     end: Option<Duration>,
     polls: u32,
 }
 
-impl<'t, T: Timer> Deadline<'t, T> {
-    fn now(clock: Option<fn() -> Duration>) -> Option<Duration> {
-        clock.map(|clock| clock()).or_else(|| DefaultClock.now())
-    }
+/// Limits of an exchange, and the limit of the transfer that the exchange belongs to. The timer pauses between polls.
+struct Deadline<'t, T> {
+    timer: &'t mut T,
+    clock: Option<fn() -> Duration>,
+    exchange: Limit,
+    transfer: &'t mut Limit,
+}
 
-    fn new(timer: &'t mut T, clock: Option<fn() -> Duration>, timeout: Duration) -> Self {
-        let pauses = timeout.as_micros() / PAUSE.as_micros();
-        let polls = if T::EXPIRES { u32::try_from(pauses).unwrap_or(u32::MAX) } else { POLLS };
-        Self { timer, clock, end: Self::now(clock).map(|now| now.saturating_add(timeout)), polls }
-    }
+/// Returns the time of the clock, by default of the clock of the standard library.
+fn time(clock: Option<fn() -> Duration>) -> Option<Duration> {
+    clock.map(|clock| clock()).or_else(|| DefaultClock.now())
+}
 
-    /// Counts a poll. Returns an error if the limit is exceeded.
+impl<T: Timer> Deadline<'_, T> {
+    /// Counts a poll. Returns an error if a limit is exceeded.
     fn check(&mut self) -> Result<(), Error<BusError>> {
-        let is_late = match (self.end, Self::now(self.clock)) {
+        let now = time(self.clock);
+        let exceeds = |limit: &Limit| match (limit.end, now) {
             (Some(end), Some(now)) => now >= end,
-            _ => self.polls == 0,
+            _ => limit.polls == 0,
         };
-        self.polls = self.polls.saturating_sub(1);
+        let is_late = exceeds(&self.exchange) || exceeds(self.transfer);
+        for limit in [&mut self.exchange, &mut *self.transfer] {
+            limit.polls = limit.polls.saturating_sub(1);
+        }
         if is_late {
             Err(Error::Timeout)
         } else {
@@ -110,6 +119,8 @@ pub(super) struct Mailbox<'m, T> {
     pub(super) emergency: Option<Emergency>,
     /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
+    /// Limit of the current transfer.
+    transfer: Limit,
 }
 
 /// Result of comparing a received message with the expected reply.
@@ -143,16 +154,61 @@ impl<T> Sought<T> {
 impl<'m> Mailbox<'m, DefaultClock> {
     pub(super) const fn new(maindevice: &'m MainDevice<'m>, station: u16) -> Self {
         let controller = Controller { maindevice, station };
-        let (clock, timer) = (None, DefaultClock);
-        Self { controller, timeout: TIMEOUT, clock, timer, buffers: None, emergency: None, is_unsettled: false }
+        Self {
+            controller,
+            timeout: TIMEOUT,
+            clock: None,
+            timer: DefaultClock,
+            buffers: None,
+            emergency: None,
+            is_unsettled: false,
+            transfer: Limit { end: None, polls: 0 },
+        }
     }
 }
 
 impl<'m, T: Timer> Mailbox<'m, T> {
     /// Returns the mailbox with this timer.
     pub(super) fn with_timer<U>(self, timer: U) -> Mailbox<'m, U> {
-        let Self { controller, timeout, clock, buffers, emergency, is_unsettled, .. } = self;
-        Mailbox { controller, timeout, clock, timer, buffers, emergency, is_unsettled }
+        let Self { controller, timeout, clock, buffers, emergency, is_unsettled, transfer, .. } = self;
+        Mailbox { controller, timeout, clock, timer, buffers, emergency, is_unsettled, transfer }
+    }
+
+    /// Returns the time of the clock.
+    pub(super) fn now(&self) -> Option<Duration> {
+        time(self.clock)
+    }
+
+    /// Waits for `time`, or returns an error without a timer.
+    pub(super) async fn wait(&mut self, time: Duration) -> Result<(), Error<BusError>> {
+        if !T::EXPIRES {
+            return Err(Error::NoClock);
+        }
+        self.timer.limit(time, pending::<()>()).await;
+        Ok(())
+    }
+
+    /// Returns the limit that is one timeout from now.
+    fn limit(&self) -> Limit {
+        let pauses = self.timeout.as_micros() / PAUSE.as_micros();
+        let polls = if T::EXPIRES { u32::try_from(pauses).unwrap_or(u32::MAX) } else { POLLS };
+        Limit { end: self.now().map(|now| now.saturating_add(self.timeout)), polls }
+    }
+
+    /// Starts a transfer: discards late replies, and limits the time of the transfer to one timeout from then on.
+    pub(super) async fn begin(&mut self) -> Result<(), Error<BusError>> {
+        let (_, back) = self.buffers().await?;
+        self.transfer = self.limit();
+        self.settle(back).await?;
+        self.transfer = self.limit();
+        Ok(())
+    }
+
+    /// Extends the time of the transfer for one more segment.
+    pub(super) fn extend(&mut self) {
+        let more = self.timeout / SEGMENTS_PER_TIMEOUT;
+        self.transfer.end = self.transfer.end.map(|end| end.saturating_add(more));
+        self.transfer.polls = self.transfer.polls.saturating_add(self.limit().polls / SEGMENTS_PER_TIMEOUT);
     }
 
     /// Returns the maximum length of a message to the device in bytes.
@@ -171,7 +227,9 @@ impl<'m, T: Timer> Mailbox<'m, T> {
         let (out, back) = self.buffers().await?;
         self.settle(back).await?;
         let controller = self.controller;
-        let mut deadline = Deadline::new(&mut self.timer, self.clock, self.timeout);
+        let exchange = self.limit();
+        let (timer, transfer) = (&mut self.timer, &mut self.transfer);
+        let mut deadline = Deadline { timer, clock: self.clock, exchange, transfer };
         controller.wait(out, false, &mut deadline).await?;
         // The mailbox stays unsettled if the exchange fails or is dropped.
         self.is_unsettled = true;
@@ -198,7 +256,9 @@ impl<'m, T: Timer> Mailbox<'m, T> {
     /// at most one timeout. Keeps the last emergency message.
     async fn settle(&mut self, back: Buffer) -> Result<(), Error<BusError>> {
         let controller = self.controller;
-        let mut deadline = Deadline::new(&mut self.timer, self.clock, self.timeout);
+        let exchange = self.limit();
+        let (timer, transfer) = (&mut self.timer, &mut self.transfer);
+        let mut deadline = Deadline { timer, clock: self.clock, exchange, transfer };
         loop {
             if !controller.is_full(back).await? {
                 if !self.is_unsettled || deadline.check().is_err() {

@@ -136,17 +136,20 @@ mod tests {
             device.write_masked(CONTROL, 0xFF07, 0x00FF).unwrap();
             assert_eq!(device.context().holding[&10], 0x1207);
             assert_eq!(device.context().requests.len(), if functions.contains(&22) { 1 } else { 2 });
-            assert!(matches!(device.write_masked(TARGET, 1, 1), Err(Error::Length(_))));
+            assert!(matches!(device.write_masked(TARGET, 1, 1).map_err(Error::from), Err(Error::Length(_))));
         }
     }
 
     #[test]
     fn a_late_reply_is_none_to_another_request() {
         let mut device = ModbusClient::new(Late::default()).with_limits(limits(&[3, 6, 16, 22, 23]));
-        assert!(matches!(device.exchange((CONTROL,), (1,), (STATUS,)), Err(Error::Timeout)));
-        assert!(matches!(device.exchange((CONTROL,), (1,), (ACTUAL,)), Err(Error::UnexpectedReply)));
-        assert!(matches!(device.write_masked(CONTROL, 1, 1), Err(Error::UnexpectedReply)));
-        assert!(matches!(device.write_masked(CONTROL, 2, 3), Err(Error::UnexpectedReply)));
+        assert!(matches!(device.exchange((CONTROL,), (1,), (STATUS,)).map_err(Error::from), Err(Error::Timeout)));
+        assert!(matches!(
+            device.exchange((CONTROL,), (1,), (ACTUAL,)).map_err(Error::from),
+            Err(Error::UnexpectedReply)
+        ));
+        assert!(matches!(device.write_masked(CONTROL, 1, 1).map_err(Error::from), Err(Error::UnexpectedReply)));
+        assert!(matches!(device.write_masked(CONTROL, 2, 3).map_err(Error::from), Err(Error::UnexpectedReply)));
     }
 
     /// A device whose first requests fail with an error.
@@ -178,8 +181,8 @@ mod tests {
             let result = match access {
                 0 => client.read(register, &mut buffer).map(|_| ()),
                 1 => client.write(register, &[1, 0]),
-                2 => client.write_masked(CONTROL, 1, 1),
-                _ => client.exchange((CONTROL,), (1,), (STATUS,)).map(|_| ()),
+                2 => client.write_masked(CONTROL, 1, 1).map_err(Error::from),
+                _ => client.exchange((CONTROL,), (1,), (STATUS,)).map(|_| ()).map_err(Error::from),
             };
             (result.is_ok(), client.client().context().2.requests.len())
         })

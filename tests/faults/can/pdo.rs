@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use lexibus::clients::canopen::{sync, AsyncCanPort, Buffered, CanFrame, CanPort, Node};
-use lexibus::sim::{CanError, FaultyCan};
-use lexibus::{AsyncClient, Client, CobId, NodeId};
+use lexibus::sim::{CanError, CanFault, FaultyCan};
+use lexibus::{AsyncClient, Client, CobId, Error, LengthError, NodeId};
 
 use super::bus::*;
-use crate::faulty::TIMEOUT;
+use crate::faulty::{faults, set, TIMEOUT};
+use crate::matrix::{name, Row};
 use crate::now::now;
 
 const PDO: CobId = CobId::from_node(0x180);
@@ -62,6 +63,55 @@ fn the_latest_pdo_is_the_newest_one() {
     let mut node = Node::new(behind().into_port().into_inner().bus, NodeId::new(NODE).expect("a node-ID"));
     assert_eq!(node.latest_pdo(PDO).map(|pdo| pdo.map(sample)), Ok(Some(200)));
     assert_eq!(node.latest_pdo(PDO), Ok(None));
+}
+
+/// Returns whether a PDO contains the number of the last SYNC. Panics if it contains an old number.
+fn check(pdo: &CanFrame, bus: &Bus) -> Result<(), Error<CanError>> {
+    let data = pdo.data();
+    let number = data.try_into().map_err(|_| Error::Length(LengthError::new(4, data.len())))?;
+    assert_eq!(u32::from_le_bytes(number), bus.sample, "an old value");
+    Ok(())
+}
+
+/// One cycle of a master: discards old PDOs, sends SYNC, and receives the PDO that the node sends after it.
+fn cycle(node: &mut Node<FaultyCan<Bus>>) -> Result<(), Error<CanError>> {
+    node.latest_pdo(PDO)?;
+    node.sync()?;
+    let pdo = node.receive_pdo(PDO, TIMEOUT)?;
+    check(&pdo, node.port().bus())
+}
+
+async fn cycle_async(node: &mut Node<AsyncBus>) -> Result<(), Error<CanError>> {
+    node.latest_pdo_async(PDO).await?;
+    node.sync_async().await?;
+    let pdo = node.receive_pdo_async(PDO, TIMEOUT).await?;
+    check(&pdo, node.port().bus.bus())
+}
+
+/// Returns the rows for PDOs in the table of faults.
+pub fn rows() -> Vec<Row> {
+    let foreign = CanFrame::new(0x186, &[9, 9, 9, 9]).expect("a frame");
+    let mut rows = Vec::new();
+    for (fault_name, fault) in faults(foreign) {
+        for is_async in [false, true] {
+            let mut blocking = node();
+            let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };
+            let mut asynchronous = Node::new(bus, NodeId::new(NODE).expect("a node-ID"));
+            let mut run = |fault: Option<CanFault>| {
+                let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                set(port, fault);
+                let start = port.bus().now;
+                let result = if is_async { now(cycle_async(&mut asynchronous)) } else { cycle(&mut blocking) };
+                let port = if is_async { &mut asynchronous.port().bus } else { blocking.port() };
+                (name(&result), port.bus().now - start)
+            };
+            let (result, time) = run(Some(fault));
+            let (second, next) = run(None);
+            assert_eq!(second, "right value", "after {fault_name}");
+            rows.push(Row { client: "PDO", is_async, fault: fault_name, result, time, next, timeout: TIMEOUT });
+        }
+    }
+    rows
 }
 
 #[test]

@@ -30,7 +30,7 @@ pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
 
 /// Sends the SDO writes of a configuration.
 pub fn configure(node: &mut Node, steps: impl IntoIterator<Item = SdoWrite>) -> Result<(), Error> {
-    steps.into_iter().try_for_each(|step| step.send(node))
+    Ok(steps.into_iter().try_for_each(|step| step.send(node))?)
 }
 
 /// Creates a CAN frame. `id` is its CAN-ID.
