@@ -31,12 +31,13 @@ const FOUND = [
 
 // Test cases for the site with modules: name, ident number in three notations, and the whole name of a submodule.
 const DRIVE = "example/servo-head-0x00000002/no-revision/";
+const MODULES = "example/_files/drive/";
 const FOUND_MODULES = [
-  [DRIVE + "index.html", "axis", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "index.html", "0x00000030", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "index.html", "30h", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "index.html", "48", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "modules.html", "standard telegram 3", /^0x00000003 Standard telegram 3 module/, DRIVE + "modules.html#submodule-00000003"],
+  [DRIVE + "index.html", "axis", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "0x00000030", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "30h", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "48", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [MODULES + "modules.html", "standard telegram 3", /^0x00000003 Standard telegram 3 module/, MODULES + "modules.html#submodule-00000003"],
 ];
 
 const [site, modular, many] = process.argv.slice(2);

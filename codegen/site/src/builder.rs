@@ -4,8 +4,7 @@ use std::collections::HashMap;
 
 use serde_json::{json, Value as Json};
 
-use super::entry::Calls;
-use lexibus_codegen::backend::rust::Usage;
+use lexibus_codegen::backend::rust::{Calls, Usage};
 use lexibus_codegen::facts::{address, pdo};
 use lexibus_codegen::ir::{Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntryKind, Value};
 
