@@ -152,7 +152,6 @@ fn field(entry: &BitFieldEntry) -> Field {
         BitMeaning::Flag { inverted: true } => facts.push("Active while the bit is 0.".to_owned()),
         BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved, {}.", u8::from(*bit))),
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
-        BitMeaning::Number if entry.bits > 1 => facts.push("A number.".to_owned()),
         _ => {}
     }
     if let Some(condition) = &entry.when {
@@ -167,6 +166,9 @@ fn field(entry: &BitFieldEntry) -> Field {
     facts.extend(entry.access.map(|access| format!("Access: {}.", access.name())));
     facts.extend(words::PLAIN.description(entry.documentation.as_deref()));
     facts.extend(entry.availability.as_ref().map(|availability| words::PLAIN.availability(availability)));
+    if facts.is_empty() && entry.bits > 1 && matches!(entry.meaning, BitMeaning::Number) {
+        facts.push("A number.".to_owned());
+    }
     Field {
         anchor: String::new(),
         bits: if first == last { first.to_string() } else { format!("{last}–{first}") },

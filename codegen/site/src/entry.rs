@@ -209,7 +209,7 @@ impl Rows<'_> {
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             scale: tools::scale(item),
             writable: tools::range(item),
-            requests: tools::addresses(item, self.types, self.known.modbus),
+            requests: tools::addresses(item, self.types, self.known.modbus, self.known.records),
             fixed_requests: requests::requests(item, self.types, self.known.modbus, self.known.records),
             bits: drawn,
             labels,

@@ -10,8 +10,8 @@ use super::entry::{Known, Row, Rows};
 use super::process::{self, About, Frame};
 use super::split;
 use super::words;
-use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::backend::rust::{self, Calls};
+use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{address, item, profinet};
 use lexibus_codegen::ir::{
     Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ModuleId, ObjectBuses, Submodule,
@@ -32,8 +32,6 @@ pub(super) struct ModuleModel {
     pub facts: Vec<String>,
     /// Description of the module in other languages.
     pub translations: Vec<(String, String)>,
-    /// API, slot and subslot of a submodule, if it has records.
-    pub records: String,
     pub frames: Vec<Frame>,
     pub sections: Vec<(String, Section)>,
     /// Names of the submodules that belong to the module, with links to them.
@@ -167,12 +165,7 @@ fn facts(name: &str, documentation: Option<&Documentation>, identity: &Identity)
     facts
 }
 
-fn module(
-    module: &Module,
-    anchor: String,
-    parts: Vec<(String, String)>,
-    items: Items<'_>,
-) -> ModuleModel {
+fn module(module: &Module, anchor: String, parts: Vec<(String, String)>, items: Items<'_>) -> ModuleModel {
     let names = words::names(&module.name, &module.names);
     ModuleModel {
         number: hex32(module.number),
@@ -187,7 +180,6 @@ fn module(
             About { buses: ObjectBuses::COE, manual: &Manual::default(), doubts: &[] },
         ),
         sections: sections(module.fixed_objects.iter().chain(&module.groups), items, &anchor),
-        records: String::new(),
         parts,
         anchor,
     }
@@ -220,7 +212,6 @@ fn submodule(
         names,
         frames: inputs.into_iter().chain(outputs).collect(),
         sections: sections(submodule.records.iter(), items, &anchor),
-        records,
         parts: Vec::new(),
         anchor,
     }

@@ -56,7 +56,7 @@ impl<'d> Targets<'d> {
             for row in &section.rows {
                 let title = format!("{} {}", row.number, row.name);
                 for (part, anchor, name) in parts_of(row) {
-                    parts.insert((row.id, part), link(&area.file, anchor, &format!("{}, {name}", title.trim())));
+                    parts.insert((row.id, part), link(&area.file, anchor, &format!("{}: {name}", title.trim())));
                 }
                 items.insert(row.id, link(&area.file, &row.anchor, title.trim()));
             }
@@ -177,8 +177,8 @@ impl<'d> Targets<'d> {
 /// Returns the bits and values that a row shows, with their anchors and names.
 fn parts_of(row: &Row) -> impl Iterator<Item = (Part, &str, String)> {
     let fields = row.bits.iter().flat_map(|bits| bits.fields.iter().enumerate());
-    let fields = fields
-        .map(|(at, field)| (Part::Bit(at), field.anchor.as_str(), format!("{} {}", field.number(), field.name)));
+    let fields =
+        fields.map(|(at, field)| (Part::Bit(at), field.anchor.as_str(), format!("{} {}", field.number(), field.name)));
     let labels = row.labels.iter().enumerate();
     let labels = labels
         .map(|(at, label)| (Part::Value(at), label.anchor.as_str(), format!("{} {}", label.number(), label.name)));

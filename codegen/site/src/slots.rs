@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::link::{Link, Relation};
 use super::modules::Modules;
-use lexibus_codegen::facts::{self, profinet};
 use lexibus_codegen::facts::number::{hex16, ranges};
+use lexibus_codegen::facts::{self, profinet};
 use lexibus_codegen::ir::{Catalog, Device, Fit, GroupKind, Numbers, Slot, SlotNumbers, Submodule, SubmoduleKind};
 
 /// Maximum number of modules that one overview links to. The pages of the modules list all modules.

@@ -2,7 +2,8 @@
 
 use super::number::{hex16, ranges};
 use crate::ir::{
-    Catalog, CompactString, Device, Numbers, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
+    Catalog, CompactString, Device, Numbers, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind,
+    SubmoduleUse,
 };
 
 /// Names and values of facts.

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use crate::ir::owner::Owner;
 use crate::ir::{
-    BitFieldEntry, BitMeaning, Condition, Device, EnumValue, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape, Step,
-    Type,
+    BitFieldEntry, BitMeaning, Condition, Device, EnumValue, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape,
+    Step, Type,
 };
 
 /// An element that refers to an item. Elements without an id are given by their position in the list of the device.
@@ -113,7 +113,8 @@ pub fn conditions<'d>(types: Owner<'d>, ty: Type) -> Vec<(Part, &'d Condition)> 
             BitMeaning::Enumeration(id) => types.enumeration(Type::Named(id)),
             _ => None,
         };
-        let of_values = enumeration.into_iter().flat_map(|(values, _)| of_values(values)).map(|(_, condition)| condition);
+        let of_values =
+            enumeration.into_iter().flat_map(|(values, _)| of_values(values)).map(|(_, condition)| condition);
         field.when.as_deref().into_iter().chain(of_values).map(move |condition| (Part::Bit(at), condition))
     };
     match types.definition(ty).map(|definition| &definition.shape) {

@@ -142,7 +142,7 @@ pub enum Binding {
 }
 
 /// The buses on which an object has the same index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObjectBuses {
     /// True if the object exists on CANopen.

@@ -79,8 +79,8 @@ function modbusRequests([table, address, count, flags, functions], { canRead, ca
 }
 
 // A record is read and written as a whole.
-function recordRequests([index, offset, bits, length], { canRead, canWrite, submodule }) {
-  const record = `${submodule}, index 0x${hex(Number(index), 4)}, length ${length}`, bytes = `bits ${offset} to ${Number(offset) + Number(bits) - 1}`;
+function recordRequests([index, offset, bits, length, ...submodule], { canRead, canWrite }) {
+  const record = `${submodule.join(" ")}, index 0x${hex(Number(index), 4)}, length ${length}`, bytes = `bits ${offset} to ${Number(offset) + Number(bits) - 1}`;
   return [canRead && ["PROFINET record read", `${record}; the value is in ${bytes}`], canWrite && ["PROFINET record write", `${record}; the value is in ${bytes}`]].filter(Boolean);
 }
 
@@ -101,7 +101,6 @@ function copyable([title, text]) {
 
 // Adds the requests to the details of a row. Returns a function that shows the requests for a raw value.
 function requests(row, type) {
-  const submodule = row.closest("[data-records]")?.dataset.records ?? "API, slot and subslot of the submodule";
   const addresses = (row.dataset.at ?? "").split(";").filter(Boolean).map((address) => address.split(" "));
   const access = row.rows[0].cells[3].textContent, list = element("dl", {});
   const canRead = !/^wo/.test(access), isWritable = /^[rw]*w/.test(access) && Boolean(type);
@@ -110,7 +109,7 @@ function requests(row, type) {
   const show = () => {
     hint.textContent = isWritable && raw === undefined ? "Enter a raw value within the range for write requests." : "";
     const hasValue = Boolean(type) && raw !== undefined, canWrite = isWritable && hasValue, bytes = hasValue ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
-    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, hasValue, bytes, raw, node: node.value, unit: unit.value, submodule }));
+    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, hasValue, bytes, raw, node: node.value, unit: unit.value }));
     list.replaceChildren(...lines.flatMap(copyable));
   };
   const node = keptNumber("node", "Node-ID", 1, 127, () => show()), unit = keptNumber("unit", "Modbus unit", 1, 247, () => show());

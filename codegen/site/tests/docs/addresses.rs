@@ -26,7 +26,10 @@ fn nothing_moves(file: &str, one: &str, two: &str) {
         check(&before);
         check(&after);
         let (before, after) = (addresses(&before), addresses(&after));
-        assert!(["modules", "diagnostics"].iter().all(|name| before.iter().any(|path| path.contains(name))), "{before:?}");
+        assert!(
+            ["modules", "diagnostics"].iter().all(|name| before.iter().any(|path| path.contains(name))),
+            "{before:?}"
+        );
         assert!(after.len() > before.len());
         let missing: Vec<_> = before.difference(&after).collect();
         assert!(missing.is_empty(), "{missing:#?}");

@@ -40,9 +40,9 @@ fn conditions_are_linked_in_both_directions() {
     };
     let control_word = "<b>Depends on</b> <a href=\"profile-objects.html#0x6060\">0x6060 Modes of operation</a>";
     assert!(row("0x6040").contains(control_word), "{}", row("0x6040"));
-    let bit = "<a href=\"profile-objects.html#0x6040.bit-4-new-set-point\">0x6040 Controlword, bit 4 new set-point</a>";
+    let bit = "<a href=\"profile-objects.html#0x6040.bit-4-new-set-point\">0x6040 Controlword: bit 4 new set-point</a>";
     assert!(row("0x6060").contains(bit), "{}", row("0x6060"));
     let markdown = profile_objects(Format::Markdown, markdown_links);
-    let bit = "[0x6040 Controlword, bit 4 new set-point](profile-objects.md#0x6040.bit-4-new-set-point)";
+    let bit = "[0x6040 Controlword: bit 4 new set-point](profile-objects.md#0x6040.bit-4-new-set-point)";
     assert!(markdown.contains(bit), "{markdown}");
 }

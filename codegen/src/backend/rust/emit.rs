@@ -9,7 +9,7 @@ use super::model::Model;
 use super::scope::Scope;
 use super::RustOptions;
 use super::{catalog, device_names, model, objects, print, quantity};
-use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, ModuleId, Scale};
+use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, ModuleId, ObjectBuses, Scale};
 
 /// Version of the interface between generated code and the runtime. The version must equal
 /// `lexibus::interface::VERSION`.
@@ -54,8 +54,8 @@ pub type Calls = HashMap<ItemId, Vec<String>>;
 pub struct Usage {
     /// Calls that read and write the items of the device.
     pub calls: Calls,
-    /// Names of the PDO structs, by the index of the mapping object.
-    pub pdos: HashMap<u16, String>,
+    /// Names of the PDO structs, by the index of the mapping object and the buses of the PDO.
+    pub pdos: HashMap<(u16, Option<ObjectBuses>), String>,
 }
 
 /// Returns the names of a device's elements in the generated code.
@@ -63,7 +63,7 @@ pub fn usage(device: &Device) -> Usage {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
     let calls = objects::calls(&context)
         .map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &format!("device.{path}"))));
-    let pdos = context.names.pdos.iter().map(|named| (named.pdo.mapping_index, named.name.clone()));
+    let pdos = context.names.pdos.iter().map(|named| ((named.pdo.mapping_index, named.pdo.buses), named.name.clone()));
     Usage { calls: calls.collect(), pdos: pdos.collect() }
 }
 
