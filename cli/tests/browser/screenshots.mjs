@@ -37,7 +37,8 @@ async function take(browser, site, pictures, folder) {
   for (const colorScheme of ["light", "dark"]) {
     for (const [screen, options] of Object.entries(SCREENS)) {
       const window = await Window.open(browser, site, { colorScheme, ...options });
-      for (const [name, place, typed] of pictures) {
+      // The search is not printed.
+      for (const [name, place, typed] of pictures.filter(([, , typed]) => !typed || screen !== "print")) {
         const page = await window.go(place);
         if (screen === "print") await page.emulateMedia({ media: "print" });
         if (screen === "print") await page.evaluate(() => dispatchEvent(new Event("beforeprint")));

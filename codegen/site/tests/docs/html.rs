@@ -3,8 +3,9 @@
 use crate::docs_support::{files, hostile, html_links, html_markup, site, values, ALL};
 use std::collections::BTreeSet;
 
+use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
-use lexibus_site::{Format, Page};
+use lexibus_site::{Format, Page, Site};
 
 #[test]
 fn all_links_are_valid() {
@@ -403,5 +404,16 @@ fn rows_of_a_list_differ() {
     let index = &pages.iter().find(|page| page.path == "search.js").expect("the index").text;
     for name in ["description 1 of 2, 2 identical descriptions", "0x00120000, description 2 of 2"] {
         assert!(index.contains(name), "{name}: {index}");
+    }
+}
+
+#[test]
+fn changes_name_their_device() {
+    for (format, element) in
+        [(Format::Html, "<th scope=\"row\">T1018 inputs: "), (Format::Markdown, "| T1018 inputs: ")]
+    {
+        let catalog = |bytes: &[u32]| check(terminals(bytes), &Options::default()).usable().expect("a catalog").clone();
+        let page = Site::new(format).compare(("old", &catalog(&[4])), ("new", &catalog(&[4, 2])));
+        assert!(page.text.contains(element), "{}", page.text);
     }
 }
