@@ -11,8 +11,11 @@ use lexibus_codegen::facts::referrers::Part;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{CodeRow, Device, ItemId};
 
-/// The items that have a value with the same number and name as a code.
-struct Values<'d>(HashMap<(i128, Option<i128>, &'d str), Vec<(ItemId, Part)>>);
+/// First number, last number and name of a code or named value.
+type CodeKey<'d> = (i128, Option<i128>, &'d str);
+
+/// The items that have a value with the same number and name as a code, with this value.
+struct Values<'d>(HashMap<CodeKey<'d>, Vec<(ItemId, Part)>>);
 
 impl<'d> Values<'d> {
     fn new(device: &'d Device) -> Self {
