@@ -2801,7 +2801,9 @@ pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
     ///
-    /// Definition from CiA 402, 6.2.
+    /// Error codes of drives in emergency messages and in 0x603F.
+    ///
+    /// Description from CiA 402, 6.2, 9.3.2.
     ///
     /// The codes have the type [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
@@ -3042,7 +3044,9 @@ pub mod codes {
     }
     /// emergency.
     ///
-    /// Definition from CiA 301, 7.2.7.1.
+    /// Error codes of emergency messages. The device also stores the codes in 0x1003.
+    ///
+    /// Description from CiA 301, 7.2.7.1, 7.5.2.3.
     ///
     /// The codes have the type [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[

@@ -15,6 +15,9 @@ await withBrowser(async (browser) => {
   await leads(window, "index.html#Renc1pulse", "aec-s-r-l/vector-step/no-revision/encoder-1.html#Renc1pulse");
   // The page of the newest revision keeps the address.
   await leads(window, "kollmorgen/akd/latest/index.html#0x6040", "kollmorgen/akd/no-revision/profile-objects.html#0x6040");
+  await leads(window, "aec-s-r-l/vector-step/no-revision/index.html#0x6040.bit-4-jog", "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040.bit-4-jog");
+  await showsPart(window);
+  await showsPartOfEqualType(window);
   await changes(window);
   await stays(window);
   window.clean();
@@ -29,6 +32,29 @@ async function leads(window, from, to) {
   const page = await window.go(from);
   await page.waitForURL((url) => decodeURIComponent(url.href).endsWith(to));
   await page.waitForFunction(() => document.querySelector(":target"));
+}
+
+// Checks that the address of a value of a bit unfolds the row and shows the value.
+async function showsPart(window) {
+  const page = await window.go("aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040.bit-4-jog.value-1");
+  const value = page.locator(".target");
+  await value.waitFor();
+  assert.deepEqual([await value.innerText(), await value.evaluate((term) => term.nextElementSibling.textContent)], ["1", "start"]);
+}
+
+// Checks the address of a bit in a row that refers to another row for its bits.
+async function showsPartOfEqualType(window) {
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/profile-objects.html");
+  const address = await page.evaluate(() => {
+    const reference = document.querySelector(".same a"), source = decodeURIComponent(reference.hash.slice(1));
+    const part = document.getElementById(source).querySelector(".more [id]");
+    return reference.closest("tbody").id + part.id.slice(source.length);
+  });
+  for (const from of ["profile-objects.html", "index.html"]) {
+    await window.go(`vendor-0x0000078f/eco/no-revision/${from}#${address}`);
+    await page.locator(".target").waitFor();
+    assert.equal(await page.locator(".target").getAttribute("id"), address, from);
+  }
 }
 
 // Changes the address of an open page to a row of another page.

@@ -1,4 +1,4 @@
-// Tests that a 1080p screen shows at least 20 lines of each kind of list: items, codes, states, changes and devices.
+// Tests that a 1080p screen shows at least 20 lines of each kind of list: items, codes, states, assumptions and process data.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -10,6 +10,10 @@ const LISTS = [
   ["vendor-0x0000078f/eco/no-revision/codes.html", ".list tr"],
   ["hsd-s-p-a/hsd-motor/no-revision/codes.html", ".list tr"],
   ["hsd-s-p-a/hsd-motor/no-revision/parameters.html", ".items > tbody"],
+  ...["vendor-0x0000078f/eco", "hsd-s-p-a/hsd-motor", "aec-s-r-l/vector-step", "kollmorgen/akd"].map((device) => [`${device}/no-revision/assumptions.html`, ".items > tbody"]),
+  // A line of process data or of a state machine is a heading, a row, or the first line of an ambiguity.
+  ...["vendor-0x0000078f/eco", "aec-s-r-l/vector-step", "kollmorgen/akd"].map((device) => [`${device}/no-revision/process-data.html`, ":is(h2, .list tr, .bytes tr, summary)"]),
+  ...["vendor-0x0000078f/eco", "hsd-s-p-a/hsd-motor", "kollmorgen/akd"].map((device) => [`${device}/no-revision/states-and-procedures.html`, ":is(h2, .list tr, summary)"]),
 ];
 
 const [site] = process.argv.slice(2);

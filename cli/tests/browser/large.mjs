@@ -8,7 +8,7 @@ import { pagesOf, Window, withBrowser } from "./browser.mjs";
 const [site] = process.argv.slice(2);
 const size = (name) => statSync(path.join(site, name)).size;
 const pages = pagesOf(site);
-assert.ok(size("unknown-vendor/large/no-revision/search.js") < 300_000, `an index of ${size("unknown-vendor/large/no-revision/search.js")} bytes`);
+assert.ok(size("unknown-vendor/_files/large/search.js") < 300_000, `an index of ${size("unknown-vendor/_files/large/search.js")} bytes`);
 for (const page of pages) assert.ok(size(page) < 300_000, `${page}: ${size(page)} bytes`);
 
 await withBrowser(async (browser) => {

@@ -35,7 +35,7 @@ fn tasks_of_a_commissioning_engineer_need_few_keys() {
 
 #[test]
 fn the_decoder_converts_values_in_both_directions() {
-    run("values.mjs", || [sites::drives()]);
+    run("values.mjs", || [sites::drives(), sites::ethercat()]);
 }
 
 #[test]
@@ -102,5 +102,5 @@ fn pictures_are_kept() {
     if lane::skips("taking pictures") {
         return;
     }
-    run("screenshots.mjs", || [sites::drives(), node::pictures()]);
+    run("screenshots.mjs", || [sites::drives(), sites::terminals(), sites::ethercat(), node::pictures()]);
 }

@@ -1,5 +1,5 @@
 // Tests printed pages: they show the name of the device, have dark text on white in both themes, and contain no controls.
-// Folded texts are printed, and numbers stay in one line.
+// Folded texts are printed, and numbers stay in one line. A long page has few sheets.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
@@ -30,6 +30,7 @@ await withBrowser(async (browser) => {
     }
     assert.ok((await page.pdf({ format: "A4" })).length > 10_000);
     await complete(window);
+    await isShort(window);
     window.clean();
     await window.close();
   }
@@ -46,4 +47,12 @@ async function complete(window) {
   assert.deepEqual(broken, [], "codes are broken");
   await page.evaluate(() => dispatchEvent(new Event("afterprint")));
   assert.equal(await folded.count(), count);
+}
+
+// Checks the number of sheets of a page with all its details, with the default margins of the browser.
+async function isShort(window) {
+  const page = await window.go("vendor-0x0000078f/eco/no-revision/registers.html"), margin = "0.4in";
+  const document = await page.pdf({ format: "A4", margin: { top: margin, right: margin, bottom: margin, left: margin } });
+  const sheets = document.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
+  assert.ok(sheets > 4 && sheets <= 12, `${sheets} sheets`);
 }

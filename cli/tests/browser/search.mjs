@@ -26,17 +26,21 @@ const FOUND = [
   ["vendor-0x0000078f/eco/no-revision/index.html", "0x8642", /^0x8000 to 0x8FFF monitoring/, "vendor-0x0000078f/eco/no-revision/codes.html#emergency-0x8000_to_0x8FFF"],
   // The first page searches all devices. One of the words is the name of the device.
   ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen/akd/no-revision/profile-objects.html#0x60FF"],
+  // A bit with a condition, and a value of such a bit.
+  ["index.html", "vector homing operation start", /^bit 4 homing operation start/, "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040.bit-4-homing-operation-start"],
+  ["index.html", "vector counterclockwise", /^bit 5 counterclockwise/, "aec-s-r-l/vector-step/no-revision/profile-objects.html#0x6040.bit-5-jog-direction.value-1"],
   ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-s-p-a/hsd-motor/no-revision/parameters.html#KP_VEL"],
 ];
 
 // Test cases for the site with modules: name, ident number in three notations, and the whole name of a submodule.
 const DRIVE = "example/servo-head-0x00000002/no-revision/";
+const MODULES = "example/_files/drive-gsdml/";
 const FOUND_MODULES = [
-  [DRIVE + "index.html", "axis", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "index.html", "0x00000030", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "index.html", "30h", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "index.html", "48", /^0x00000030 Axis module/, DRIVE + "modules.html#module-00000030"],
-  [DRIVE + "modules.html", "standard telegram 3", /^0x00000003 Standard telegram 3 module/, DRIVE + "modules.html#submodule-00000003"],
+  [DRIVE + "index.html", "axis", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "0x00000030", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "30h", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [DRIVE + "index.html", "48", /^0x00000030 Axis module/, MODULES + "modules.html#module-00000030"],
+  [MODULES + "modules.html", "standard telegram 3", /^0x00000003 Standard telegram 3 module/, MODULES + "modules.html#submodule-00000003"],
 ];
 
 const [site, modular, many] = process.argv.slice(2);

@@ -50,7 +50,12 @@ pub fn modular() -> PathBuf {
     documented("modular", &["../tests/data/drive.gsdml.xml"])
 }
 
-/// Returns a site with EtherCAT terminals, one of them in two revisions.
+/// Returns the site of an EtherCAT coupler and an EtherCAT drive, which has PDOs with a changeable mapping.
+pub fn ethercat() -> PathBuf {
+    documented("ethercat", &["../tests/data/coupler.esi.xml"])
+}
+
+/// Returns a site with EtherCAT terminals, one of them in two revisions, and with a comparison of two descriptions.
 pub fn terminals() -> PathBuf {
     let entry = |ty: &str, bits: u8| {
         format!(
@@ -69,15 +74,21 @@ pub fn terminals() -> PathBuf {
         device("#x04C22C52", "#x00120000", "T1218 counter", entry("UDINT", 32)),
         device("#x03F03052", "#x00100000", "T1008 inputs", entry("USINT", 8)),
     ];
-    let text = format!(
-        "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Example Terminals</Name></Vendor><Descriptions><Groups><Group>\
-         <Type>Terminals</Type><Name>Terminals</Name></Group></Groups><Devices>{}</Devices></Descriptions></EtherCATInfo>",
-        devices.concat()
-    );
+    let file = |devices: &[String]| {
+        format!(
+            "<EtherCATInfo><Vendor><Id>#x77</Id><Name>Example Terminals</Name></Vendor><Descriptions><Groups><Group>\
+             <Type>Terminals</Type><Name>Terminals</Name></Group></Groups><Devices>{}</Devices></Descriptions></EtherCATInfo>",
+            devices.concat()
+        )
+    };
     let (source, site) = (folder("terminals-source"), folder("terminals"));
-    let path = source.join("terminals.xml");
-    std::fs::write(&path, text).expect("a temporary file");
-    lexibus(|command| command.arg("docs").arg(&path).arg("--out").arg(&site), &[0]);
+    let [old, path] = ["old", "terminals"].map(|name| source.join(name).with_extension("xml"));
+    std::fs::write(&old, file(&devices[..1])).expect("a temporary file");
+    std::fs::write(&path, file(&devices)).expect("a temporary file");
+    lexibus(
+        |command| command.arg("docs").arg(&path).arg("--compare").args([&old, &path]).arg("--out").arg(&site),
+        &[0],
+    );
     site
 }
 

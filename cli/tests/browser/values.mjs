@@ -1,9 +1,10 @@
 // Tests that the decoder's conversions are inverse to each other and reject values that do not fit. The frames must have the
-// form that the standards define. The PDO builder changes the order of objects.
+// form that the standards define. The PDO builder changes the order of objects, and maps
+// objects on CANopen and EtherCAT.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
-const [site] = process.argv.slice(2);
+const [site, ethercat] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
   const page = await window.go("vendor-0x0000078f/eco/no-revision/registers.html");
@@ -46,6 +47,10 @@ await withBrowser(async (browser) => {
   await movesObjects(window);
   await showsBytes(window);
   window.clean();
+  await window.close();
+  const other = await Window.open(browser, ethercat);
+  await mapsOnEthercat(other);
+  other.clean();
 });
 
 // Checks the requests of an object with other access rights on a bus, and of 16-bit values in two registers.
@@ -113,4 +118,24 @@ async function showsBytes(window) {
     assert.match(await builder.locator("output").innerText(), new RegExp(`^COB-ID ${cobId}, `));
     assert.match(await page.locator("section[data-cob-id] .of-node").first().innerText(), new RegExp(`For node-ID ${node}: COB-ID ${cobId}`));
   }
+}
+
+// Checks the builder of a drive on EtherCAT: it clears the assignment, writes the mapping and assigns the PDO again (ETG.1000.6, 5.6.7.4).
+async function mapsOnEthercat(window) {
+  const page = await window.go("example/sv-1-servo-drive-0x00a10002/0x00020001/process-data.html"), builder = page.locator(".builder");
+  assert.deepEqual(await builder.locator("select option").allInnerTexts(), ["RxPDO 0x1600", "RxPDO 0x1601"]);
+  assert.ok(await builder.getByLabel("Node-ID").isHidden());
+  await builder.getByText("Clear").click();
+  for (const index of ["6040", "607A"]) {
+    await builder.getByLabel("Object to map").fill(index);
+    await page.keyboard.press("Enter");
+  }
+  assert.match(await builder.locator("output").innerText(), /^6 of \d+ bytes, 2 of 254 entries$/);
+  const [sdos, python, rust] = await builder.locator("code").allInnerTexts();
+  assert.deepEqual(sdos.split("\n"), [
+    "2F 12 1C 00 00 00 00 00", "2F 00 16 00 00 00 00 00", "23 00 16 01 10 00 40 60", "23 00 16 02 20 00 7A 60", "2F 00 16 00 02 00 00 00",
+    "2B 12 1C 01 00 16 00 00", "2F 12 1C 00 01 00 00 00",
+  ]);
+  assert.equal(python.split("\n")[2], 'slave.sdo_write(0x1600, 1, bytes.fromhex("10004060"))');
+  assert.match(rust, /device::pdo::PositionMode \{ controlword, target_position \}/);
 }

@@ -55,6 +55,10 @@ impl Addresses {
         if keys.len() < 2 {
             return folder;
         }
+        // Further devices of the same description do not move the first one.
+        if keys[0] == *key && keys.iter().all(|other| other.0 == key.0) {
+            return folder;
+        }
         let name = folder_name(&key.0);
         let is_ambiguous = keys.iter().any(|other| other.0 != key.0 && folder_name(&other.0) == name);
         let name = distinct(name, &key.0, is_ambiguous);
@@ -255,6 +259,16 @@ mod tests {
                 "each revision follows one of the same product"
             );
         }
+    }
+
+    #[test]
+    fn a_second_device_does_not_move_the_first() {
+        let twice = catalog(&[("Drive", Some(7), Some(1)), ("Drive", Some(7), Some(1))]);
+        let mut addresses = Addresses::default();
+        addresses.add("t", &twice);
+        let product = "maker-sons/drive-0x00000007";
+        let expected = [format!("{product}/0x00000001"), format!("{product}/0x00000001-t.2")];
+        assert_eq!(folders(&addresses, "t", &twice), expected);
     }
 
     #[test]

@@ -135,9 +135,11 @@ impl<'d> AmbiguitySources<'d> {
             }
         }
         if let Some((file, behavior)) = self.behavior {
-            let of_machines = behavior.machines.iter().flat_map(|machine| &machine.doubts);
-            let doubts = of_machines.chain(behavior.sequences.iter().flat_map(|sequence| &sequence.doubts));
-            doubts.for_each(|doubt| visitor(file.to_owned(), "", doubt));
+            let machines = behavior.machines.iter().map(|machine| (&machine.anchor, &machine.title, &machine.doubts));
+            let sequences = behavior.sequences.iter().map(|one| (&one.anchor, &one.name, &one.doubts));
+            for (anchor, title, doubts) in machines.chain(sequences) {
+                doubts.iter().for_each(|doubt| visitor(format!("{file}#{anchor}"), title, doubt));
+            }
         }
         let mut visit_all = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
             doubts.iter().for_each(|doubt| visitor(format!("{file}#{anchor}"), title, doubt));

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::cell::Cell;
+use super::part_anchors::anchors;
 use super::words;
 use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
@@ -40,6 +41,7 @@ pub(super) struct Row {
 /// A row of the bit list.
 #[derive(Debug)]
 pub(super) struct Field {
+    pub anchor: String,
     /// Bit numbers, such as `7` or `3–0`.
     pub bits: String,
     pub name: String,
@@ -56,20 +58,38 @@ pub(super) struct Field {
 /// A named value of an enumeration, as a page shows it.
 #[derive(Debug)]
 pub(super) struct Label {
+    pub anchor: String,
     pub number: String,
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: String,
+    /// True if the value has this meaning only while a condition holds.
+    pub is_conditional: bool,
 }
 
-/// Returns the drawing of a type's bits and the list of its named values.
-pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>) {
+impl Field {
+    /// Returns the number that the search shows, such as `bit 4`.
+    pub fn number(&self) -> String {
+        format!("bit {}", self.bits)
+    }
+}
+
+impl Label {
+    /// Returns the number that the search shows, such as `value 3`.
+    pub fn number(&self) -> String {
+        format!("value {}", self.number)
+    }
+}
+
+/// Returns the drawing of a type's bits and the list of its named values. Their anchors begin with `owner`, the anchor of the element
+/// with this type.
+pub(super) fn of_type(types: &[TypeDef], ty: Type, owner: &str) -> (Option<Bits>, Vec<Label>) {
     match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {
             let bits = types::basic(types, *base).bits().unwrap_or(8);
-            (Some(drawing(types, fields, bits)), Vec::new())
+            (Some(drawing(types, fields, bits, owner)), Vec::new())
         }
-        Some(Shape::Enumeration { values, .. }) => (None, labels(values)),
+        Some(Shape::Enumeration { values, .. }) => (None, labels(values, owner)),
         _ => (None, Vec::new()),
     }
 }
@@ -79,7 +99,7 @@ pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
     drawings.flat_map(|drawing| &drawing.rows).map(|row| (row.first, row.bits)).collect()
 }
 
-fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
+fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32, owner: &str) -> Bits {
     let bits = bits.clamp(1, 64);
     let mut rows = Vec::new();
     let mut last = bits;
@@ -94,7 +114,22 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32) -> Bits {
     if rows.iter().flat_map(|row: &Row| &row.cells).all(|cell| cell.label.is_empty()) {
         rows.clear();
     }
-    Bits { rows, fields: fields.iter().map(|entry| field(types, entry)).collect() }
+    Bits { rows, fields: self::fields(types, fields, owner) }
+}
+
+/// Returns the list of bit fields.
+fn fields(types: &[TypeDef], entries: &[BitFieldEntry], owner: &str) -> Vec<Field> {
+    let mut fields: Vec<Field> = entries.iter().map(field).collect();
+    let parts = fields.iter().map(|field| (field.number(), field.name.as_str(), field.is_conditional));
+    let anchors = anchors(owner, &parts.collect::<Vec<_>>());
+    for ((field, entry), anchor) in fields.iter_mut().zip(entries).zip(anchors) {
+        if let BitMeaning::Enumeration(id) = entry.meaning {
+            let enumeration = Owner::of_types(types).enumeration(Type::Named(id));
+            field.values = enumeration.map(|(values, _)| labels(values, &anchor)).unwrap_or_default();
+        }
+        field.anchor = anchor;
+    }
+    fields
 }
 
 /// Returns the cell of a field in the row of `bits` bits that starts at bit `first`. Reserved bits have no cell.
@@ -109,19 +144,14 @@ fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     Some(Cell::new(left, width, &field.name))
 }
 
-fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
+/// Returns a bit field without its anchor and values.
+fn field(entry: &BitFieldEntry) -> Field {
     let (first, last) = (u32::from(entry.offset), u32::from(entry.offset) + u32::from(entry.bits).max(1) - 1);
     let mut facts = Vec::new();
-    let mut values = Vec::new();
     match &entry.meaning {
         BitMeaning::Flag { inverted: true } => facts.push("Active while the bit is 0.".to_owned()),
         BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved, {}.", u8::from(*bit))),
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
-        BitMeaning::Enumeration(id) => {
-            let enumeration = Owner::of_types(types).enumeration(Type::Named(*id));
-            values = enumeration.map(|(values, _)| labels(values)).unwrap_or_default();
-        }
-        BitMeaning::Number if entry.bits > 1 => facts.push("A number.".to_owned()),
         _ => {}
     }
     if let Some(condition) = &entry.when {
@@ -136,19 +166,23 @@ fn field(types: &[TypeDef], entry: &BitFieldEntry) -> Field {
     facts.extend(entry.access.map(|access| format!("Access: {}.", access.name())));
     facts.extend(words::PLAIN.description(entry.documentation.as_deref()));
     facts.extend(entry.availability.as_ref().map(|availability| words::PLAIN.availability(availability)));
+    if facts.is_empty() && entry.bits > 1 && matches!(entry.meaning, BitMeaning::Number) {
+        facts.push("A number.".to_owned());
+    }
     Field {
+        anchor: String::new(),
         bits: if first == last { first.to_string() } else { format!("{last}–{first}") },
         name: entry.name.to_string(),
         names: words::names(&entry.name, &entry.names),
         facts: facts.join(" "),
-        values,
+        values: Vec::new(),
         is_conditional: entry.when.is_some(),
         is_reserved: matches!(entry.meaning, BitMeaning::Reserved { .. }),
         is_inverted: matches!(entry.meaning, BitMeaning::Flag { inverted: true }),
     }
 }
 
-fn labels(values: &[EnumValue]) -> Vec<Label> {
+fn labels(values: &[EnumValue], owner: &str) -> Vec<Label> {
     let label = |value: &EnumValue| {
         let mut facts = Vec::new();
         if let Some(condition) = &value.when {
@@ -157,11 +191,17 @@ fn labels(values: &[EnumValue]) -> Vec<Label> {
         facts.extend(words::PLAIN.description(value.documentation.as_deref()));
         facts.extend(value.availability.as_ref().map(|availability| words::PLAIN.availability(availability)));
         Label {
+            anchor: String::new(),
             number: types::numbers(value.value, value.last),
             name: value.name.to_string(),
             names: words::names(&value.name, &value.names),
             facts: facts.join(" "),
+            is_conditional: value.when.is_some(),
         }
     };
-    values.iter().map(label).collect()
+    let mut labels: Vec<Label> = values.iter().map(label).collect();
+    let parts = labels.iter().map(|label| (label.number(), label.name.as_str(), label.is_conditional));
+    let anchors = anchors(owner, &parts.collect::<Vec<_>>());
+    labels.iter_mut().zip(anchors).for_each(|(label, anchor)| label.anchor = anchor);
+    labels
 }

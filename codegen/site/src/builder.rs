@@ -1,55 +1,94 @@
-//! Data of the PDO builder: the PDOs of a CANopen device with a changeable mapping, and the objects that can be mapped.
+//! Data of the PDO builder: the PDOs with a changeable mapping on CANopen and EtherCAT, and the objects that can be mapped.
 
 use std::collections::HashMap;
 
 use serde_json::{json, Value as Json};
 
-use super::entry::Calls;
-use lexibus_codegen::backend::rust::Usage;
+use lexibus_codegen::backend::rust::{Calls, Usage};
 use lexibus_codegen::facts::{address, pdo};
-use lexibus_codegen::ir::{Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntryKind, Value};
+use lexibus_codegen::ir::{
+    Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntry, Value, MAX_PDO_SUBS,
+};
+
+/// Maximum length of a PDO on CANopen in bits.
+const MAX_BITS: u32 = 64;
+
+/// Index of the assignment of PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
+const ASSIGNMENT: u16 = 0x1C10;
 
 /// Returns the data as JSON, or `None` if no mapping can be changed.
 pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
-    let granularity = device.canopen.as_deref()?.granularity;
-    if granularity == Some(0) {
-        return None;
-    }
-    let pdos: Vec<Json> =
-        device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, &usage.pdos)).collect();
+    let pdos: Vec<Json> = device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, usage)).collect();
     let mapped = pdo::mapped_objects(&device.process_data.pdos);
     let groups = (0..).zip(&device.groups).flat_map(|(position, group)| group.items_at(position));
     let objects: Vec<Json> = groups.filter_map(|(id, item)| object(device, id, item, &mapped, &usage.calls)).collect();
-    let data = json!({ "granularity": granularity.unwrap_or(1), "pdos": pdos, "objects": objects });
+    let data = json!({ "pdos": pdos, "objects": objects });
     (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
 }
 
-fn pdo(device: &Device, pdo: &Pdo, names: &HashMap<u16, String>) -> Option<Json> {
+/// Returns the data of a PDO with a changeable mapping: what both buses have in common, and the data of its bus.
+fn pdo(device: &Device, pdo: &Pdo, usage: &Usage) -> Option<Json> {
+    let of_bus = match pdo.communication {
+        Some(_) => on_canopen(device, pdo),
+        None => on_ethercat(device, pdo),
+    };
+    let mut data = of_bus.filter(|_| pdo::is_changeable(pdo))?;
+    let entry = |entry: &PdoEntry| [u32::from(entry.index), u32::from(entry.sub_index), entry.bits];
+    let common = json!({
+        "title": pdo::title(pdo, pdo::buses(device)),
+        "tx": pdo.direction == Direction::Transmit,
+        "mapping": pdo.mapping_index,
+        "mapped": pdo.entries.iter().map(entry).collect::<Vec<_>>(),
+        "kept": pdo.entries.iter().filter(|entry| entry.fixed).map(entry).collect::<Vec<_>>(),
+        "name": usage.pdos.get(&(pdo.mapping_index, pdo.buses)),
+    });
+    data.as_object_mut()?.extend(common.as_object()?.clone());
+    Some(data)
+}
+
+/// Returns the data that only a PDO on CANopen has. Granularity 0 means that the mapping is fixed (CiA 306).
+fn on_canopen(device: &Device, pdo: &Pdo) -> Option<Json> {
     let communication = pdo.communication.as_ref()?;
-    let entries = pdo::writable_entries(device.object(pdo.mapping_index)?).filter(|_| pdo::is_changeable(pdo))?;
-    let mapped = pdo.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding);
-    let mapped: Vec<[u32; 2]> = mapped.map(|entry| [u32::from(entry.index), u32::from(entry.sub_index)]).collect();
+    let granularity = device.canopen.as_deref()?.granularity.unwrap_or(1);
     let (cob_id, of_node) = match communication.cob_id.as_ref()? {
         Value::Int(id) => (*id, false),
         Value::NodeId(offset) => (*offset, true),
         _ => return None,
     };
+    (granularity > 0).then_some(())?;
     Some(json!({
-        "title": pdo::title(pdo, pdo::buses(device)),
-        "tx": pdo.direction == Direction::Transmit,
-        "mapping": pdo.mapping_index,
+        "bus": "c",
+        "entries": pdo::writable_entries(device.object(pdo.mapping_index)?)?,
+        "maxBits": MAX_BITS,
+        "granularity": granularity,
         "communication": communication.writable.contains(&1).then_some(communication.index),
         "cobId": u32::try_from(cob_id).ok()?,
         "ofNode": of_node,
-        "entries": entries,
-        "mapped": mapped,
-        "name": names.get(&pdo.mapping_index),
+    }))
+}
+
+/// Returns the data that only a PDO on EtherCAT has. Its assignment has the PDOs that are assigned to the same sync manager by default.
+fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
+    if device.ethercat.is_none() || device.dictionary_only {
+        return None;
+    }
+    let writable = device.object(pdo.mapping_index).and_then(pdo::writable_entries);
+    let assigned = |manager| {
+        let pdos = device.process_data.pdos.iter().filter(move |pdo| pdo.sync_manager == Some(manager));
+        json!([ASSIGNMENT + u16::from(manager), pdos.map(|pdo| pdo.mapping_index).collect::<Vec<_>>()])
+    };
+    Some(json!({
+        "bus": "e",
+        "entries": writable.or_else(|| pdo::configures(device).then_some(MAX_PDO_SUBS))?,
+        "maxBits": u32::from(pdo::max_bytes_on_ethercat(device, pdo)) * 8,
+        "granularity": 1,
+        "assignment": pdo.sync_manager.filter(|_| pdo::assigns(device)).map(assigned),
     }))
 }
 
 /// Returns the data of an object that can be mapped: index, sub-index, length in bits, address and name as one text,
-/// two flags (mappable into RPDOs, mappable into TPDOs), and path in Rust. Returns `None` if no PDO on CANopen can map
-/// the object.
+/// two flags (mappable into RPDOs, mappable into TPDOs), path in Rust, and the letters of its buses (`c` for CANopen, `e` for EtherCAT).
+/// Returns `None` if no PDO can map the object.
 fn object(
     device: &Device,
     id: ItemId,
@@ -58,17 +97,22 @@ fn object(
     calls: &Calls,
 ) -> Option<Json> {
     let (index, sub_index) = item.object()?;
-    let mappable = pdo::mappable(item, mapped);
-    if !(mappable.rpdo || mappable.tpdo) || item.bindings.iter().all(|binding| !on_canopen(binding)) {
+    let (mappable, buses) = (pdo::mappable(item, mapped), buses(item));
+    if !(mappable.rpdo || mappable.tpdo) || buses.is_empty() {
         return None;
     }
     let bits = pdo::mapped_bits(item, &device.types)?;
     let call = calls.get(&id).and_then(|calls| calls.first()).map_or("", String::as_str);
     let path = call.trim_start_matches("device.").rsplit_once("().").map_or("", |(path, _)| path).replace("().", "::");
     let name = format!("{} {}", address::object(index, sub_index), item.name);
-    Some(json!([index, sub_index, bits, name.trim(), mappable.rpdo, mappable.tpdo, path]))
+    Some(json!([index, sub_index, bits, name.trim(), mappable.rpdo, mappable.tpdo, path, buses]))
 }
 
-fn on_canopen(binding: &Binding) -> bool {
-    matches!(binding, Binding::Object { buses: ObjectBuses { canopen: true, .. }, .. })
+/// Returns the letters of the buses on which an item is an object.
+fn buses(item: &Item) -> String {
+    let has = |is_on: fn(&ObjectBuses) -> bool| {
+        item.bindings.iter().any(|binding| matches!(binding, Binding::Object { buses, .. } if is_on(buses)))
+    };
+    let all = [("c", has(|buses| buses.canopen)), ("e", has(|buses| buses.coe))];
+    all.into_iter().filter(|(_, has)| *has).map(|(letter, _)| letter).collect()
 }

@@ -7,26 +7,31 @@ use super::codes::Codes;
 use super::link::{Link, Relation};
 use super::references::Targets;
 use lexibus_codegen::facts::mentions::{Mention, Mentions};
+use lexibus_codegen::facts::referrers::Part;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{CodeRow, Device, ItemId};
 
-/// The items that have a value with the same number and name as a code.
-struct Values<'d>(HashMap<(i128, Option<i128>, &'d str), Vec<ItemId>>);
+/// First number, last number and name of a code or named value.
+type CodeKey<'d> = (i128, Option<i128>, &'d str);
+
+/// The items that have a value with the same number and name as a code, with this value.
+struct Values<'d>(HashMap<CodeKey<'d>, Vec<(ItemId, Part)>>);
 
 impl<'d> Values<'d> {
     fn new(device: &'d Device) -> Self {
         let types = Owner::of_types(&device.types);
         let items = (0..).zip(&device.groups).flat_map(|(position, group)| group.items_at(position));
-        let mut values: HashMap<_, Vec<ItemId>> = HashMap::new();
+        let mut values: HashMap<_, Vec<_>> = HashMap::new();
         for (id, item) in items {
-            for value in types.enumeration(item.ty).map_or(&[][..], |(values, _)| values) {
-                values.entry((value.value, value.last, value.name.as_str())).or_default().push(id);
+            for (at, value) in types.enumeration(item.ty).map_or(&[][..], |(values, _)| values).iter().enumerate() {
+                let key = (value.value, value.last, value.name.as_str());
+                values.entry(key).or_default().push((id, Part::Value(at)));
             }
         }
         Values(values)
     }
 
-    fn of(&self, row: &'d CodeRow) -> &[ItemId] {
+    fn of(&self, row: &'d CodeRow) -> &[(ItemId, Part)] {
         self.0.get(&(row.code, row.last, row.name.as_str())).map_or(&[], Vec::as_slice)
     }
 }
@@ -71,6 +76,12 @@ fn items(mentions: &[Mention]) -> impl Iterator<Item = ItemId> + '_ {
     })
 }
 
+/// Returns the link to a named value. Its title is that of the item, because the code has the name of the value.
+fn to_value(targets: &Targets<'_>, id: ItemId, part: Part) -> Option<Link> {
+    let (item, value) = (targets.item(Some(id))?, targets.part(id, part)?);
+    Some(Link { title: item.title.clone(), target: value.target.clone() })
+}
+
 /// Adds relations to the tables and codes on these pages. `pages` contains the file and the tables of each page.
 /// Returns the links from items to codes.
 pub(super) fn link<'p>(
@@ -94,10 +105,11 @@ pub(super) fn link<'p>(
         for code in &mut shown.rows {
             let Some(row) = table.rows.get(code.position) else { continue };
             let (values, of_row) = (values.of(row), mentions.of_row(table, row));
-            of_items.add_table(values.iter().copied(), shown.position, &to_table);
+            of_items.add_table(values.iter().map(|(id, _)| *id), shown.position, &to_table);
             let to_row = link(&code.anchor, &format!("{} {}", code.number, code.name));
             items(&of_row).for_each(|id| of_items.add(id, &to_row));
-            let value_of = Relation::new("Value of", values.iter().filter_map(|id| targets.item(Some(*id))));
+            let to_values: Vec<Link> = values.iter().filter_map(|&(id, part)| to_value(targets, id, part)).collect();
+            let value_of = Relation::new("Value of", &to_values);
             code.relations = [value_of, relation("See", &of_row)].into_iter().flatten().collect();
         }
     }

@@ -1,7 +1,5 @@
 //! Rows of the item tables. Each item has a row, and facts without a column are shown below the row.
 
-use std::collections::HashMap;
-
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
@@ -9,6 +7,7 @@ use super::link::{self, Relation};
 use super::requests::{self, Request};
 use super::tools;
 use super::words::{self, PLAIN};
+use lexibus_codegen::backend::rust::Calls;
 use lexibus_codegen::facts::number::ALLOWED_SHOWN;
 use lexibus_codegen::facts::words::{capital, row_of, sentence};
 use lexibus_codegen::facts::{address, item, types};
@@ -124,9 +123,6 @@ impl Row {
     }
 }
 
-/// The Rust code that reads and writes each item.
-pub(super) type Calls = HashMap<ItemId, Vec<String>>;
-
 /// Facts about the description that do not belong to an item.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
@@ -138,6 +134,8 @@ pub(super) struct Known<'d> {
     /// Lines of Rust code that read and write each item.
     pub calls: &'d Calls,
     pub diagnostics: &'d ShownDiagnostics,
+    /// API, slot and subslot of the submodule whose records contain the items.
+    pub records: &'d str,
 }
 
 /// Returns the ambiguities in `all` that are about the element with this kind and name.
@@ -169,7 +167,7 @@ impl Rows<'_> {
         match self.shown.iter().find(|(ty, ..)| *ty == item.ty) {
             Some((_, anchor, name)) => same_as = Some((anchor.clone(), name.clone())),
             None => {
-                (drawn, labels) = bits::of_type(self.types, item.ty);
+                (drawn, labels) = bits::of_type(self.types, item.ty, &anchor);
                 if drawn.is_some() || !labels.is_empty() {
                     let has_name = !item::is_placeholder(&item.name);
                     let name = if has_name { item.name.to_string() } else { number.clone() };
@@ -213,8 +211,8 @@ impl Rows<'_> {
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             scale: tools::scale(item),
             writable: tools::range(item),
-            requests: tools::addresses(item, self.types, self.known.modbus),
-            fixed_requests: requests::requests(item, self.types, self.known.modbus),
+            requests: tools::addresses(item, self.types, self.known.modbus, self.known.records),
+            fixed_requests: requests::requests(item, self.types, self.known.modbus, self.known.records),
             bits: drawn,
             labels,
             same_as,

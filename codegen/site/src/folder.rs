@@ -1,4 +1,4 @@
-//! Writes the pages of a catalog. Each device has a folder. If a description file has several devices, the pages that they share are in a separate folder for this file.
+//! Writes the pages of a catalog. Each device has a folder, and each description file has a folder for the pages that its devices share.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -28,6 +28,7 @@ use super::split;
 use super::twins;
 use super::Page;
 use lexibus_codegen::backend::rust;
+use lexibus_codegen::facts::profinet::ANY_SUBMODULE;
 use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Manual};
 
@@ -37,8 +38,7 @@ pub(super) struct Folder<'a> {
     addresses: &'a Addresses,
     /// Name of the description.
     name: String,
-    /// Folder of the pages that the devices share, relative to the site's folder. A description of one device has only the folder
-    /// of this device.
+    /// Folder of the pages that the devices share, relative to the site's folder.
     pub home: String,
     /// Folder of the pages that are being written, and their names.
     open: String,
@@ -95,16 +95,9 @@ impl<'a> Folder<'a> {
         self.files.file(FIRST);
     }
 
-    /// Writes all pages of the catalog.
+    /// Writes all pages of the catalog. The addresses of the shared pages do not depend on the number of devices.
     pub fn catalog(&mut self, catalog: &Catalog) {
-        let only = match catalog.devices.as_slice() {
-            [device] => Some(device),
-            _ => None,
-        };
-        self.home = match only {
-            Some(device) => self.addresses.device(device, &(self.name.clone(), 0)),
-            None => self.addresses.shared(&self.name),
-        };
+        self.home = self.addresses.shared(&self.name);
         self.open(self.home.clone());
         // The device pages link to the shared pages, so the file names of the shared pages are determined first.
         let modules = self.modules(catalog);
@@ -115,37 +108,43 @@ impl<'a> Folder<'a> {
         shared.extend(diagnostics.iter().cloned());
         // The first module page links to all module pages.
         let many = modules.files.len().min(1)..modules.files.len();
-        let list = only.is_none().then(|| (first.clone(), self.name.clone()));
+        let is_single = catalog.devices.len() == 1;
+        let list = (!is_single).then(|| (first.clone(), self.name.clone()));
         let shared = Rc::new(Links::new(shared, many));
         let common = Common { modules: &modules, path: String::new(), list, shared };
         let languages_of_modules = languages_of_modules(catalog);
-        if let Some(device) = only {
-            self.device((0, String::new()), device, catalog, &languages_of_modules, &common);
-        } else {
-            let of_folder = common.from(&format!("{ROOT}/{}/", self.home));
-            let notes = twins::notes(catalog).into_iter().enumerate();
-            for (at, note) in notes.filter_map(|(at, note)| Some((at, note?))) {
-                let device = &catalog.devices[at];
-                self.open(self.addresses.device(device, &(self.name.clone(), at)));
-                self.device((at, note), device, catalog, &languages_of_modules, &of_folder);
-            }
-            self.open(self.home.clone());
-        }
-        self.listed.first = format!("{}/{first}", self.home);
+        self.devices(catalog, &languages_of_modules, &common.from(&format!("{ROOT}/{}/", self.home)));
+        let device_pages = if is_single { Rc::new(self.pages_of_last()) } else { Rc::default() };
+        self.open(self.home.clone());
+        self.listed.folder = self.home.clone();
         self.listed.shared =
             common.shared.all().map(|(file, title)| (format!("{}/{file}", self.home), title.clone())).collect();
-        let title = only.map_or_else(|| self.name.clone(), title);
-        let device_pages = if only.is_some() { self.last.clone() } else { Rc::default() };
+        let title = catalog.devices.first().filter(|_| is_single).map_or_else(|| self.name.clone(), title);
         let frame = self.frame(title, device_pages, &common, languages(&catalog.devices, &languages_of_modules));
         self.module_pages(&modules, &frame);
         for ((file, _), groups) in diagnostics.iter().zip(&groups) {
             self.page(&frame, file, Content::Diagnostics(groups));
         }
-        if only.is_none() {
+        if !is_single {
             let devices = std::mem::take(&mut self.listed.devices);
             self.page(&frame, &first, Content::List { devices: &devices, is_part: false });
             self.listed.devices = devices;
         }
+    }
+
+    /// Writes the pages of all devices. Identical devices have the same pages.
+    fn devices(&mut self, catalog: &Catalog, languages_of_modules: &BTreeSet<&str>, common: &Common<'_>) {
+        let notes = twins::notes(catalog).into_iter().enumerate();
+        for (at, note) in notes.filter_map(|(at, note)| Some((at, note?))) {
+            let device = &catalog.devices[at];
+            self.open(self.addresses.device(device, &(self.name.clone(), at)));
+            self.device((at, note), device, catalog, languages_of_modules, common);
+        }
+    }
+
+    /// Returns the links from the shared pages to the pages of the device that was written last.
+    fn pages_of_last(&self) -> Links {
+        self.last.moved(|(file, title)| (format!("{ROOT}/{}/{file}", self.open), title.clone()))
     }
 
     /// Returns what the pages of a device or description have in common.
@@ -243,6 +242,7 @@ impl<'a> Folder<'a> {
             modbus: &device.modbus,
             calls: &usage.calls,
             diagnostics: self.diagnostics,
+            records: ANY_SUBMODULE,
         };
         let mut areas = area::areas(&device.groups, &device.types, known, html::size_of_section, &mut self.files);
         for area in &mut areas {

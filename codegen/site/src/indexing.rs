@@ -5,6 +5,7 @@ use super::codes::Codes;
 use super::entry::Row;
 use super::machines::Behavior;
 use super::modules::ModuleModel;
+use super::part_anchors;
 use super::process::Frame;
 use super::protocol::Protocol;
 use super::search::{Entry, Index};
@@ -38,18 +39,22 @@ pub(super) fn rows(index: &mut Index, rows: &[Row]) {
 
 /// Adds the bit fields, their named values, and the named values of a row. Their numbers, such as `bit 4`, are relative to the row, whose entry precedes them.
 fn parts(index: &mut Index, row: &Row) {
-    let mut part = |number: &str, name: &str, names: &[(String, String)]| {
+    let mut part = |number: &str, anchor: &str, name: &str, names: &[(String, String)]| {
+        let anchor = anchor.strip_prefix(&row.anchor).map_or(anchor, |part| part.trim_start_matches('.'));
+        // The script derives the other anchors from the number.
+        let anchor = if anchor == part_anchors::of_number(number) { "" } else { anchor };
         if !name.is_empty() {
-            index.entry(&Entry { names, ..entry(number, number, name) });
+            index.entry(&Entry { names, ..entry(anchor, number, name) });
         }
     };
     for field in row.bits.iter().flat_map(|bits| &bits.fields) {
-        let number = format!("bit {}", field.bits);
-        part(&number, &field.name, &field.names);
-        field.values.iter().for_each(|value| part(&number, &value.name, &value.names));
+        part(&field.number(), &field.anchor, &field.name, &field.names);
+        for value in &field.values {
+            part(&field.number(), &value.anchor, &value.name, &value.names);
+        }
     }
     for label in &row.labels {
-        part(&format!("value {}", label.number), &label.name, &label.names);
+        part(&label.number(), &label.anchor, &label.name, &label.names);
     }
 }
 

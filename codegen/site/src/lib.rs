@@ -49,6 +49,7 @@ mod markdown;
 mod modules;
 mod overview;
 mod pages;
+mod part_anchors;
 mod parts;
 mod process;
 mod protocol;
@@ -190,7 +191,7 @@ impl Site {
         pages::sort(&mut devices);
         // If there is only one catalog, its index already contains all entries.
         let index = match self.catalogs.as_slice() {
-            [only] => only.first.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default(),
+            [only] => format!("{}/", only.folder),
             _ => String::new(),
         };
         let columns = list::columns(&devices);

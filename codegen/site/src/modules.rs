@@ -6,14 +6,16 @@ use std::ops::Range;
 use super::anchor::Names;
 use super::area::Section;
 use super::diagnostics::ShownDiagnostics;
-use super::entry::{Calls, Known, Row, Rows};
+use super::entry::{Known, Row, Rows};
 use super::process::{self, About, Frame};
 use super::split;
 use super::words;
+use lexibus_codegen::backend::rust::{self, Calls};
 use lexibus_codegen::facts::number::{hex16, hex32};
-use lexibus_codegen::facts::{address, item};
+use lexibus_codegen::facts::{address, item, profinet};
 use lexibus_codegen::ir::{
-    Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ObjectBuses, Submodule, TypeDef,
+    Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ModuleId, ObjectBuses, Submodule,
+    SubmoduleId, TypeDef,
 };
 
 /// Maximum number of modules per page.
@@ -118,7 +120,8 @@ fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel>
         .map(|submodule| names.anchor(&format!("submodule-{:08X}", submodule.ident)))
         .collect();
     let mut all: Vec<ModuleModel> = Vec::new();
-    for each in &catalog.modules {
+    let calls = rust::usage_of_modules(catalog);
+    for (id, each) in (0..).map(ModuleId).zip(&catalog.modules) {
         let parts = each.submodules.iter().filter_map(|used| {
             let at = used.submodule.0 as usize;
             let submodule = catalog.submodules.get(at)?;
@@ -126,25 +129,33 @@ fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel>
             Some((name, anchors.get(at)?.clone()))
         });
         let anchor = names.anchor(&format!("module-{:08X}", each.number));
-        all.push(module(each, anchor, parts.collect(), diagnostics));
+        let items = Items { types: &each.types, calls: calls.get(&id), records: "", diagnostics };
+        all.push(module(each, anchor, parts.collect(), items));
     }
-    all.extend(
-        catalog.submodules.iter().zip(anchors).map(|(each, anchor)| submodule(catalog, each, anchor, diagnostics)),
-    );
+    let submodules = (0..).map(SubmoduleId).zip(&catalog.submodules).zip(anchors);
+    all.extend(submodules.map(|((id, each), anchor)| submodule(catalog, (id, each), anchor, diagnostics)));
     all
 }
 
+/// What the items of a module or submodule have in common.
+#[derive(Clone, Copy)]
+struct Items<'m> {
+    types: &'m [TypeDef],
+    /// Rust code that reads and writes each item.
+    calls: Option<&'m Calls>,
+    /// API, slot and subslot of a submodule.
+    records: &'m str,
+    diagnostics: &'m ShownDiagnostics,
+}
+
 /// Returns the items of a module in sections. The anchors of the items begin with the module's anchor.
-fn sections<'g>(
-    groups: impl Iterator<Item = &'g Group>,
-    types: &[TypeDef],
-    anchor: &str,
-    diagnostics: &ShownDiagnostics,
-) -> Vec<(String, Section)> {
-    let (manual, calls, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
-    let known = Known { manual: &manual, doubts: &[], modbus: &[], calls: &calls, diagnostics };
+fn sections<'g>(groups: impl Iterator<Item = &'g Group>, items: Items<'_>, anchor: &str) -> Vec<(String, Section)> {
+    let (manual, none, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
+    let Items { types, calls, records, diagnostics } = items;
+    let known =
+        Known { manual: &manual, doubts: &[], modbus: &[], calls: calls.unwrap_or(&none), diagnostics, records };
     let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
-    groups.map(|group| section(group, &mut rows)).collect()
+    (0..).zip(groups).map(|(position, group)| section(position, group, &mut rows)).collect()
 }
 
 /// Returns the facts about a module or submodule: its description and order code.
@@ -155,12 +166,7 @@ fn facts(name: &str, documentation: Option<&Documentation>, identity: &Identity)
     facts
 }
 
-fn module(
-    module: &Module,
-    anchor: String,
-    parts: Vec<(String, String)>,
-    diagnostics: &ShownDiagnostics,
-) -> ModuleModel {
+fn module(module: &Module, anchor: String, parts: Vec<(String, String)>, items: Items<'_>) -> ModuleModel {
     let names = words::names(&module.name, &module.names);
     ModuleModel {
         number: hex32(module.number),
@@ -174,13 +180,21 @@ fn module(
             &module.types,
             About { buses: ObjectBuses::COE, manual: &Manual::default(), doubts: &[] },
         ),
-        sections: sections(module.fixed_objects.iter().chain(&module.groups), &module.types, &anchor, diagnostics),
+        sections: sections(module.fixed_objects.iter().chain(&module.groups), items, &anchor),
         parts,
         anchor,
     }
 }
 
-fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnostics: &ShownDiagnostics) -> ModuleModel {
+fn submodule(
+    catalog: &Catalog,
+    (id, submodule): (SubmoduleId, &Submodule),
+    anchor: String,
+    diagnostics: &ShownDiagnostics,
+) -> ModuleModel {
+    let has_records = !submodule.records.is_empty();
+    let records = if has_records { profinet::address_of_records(catalog, id) } else { String::new() };
+    let items = Items { types: &catalog.types, calls: None, records: &records, diagnostics };
     let mut facts = facts(&submodule.name, submodule.documentation.as_deref(), &submodule.identity);
     facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
     facts.extend(
@@ -198,13 +212,13 @@ fn submodule(catalog: &Catalog, submodule: &Submodule, anchor: String, diagnosti
         translations: words::translations(&submodule.name, &names, submodule.documentation.as_deref()),
         names,
         frames: inputs.into_iter().chain(outputs).collect(),
-        sections: sections(submodule.records.iter(), &catalog.types, &anchor, diagnostics),
+        sections: sections(submodule.records.iter(), items, &anchor),
         parts: Vec::new(),
         anchor,
     }
 }
 
-fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
+fn section(position: u32, group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
     let address = match &group.kind {
         GroupKind::Record(record) => format!("Record {}", hex16(record.index)),
         GroupKind::Object { index, .. } => format!("Object {}", hex16(*index)),
@@ -216,5 +230,5 @@ fn section(group: &Group, rows: &mut Rows<'_>) -> (String, Section) {
         address::addresses(item, &[]).first().map_or_else(String::new, |address| address.number.clone())
     };
     let row = |(id, item)| Row { name: item::entry_name(item, group), ..rows.row(id, item, number(item), false) };
-    (title, Section::plain(group.items_at(0).map(row).collect()))
+    (title, Section::plain(group.items_at(position).map(row).collect()))
 }

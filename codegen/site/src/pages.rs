@@ -88,8 +88,9 @@ impl Frameset {
 #[derive(Debug, Default)]
 pub(super) struct ListedCatalog {
     pub title: String,
-    /// Path of the first page, relative to the site's folder.
-    pub first: String,
+    /// Folder of the pages that all devices share, relative to the site's folder. If there are several devices, its first page lists
+    /// them.
+    pub folder: String,
     pub devices: Vec<Listed>,
     /// Paths and titles of the pages that all devices share.
     pub shared: Vec<(String, String)>,

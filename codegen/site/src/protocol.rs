@@ -119,12 +119,19 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
     facts.extend(message.availability.as_ref().map(|availability| PLAIN.availability(availability)));
     facts.extend(PLAIN.manual_entry(manual, "", message.documentation.as_deref(), &message.names));
     facts.retain(|fact| !fact.is_empty());
-    let mut parts = Parts { types: &device.types, all: Vec::new(), doubts: message.doubts.to_vec() };
+    let anchor = names.anchor(&message.name);
+    let mut parts = Parts {
+        types: &device.types,
+        names: Names::within(&format!("{anchor}.request")),
+        all: Vec::new(),
+        doubts: message.doubts.to_vec(),
+    };
     parts.fields(&message.request, 0);
     let request = std::mem::take(&mut parts.all);
+    parts.names = Names::within(&format!("{anchor}.reply"));
     parts.fields(&message.reply, 0);
     MessageModel {
-        anchor: names.anchor(&message.name),
+        anchor,
         name: message.name.to_string(),
         names: words::names(&message.name, &message.names),
         facts,
@@ -146,6 +153,8 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
 /// Collects the fields of a frame, including the fields inside repetitions.
 struct Parts<'d> {
     types: &'d [TypeDef],
+    /// Anchors of the fields in the frame.
+    names: Names,
     all: Vec<Part>,
     /// Ambiguities of the message and of its fields.
     doubts: Vec<lexibus_codegen::ir::Doubt>,
@@ -195,7 +204,7 @@ impl Parts<'_> {
         let item = &value.item;
         self.doubts.extend(item.doubts.iter().cloned());
         let basic = types::basic(self.types, item.ty);
-        let (bits, labels) = bits::of_type(self.types, item.ty);
+        let (bits, labels) = bits::of_type(self.types, item.ty, &self.names.anchor(&item.name));
         let mut facts = vec![format!("{}.", types::name(self.types, item.ty))];
         facts.extend(
             PLAIN

@@ -3,20 +3,23 @@
 use std::collections::HashMap;
 
 use super::area::Area;
+use super::entry::Row;
 use super::link::{Link, Relation};
 use super::machines::{Behavior, Machine};
 use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::facts::mentions::Mention;
 use lexibus_codegen::facts::number::hex16;
-use lexibus_codegen::facts::referrers::{Referrer, Referrers};
+use lexibus_codegen::facts::referrers::{self, Part, Referrer, Referrers};
 use lexibus_codegen::ir::owner::Owner;
-use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef, Type, TypeId};
+use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef};
 
 /// Links to the elements of a device.
 pub(super) struct Targets<'d> {
     pub(super) device: &'d Device,
     items: HashMap<ItemId, Link>,
+    /// The bits and values of the items that show them.
+    parts: HashMap<(ItemId, Part), Link>,
     /// The objects with several entries, by their indices in the notation of the pages.
     objects: HashMap<String, Link>,
     pdos: Vec<Link>,
@@ -42,7 +45,7 @@ impl<'d> Targets<'d> {
             title: title.to_owned(),
             target: format!("{file}#{anchor}"),
         };
-        let (mut items, mut objects) = (HashMap::new(), HashMap::new());
+        let (mut items, mut parts, mut objects) = (HashMap::new(), HashMap::new(), HashMap::new());
         for (area, section) in
             pages.areas.iter().flat_map(|area| area.sections.iter().map(move |section| (area, section)))
         {
@@ -52,6 +55,9 @@ impl<'d> Targets<'d> {
             }
             for row in &section.rows {
                 let title = format!("{} {}", row.number, row.name);
+                for (part, anchor, name) in parts_of(row) {
+                    parts.insert((row.id, part), link(&area.file, anchor, &format!("{}: {name}", title.trim())));
+                }
                 items.insert(row.id, link(&area.file, &row.anchor, title.trim()));
             }
         }
@@ -76,6 +82,7 @@ impl<'d> Targets<'d> {
         Targets {
             device,
             items,
+            parts,
             objects,
             pdos: frames().take(pdos).collect(),
             images: images.iter().map(|image| image.name.as_str()).zip(frames().skip(pdos)).collect(),
@@ -89,6 +96,11 @@ impl<'d> Targets<'d> {
     /// Returns the link to an item, if a page shows it.
     pub fn item(&self, id: Option<ItemId>) -> Option<&Link> {
         self.items.get(&id?)
+    }
+
+    /// Returns the link to a bit or value of an item. Returns the link to the item if its row refers to another row with the same type.
+    pub fn part(&self, id: ItemId, part: Part) -> Option<&Link> {
+        self.parts.get(&(id, part)).or_else(|| self.item(Some(id)))
     }
 
     /// Returns the link to an element that a text mentions.
@@ -133,13 +145,14 @@ impl<'d> Targets<'d> {
         related.mapped.extend(images.cloned());
         related.items.extend(self.refers(item.related.iter().flat_map(|related| related.all())));
         let conditions = item.behavior.iter().flat_map(|behavior| &behavior.write_when);
+        let of_type = referrers::conditions(owner, item.ty).into_iter().map(|(_, condition)| condition);
         let availability = item.availability.as_ref();
         let replacement = availability.and_then(|availability| availability.replaced_by.as_ref()?.id?.item());
         let lists = [
             ("Mapped in", related.mapped),
             ("Used by", related.users),
             ("Condition for", related.dependents),
-            ("Depends on", self.refers(conditions.map(|condition| &condition.item))),
+            ("Depends on", self.refers(conditions.chain(of_type).map(|condition| &condition.item))),
             ("Related", related.items),
             ("Replaces", related.replaced),
             ("Replaced by", self.item(replacement).into_iter().cloned().collect()),
@@ -153,19 +166,23 @@ impl<'d> Targets<'d> {
             Referrer::Machine(at) => related.users.extend(self.machines.get(at).cloned()),
             Referrer::Procedure(id) => related.users.extend(self.procedures.get(id.0 as usize).cloned()),
             Referrer::Message(id) => related.dependents.extend(self.messages.get(id.0 as usize).cloned()),
-            Referrer::Type(id) => related.dependents.extend(self.first_of_type(id)),
+            Referrer::Meaning(item, part) => related.dependents.extend(self.part(item, part).cloned()),
             Referrer::WritableWhen(item) => related.dependents.extend(self.item(Some(item)).cloned()),
             Referrer::Replaced(item) => related.replaced.extend(self.item(Some(item)).cloned()),
             Referrer::Related(item) => related.items.extend(self.item(Some(item)).cloned()),
         }
     }
+}
 
-    /// Returns the link to the first item with a type.
-    fn first_of_type(&self, id: TypeId) -> Option<Link> {
-        let ty = Type::Named(id);
-        let items = (0..).zip(&self.device.groups).flat_map(|(position, group)| group.items_at(position));
-        items.filter(|(_, item)| item.ty == ty).find_map(|(id, _)| self.item(Some(id))).cloned()
-    }
+/// Returns the bits and values that a row shows, with their anchors and names.
+fn parts_of(row: &Row) -> impl Iterator<Item = (Part, &str, String)> {
+    let fields = row.bits.iter().flat_map(|bits| bits.fields.iter().enumerate());
+    let fields =
+        fields.map(|(at, field)| (Part::Bit(at), field.anchor.as_str(), format!("{} {}", field.number(), field.name)));
+    let labels = row.labels.iter().enumerate();
+    let labels = labels
+        .map(|(at, label)| (Part::Value(at), label.anchor.as_str(), format!("{} {}", label.number(), label.name)));
+    fields.chain(labels)
 }
 
 /// Links to the elements that refer to an item.

@@ -28,7 +28,9 @@ pub(super) fn is_of_record((title, _): &Request) -> bool {
 
 /// Returns the requests of an item. The node-ID or the unit is 1. Write requests have the default value, or `xx` for its bytes if the
 /// item has no default value.
-pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> Vec<Request> {
+///
+/// `of_records` is the address of the submodule that has the records of the item.
+pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> Vec<Request> {
     let mut all = Vec::new();
     for binding in &item.bindings {
         match binding {
@@ -54,7 +56,7 @@ pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -
             }
             Binding::Record { index, bit_offset, bits } => {
                 let access = item.access_on(Bus::Profinet);
-                let text = record(*index, *bit_offset, *bits);
+                let text = record(of_records, *index, *bit_offset, *bits);
                 let [read, write] = RECORD;
                 all.extend(access.readable().then(|| (read, text.clone())));
                 all.extend(access.writable().then_some((write, text)));
@@ -205,14 +207,11 @@ fn rtu(function: u8, address: u16, data: &[Option<u8>]) -> String {
     }
 }
 
-/// Returns the address of a value in a record. The text contains `slot n`, because the slot of the submodule depends on the
-/// configuration.
-fn record(index: u16, bit_offset: u32, bits: u32) -> String {
+/// Returns the address of a value in a record. `submodule` is the address of the submodule that has the record.
+fn record(submodule: &str, index: u16, bit_offset: u32, bits: u32) -> String {
     let (last, length) = ((bit_offset + bits).saturating_sub(1), tools::record_length(bit_offset, bits));
-    format!(
-        "API 0, slot n, subslot 1, index {}, length {length}; the value is in bits {bit_offset} to {last}",
-        hex16(index)
-    )
+    let index = hex16(index);
+    format!("{submodule}, index {index}, length {length}; the value is in bits {bit_offset} to {last}")
 }
 
 #[cfg(test)]
@@ -221,7 +220,7 @@ mod tests {
     use lexibus_codegen::ir::{Access, Buses, ItemVariant, ObjectBuses, Value};
 
     fn texts(item: &Item) -> Vec<String> {
-        requests(item, &[], &[]).into_iter().map(|(title, text)| format!("{title}: {text}")).collect()
+        requests(item, &[], &[], "").into_iter().map(|(title, text)| format!("{title}: {text}")).collect()
     }
 
     fn item(binding: Binding, ty: Type, default: Option<i128>) -> Item {

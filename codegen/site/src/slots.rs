@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::link::{Link, Relation};
 use super::modules::Modules;
-use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::{hex16, ranges};
+use lexibus_codegen::facts::{self, profinet};
 use lexibus_codegen::ir::{Catalog, Device, Fit, GroupKind, Numbers, Slot, SlotNumbers, Submodule, SubmoduleKind};
 
 /// Maximum number of modules that one overview links to. The pages of the modules list all modules.
@@ -16,9 +16,6 @@ const FOLDED: usize = 12;
 
 /// Maximum number of slot names in one row.
 const MOST_NAMES: usize = 4;
-
-/// First subslot of interfaces and ports.
-const FIRST_INTERFACE: u16 = 0x8000;
 
 /// Slots with the same modules.
 #[derive(Debug)]
@@ -112,20 +109,6 @@ fn assign(assigned: &mut Assigned, at: usize, places: &SlotNumbers) {
     }
 }
 
-/// Formats the number of a slot.
-fn slot_number(slot: u16) -> String {
-    slot.to_string()
-}
-
-/// Formats the number of a subslot. The subslots of interfaces and ports are hexadecimal: `0x8000`.
-fn subslot_number(subslot: u16) -> String {
-    if subslot < FIRST_INTERFACE {
-        subslot.to_string()
-    } else {
-        hex16(subslot)
-    }
-}
-
 /// The names of slots or subslots, and the format of their numbers.
 struct Named<'d> {
     names: BTreeMap<u16, &'d str>,
@@ -176,7 +159,7 @@ pub(super) fn slots(catalog: &Catalog, device: &Device, links: ModuleLinks<'_>) 
     device.modules.iter().for_each(|used| assign(&mut assigned, used.module.0 as usize, &used.places));
     preset(catalog, device, &mut assigned);
     let names = device.slots.iter().map(|slot| (slot.number, slot.name.as_str())).collect();
-    let mut slots = rows(&assigned, &Named { names, number: slot_number }, links, &mut left);
+    let mut slots = rows(&assigned, &Named { names, number: profinet::slot }, links, &mut left);
     slots.extend(empty(device, &assigned));
     let mut assigned = Assigned::new();
     for used in &device.submodules {
@@ -184,7 +167,7 @@ pub(super) fn slots(catalog: &Catalog, device: &Device, links: ModuleLinks<'_>) 
     }
     let of_subslots = device.profinet.iter().flat_map(|settings| &settings.subslot_names);
     let names = of_subslots.map(|subslot| (subslot.number, subslot.name.as_str())).collect();
-    let subslots = rows(&assigned, &Named { names, number: subslot_number }, links, &mut left);
+    let subslots = rows(&assigned, &Named { names, number: profinet::subslot }, links, &mut left);
     Slots { slots, subslots, records: records(catalog, device, links) }
 }
 
@@ -216,7 +199,7 @@ fn empty(device: &Device, assigned: &Assigned) -> Vec<SlotRow> {
         is_assigned[usize::from(first)..=usize::from(last)].fill(true);
     }
     let row = |slot: &Slot| SlotRow {
-        numbers: ranges(&Numbers([(slot.number, last(slot))].into_iter().collect()), slot_number),
+        numbers: ranges(&Numbers([(slot.number, last(slot))].into_iter().collect()), profinet::slot),
         name: slot.name.to_string(),
         modules: Relation { title: "", links: Vec::new(), others: 0 },
         note: match (device.profinet.is_some(), slot.fits.is_empty()) {

@@ -38,9 +38,9 @@ pub(super) fn range(item: &Item) -> String {
 ///   no requests on EtherCAT.
 /// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
 ///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
-/// - `r 1 8 16 4`: record, bit offset and number of bits of the item, and number of bytes from the start of the record to the end
-///   of the item.
-pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) -> String {
+/// - `r 1 8 16 4 API 0, slot 1, subslot 1`: record, bit offset and number of bits of the item, number of bytes from the start of the
+///   record to the end of the item, and `of_records`, the address of the submodule that has the record.
+pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> String {
     let address = |binding: &Binding| match binding {
         Binding::Object { buses, index, sub_index } => {
             let buses = [(buses.canopen, "c", Bus::CanOpen), (buses.coe, "e", Bus::EtherCat)].into_iter();
@@ -49,7 +49,7 @@ pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable]) 
         }
         Binding::Register(register) => Some(registers(register, item, types, tables)),
         Binding::Record { index, bit_offset, bits } => {
-            Some(format!("r {index} {bit_offset} {bits} {}", record_length(*bit_offset, *bits)))
+            Some(format!("r {index} {bit_offset} {bits} {} {of_records}", record_length(*bit_offset, *bits)))
         }
         _ => None,
     };
@@ -113,14 +113,14 @@ mod tests {
         let buses = ObjectBuses { canopen: true, coe: true };
         let binding = Binding::Object { buses, index: 0x6040, sub_index: 0 };
         let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
-        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 ce");
+        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 ce");
         let variant = |bus| ItemVariant { buses: Buses::from_iter([bus]), ..ItemVariant::default() };
         item.variants.push(ItemVariant { access: Some(Access::ReadOnly), ..variant(Bus::CanOpen) });
-        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 cre");
+        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 cre");
         item.variants.push(ItemVariant { ty: Some(Type::Unsigned(32)), ..variant(Bus::EtherCat) });
-        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 crer");
+        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 crer");
         item.access = Access::WriteOnly;
-        assert_eq!(addresses(&item, &[], &[]), "o 24640 0 cre-");
+        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 cre-");
     }
 
     #[test]
@@ -128,8 +128,8 @@ mod tests {
         let register = RegisterBinding { extended: true, ..RegisterBinding::new(RegisterSpace::Holding, 16, 2) };
         let binding = Binding::Register(Box::new(register));
         let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
-        assert_eq!(addresses(&item, &[], &[]), "m h 16 2 - 3/16");
+        assert_eq!(addresses(&item, &[], &[], ""), "m h 16 2 - 3/16");
         item.ty = Type::Integer(16);
-        assert_eq!(addresses(&item, &[], &[]), "m h 16 2 x 3/16");
+        assert_eq!(addresses(&item, &[], &[], ""), "m h 16 2 x 3/16");
     }
 }

@@ -5,11 +5,14 @@ use std::collections::HashMap;
 use super::number::hex16;
 use super::types;
 use crate::ir::{
-    Device, Direction, Group, Item, Mappable, ObjectBuses, Pdo, PdoEntryKind, Type, TypeDef, MAX_PDO_SUBS,
+    Coe, Device, Direction, Group, Item, Mappable, ObjectBuses, Pdo, PdoEntryKind, Type, TypeDef, MAX_PDO_SUBS,
 };
 
 /// Maximum length in bits of a mapped entry. A mapping value has 8 bits for the length of the entry.
 pub const MAX_ENTRY: u32 = 0xFF;
+
+/// Maximum length of a sync manager in bytes. The length register of a sync manager has 16 bits (ETG.1000.4 6.7.2).
+const MAX_SYNC_MANAGER: u16 = u16::MAX;
 
 /// Returns the buses on which a device has objects. A device with neither CANopen nor EtherCAT settings counts as a
 /// CANopen device.
@@ -78,4 +81,26 @@ pub fn writable_entries(mapping: &Group) -> Option<usize> {
     let is_writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
     let entries = (1..=u8::MAX).take_while(is_writable).count().min(MAX_PDO_SUBS);
     (is_writable(&0) && entries > 0).then_some(entries)
+}
+
+/// Returns whether an EtherCAT device allows a master to write mappings.
+pub fn configures(device: &Device) -> bool {
+    coe(device).is_some_and(|coe| coe.pdo_config)
+}
+
+/// Returns whether an EtherCAT device allows a master to write the assignment of PDOs to sync managers.
+pub fn assigns(device: &Device) -> bool {
+    coe(device).is_some_and(|coe| coe.pdo_assign)
+}
+
+fn coe(device: &Device) -> Option<&Coe> {
+    device.ethercat.as_ref()?.mailbox.as_ref()?.coe.as_ref()
+}
+
+/// Returns the maximum length of a PDO on EtherCAT in bytes.
+pub fn max_bytes_on_ethercat(device: &Device, pdo: &Pdo) -> u16 {
+    let managers = &device.process_data.sync_managers;
+    let sync_manager = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
+    let bytes = sync_manager.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
+    pdo.max_bytes.map_or(bytes, |maximum| maximum.min(bytes))
 }

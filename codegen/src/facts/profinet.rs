@@ -1,7 +1,10 @@
 //! Facts about device access points of PROFINET: slots, cycle times, redundancy and lengths of data.
 
-use super::number::ranges;
-use crate::ir::{Catalog, CompactString, Device, Numbers, ProfinetSettings, Submodule, SubmoduleKind};
+use super::number::{hex16, ranges};
+use crate::ir::{
+    Catalog, CompactString, Device, Numbers, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind,
+    SubmoduleUse,
+};
 
 /// Names and values of facts.
 pub type NamedFacts = Vec<(&'static str, String)>;
@@ -125,6 +128,78 @@ fn lengths(settings: &ProfinetSettings) -> NamedFacts {
         ("Input and output data", bytes(lengths.data)),
         ("Record data", format!("up to {} bytes", settings.max_record_size)),
     ]
+}
+
+/// First subslot of interfaces and ports.
+const FIRST_INTERFACE: u16 = 0x8000;
+
+/// Formats the number of a slot.
+pub fn slot(slot: u16) -> String {
+    slot.to_string()
+}
+
+/// Formats the number of a subslot. The subslots of interfaces and ports are hexadecimal: `0x8000`.
+pub fn subslot(subslot: u16) -> String {
+    if subslot < FIRST_INTERFACE {
+        subslot.to_string()
+    } else {
+        hex16(subslot)
+    }
+}
+
+/// Address of the records of a submodule that the description does not contain.
+pub const ANY_SUBMODULE: &str = "API, slot and subslot of the submodule";
+
+/// Returns the address of the records of a submodule: API, slot and subslot. If the configuration determines the slot or the subslot, the
+/// text names what to insert, and the possible numbers.
+pub fn address_of_records(catalog: &Catalog, submodule: SubmoduleId) -> String {
+    let (mut slots, mut subslots) = (Places::default(), Places::default());
+    let is_used = |used: &&SubmoduleUse| used.submodule == submodule;
+    for (device, settings) in catalog.devices.iter().filter_map(|device| Some((device, device.profinet.as_deref()?))) {
+        for used in device.submodules.iter().filter(is_used) {
+            slots.add(&settings.places, &Numbers::default());
+            subslots.add(&used.places, &Numbers::default());
+        }
+        for of_module in &device.modules {
+            let Some(module) = catalog.modules.get(of_module.module.0 as usize) else { continue };
+            for used in module.submodules.iter().filter(is_used) {
+                slots.add(&of_module.places, &settings.slots);
+                subslots.add(&used.places, &module.subslots);
+            }
+        }
+    }
+    let api = catalog.submodules.get(submodule.0 as usize).map_or(0, |submodule| submodule.api);
+    let api = if api == 0 { "0".to_owned() } else { hex16(api) };
+    format!("API {api}, slot {}, subslot {}", slots.text("the module", slot), subslots.text("the submodule", subslot))
+}
+
+/// Slots or subslots that can contain an element.
+#[derive(Default)]
+struct Places(Vec<(u16, u16)>);
+
+impl Places {
+    /// Adds the places of a use. If the description lists none, all places are possible.
+    fn add(&mut self, places: &SlotNumbers, all: &Numbers) {
+        let lists = [&places.fixed, &places.used, &places.allowed];
+        let before = self.0.len();
+        self.0.extend(lists.iter().flat_map(|list| &list.0));
+        if self.0.len() == before {
+            self.0.extend(&all.0);
+        }
+    }
+
+    /// Returns the only place, or the possible places of this element.
+    fn text(mut self, element: &str, number: fn(u16) -> String) -> String {
+        self.0.sort_unstable();
+        self.0.dedup();
+        match self.0.as_slice() {
+            [] => format!("of {element}"),
+            [(first, last)] if first == last => number(*first),
+            places => {
+                format!("of {element} ({})", ranges(&Numbers(places.iter().copied().collect()), number))
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,11 @@
 
 use std::collections::HashMap;
 
-use crate::ir::{Condition, Device, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape, Step, TypeDef, TypeId};
+use crate::ir::owner::Owner;
+use crate::ir::{
+    BitFieldEntry, BitMeaning, Condition, Device, EnumValue, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape,
+    Step, Type,
+};
 
 /// An element that refers to an item. An element without an id is identified by its position in the device's list.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,8 +19,8 @@ pub enum Referrer {
     Procedure(ProcedureId),
     /// A message that the device accepts only for some values of the item.
     Message(MessageId),
-    /// A type whose bits or values depend on the item.
-    Type(TypeId),
+    /// An item with a bit or value whose meaning depends on this item.
+    Meaning(ItemId, Part),
     /// An item that can be written only for some values of this item.
     WritableWhen(ItemId),
     /// An item that this item replaces.
@@ -24,6 +28,15 @@ pub enum Referrer {
     /// An item with the same value or quantity, with the lower half of the value, or with the elements that this item
     /// counts.
     Related(ItemId),
+}
+
+/// A part of an item, by its position in the item's type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// A bit field.
+    Bit(usize),
+    /// A named value.
+    Value(usize),
 }
 
 /// Elements that refer to each item.
@@ -47,11 +60,14 @@ impl Referrers {
         for (id, message) in (0..).map(MessageId).zip(&device.messages) {
             referrers.add_all(items_of(&message.accepted_when), Referrer::Message(id));
         }
-        for (id, definition) in (0..).map(TypeId).zip(&device.types) {
-            referrers.of_type(id, definition);
-        }
+        let types = Owner::of_types(&device.types);
         for (position, group) in (0..).zip(&device.groups) {
-            group.items_at(position).for_each(|(id, item)| referrers.of_item(id, item));
+            for (id, item) in group.items_at(position) {
+                referrers.of_item(id, item);
+                for (part, condition) in conditions(types, item.ty) {
+                    referrers.add(condition.item.id, Referrer::Meaning(id, part));
+                }
+            }
         }
         referrers
     }
@@ -59,15 +75,6 @@ impl Referrers {
     /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages, types and other items.
     pub fn of(&self, item: ItemId) -> &[Referrer] {
         self.0.get(&item).map_or(&[], Vec::as_slice)
-    }
-
-    fn of_type(&mut self, id: TypeId, definition: &TypeDef) {
-        let conditions: Vec<&Condition> = match &definition.shape {
-            Shape::BitField { fields, .. } => fields.iter().filter_map(|field| field.when.as_deref()).collect(),
-            Shape::Enumeration { values, .. } => values.iter().filter_map(|value| value.when.as_deref()).collect(),
-            _ => return,
-        };
-        self.add_all(items_of(conditions), Referrer::Type(id));
     }
 
     fn of_item(&mut self, id: ItemId, item: &Item) {
@@ -91,6 +98,30 @@ impl Referrers {
         if referrers.last() != Some(&referrer) {
             referrers.push(referrer);
         }
+    }
+}
+
+/// Returns the conditions on which the meanings of a type's bits and values depend. The named values of a bit field belong to this bit
+/// field.
+pub fn conditions<'d>(types: Owner<'d>, ty: Type) -> Vec<(Part, &'d Condition)> {
+    let of_values = |values: &'d [EnumValue]| {
+        values.iter().enumerate().filter_map(|(at, value)| Some((at, value.when.as_deref()?)))
+    };
+    let of_field = |(at, field): (usize, &'d BitFieldEntry)| {
+        let enumeration = match field.meaning {
+            BitMeaning::Enumeration(id) => types.enumeration(Type::Named(id)),
+            _ => None,
+        };
+        let of_values =
+            enumeration.into_iter().flat_map(|(values, _)| of_values(values)).map(|(_, condition)| condition);
+        field.when.as_deref().into_iter().chain(of_values).map(move |condition| (Part::Bit(at), condition))
+    };
+    match types.definition(ty).map(|definition| &definition.shape) {
+        Some(Shape::BitField { fields, .. }) => fields.iter().enumerate().flat_map(of_field).collect(),
+        Some(Shape::Enumeration { values, .. }) => {
+            of_values(values).map(|(at, condition)| (Part::Value(at), condition)).collect()
+        }
+        _ => Vec::new(),
     }
 }
 

@@ -137,7 +137,7 @@ pub enum Binding {
 }
 
 /// The buses on which an object has a certain address.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ObjectBuses {
     /// True if the object exists on CANopen.

@@ -1,23 +1,45 @@
-// The PDO builder: the reader chooses objects, and copies the SDOs that write the mapping (CiA 301, 7.5.2.36).
+// The PDO builder: the reader chooses objects, and copies the SDOs that write the mapping (CiA 301, 7.5.2.36; ETG.1000.6, 5.6.7.4).
 
-// Returns the SDO downloads that map objects into a PDO: index, sub-index and bytes of each.
+// Returns the SDO downloads that map objects into a PDO: index, sub-index and bytes of each. On CANopen, the PDO is disabled meanwhile. On
+// EtherCAT, no PDO is assigned to the sync manager meanwhile.
 function mappingWrites(pdo, objects, node) {
+  const mapped = objects.map(([index, sub, bits], at) => [pdo.mapping, at + 1, littleEndian(BigInt(index) << 16n | BigInt(sub) << 8n | BigInt(bits), 4)]);
+  const mapping = [[pdo.mapping, 0, [0]], ...mapped, [pdo.mapping, 0, [objects.length]]];
+  if (pdo.bus === "e") {
+    const [index, pdos] = pdo.assignment ?? [], assigned = (pdos ?? []).map((number, at) => [index, at + 1, littleEndian(BigInt(number), 2)]);
+    return pdo.assignment ? [[index, 0, [0]], ...mapping, ...assigned, [index, 0, [pdos.length]]] : mapping;
+  }
   const cobId = BigInt(pdo.cobId) + (pdo.ofNode ? BigInt(node) : 0n), disabled = 1n << 31n;
   const communication = (value) => pdo.communication ? [[pdo.communication, 1, littleEndian(value, 4)]] : [];
-  const mapped = objects.map(([index, sub, bits], at) => [pdo.mapping, at + 1, littleEndian(BigInt(index) << 16n | BigInt(sub) << 8n | BigInt(bits), 4)]);
-  return [
-    ...communication(cobId | disabled), [pdo.mapping, 0, [0]], ...mapped, [pdo.mapping, 0, [objects.length]],
-    ...communication(cobId & ~disabled),
-  ];
+  return [...communication(cobId | disabled), ...mapping, ...communication(cobId & ~disabled)];
 }
 
+const isEntry = ([index, sub]) => (object) => object[0] === index && object[1] === sub;
+
 // Returns why a mapping is invalid; an empty text if it is valid.
-function mappingProblem(pdo, objects, granularity) {
+function mappingProblem(pdo, objects) {
   const bits = objects.reduce((sum, object) => sum + object[2], 0);
-  const uneven = objects.find((object) => object[2] % granularity);
+  const uneven = objects.find((object) => object[2] % pdo.granularity), lost = pdo.kept.find((entry) => !objects.some(isEntry(entry)));
   if (objects.length > pdo.entries) return `${objects.length} objects, but the mapping object has ${pdo.entries} entries`;
-  if (bits > 64) return `${bits} bits, but a PDO has at most 64`;
-  return uneven ? `${uneven[3]} has ${uneven[2]} bits, which is not a multiple of ${granularity}` : "";
+  if (bits > pdo.maxBits) return `${bits} bits, but the PDO has at most ${pdo.maxBits}`;
+  if (lost) return `0x${hex(lost[0], 4)}:${hex(lost[1], 2)} must stay in the mapping`;
+  return uneven ? `${uneven[3]} has ${uneven[2]} bits, which is not a multiple of ${pdo.granularity}` : "";
+}
+
+// Returns a gap: an entry without an object.
+const gap = (bits) => [0, 0, bits, "gap", true, true, `_: ${bits}`, "ce"];
+
+// Returns the lines that the reader can copy: the SDO downloads as bytes and in Python, and the mapping in Rust.
+function mappingLines(pdo, objects, node) {
+  const writes = mappingWrites(pdo, objects, node), isEthercat = pdo.bus === "e", cobId = isEthercat ? "" : `${hex(0x600 + node, 3)}  `;
+  const sdos = writes.flatMap(([index, sub, bytes]) => sdoDownload([index & 0xFF, index >> 8, sub], bytes).map((data) => cobId + bytesText(data)));
+  const method = isEthercat ? "slave.sdo_write" : "node.sdo.download";
+  const lines = writes.map(([index, sub, bytes]) => `${method}(0x${hex(index, 4)}, ${sub}, ${python(bytes)})`);
+  const rust = `lexibus::pdo! {\n    pub struct Mapping: device::pdo::${pdo.name} { ${objects.map((object) => object[6]).join(", ")} }\n}`;
+  return [
+    [`SDO downloads (${isEthercat ? "data" : "COB-ID, data"})`, sdos.join("\n")], [isEthercat ? "pysoem" : "canopen", lines.join("\n")],
+    ...pdo.name ? [["Rust", rust]] : [],
+  ];
 }
 
 // Returns the CAN identifier of a COB-ID for a node: the COB-ID without its flags.
@@ -68,7 +90,7 @@ function pdoBuilder(place) {
   const shown = element("output", {}), results = element("dl", {}), bytes = element("tbody", {});
   let objects = [];
   const pdo = () => data.pdos[Number(choice.value)];
-  const candidates = () => data.objects.filter((object) => pdo().tx ? object[5] : object[4]);
+  const candidates = () => data.objects.filter((object) => object[7].includes(pdo().bus) && (pdo().tx ? object[5] : object[4]));
   const button = (text, label, act) => {
     const created = element("button", { type: "button", textContent: text });
     if (label) created.setAttribute("aria-label", label);
@@ -82,22 +104,19 @@ function pdoBuilder(place) {
   const show = () => {
     list.replaceChildren(...objects.map(line));
     options.replaceChildren(...candidates().map((object) => element("option", { value: object[3] })));
-    const problem = mappingProblem(pdo(), objects, data.granularity), bits = objects.reduce((sum, object) => sum + object[2], 0);
-    const { cobId: ownCobId, ofNode } = pdo();
-    shown.textContent = problem || `COB-ID ${identifier(ownCobId, ofNode ? node.value : 0)}, ${bits / 8} of 8 bytes, ${objects.length} of ${pdo().entries} entries`;
+    const problem = mappingProblem(pdo(), objects), bits = objects.reduce((sum, object) => sum + object[2], 0);
+    const { bus, cobId, ofNode, maxBits, entries } = pdo(), isCanopen = bus === "c";
+    const length = `${bits / 8} of ${maxBits / 8} bytes, ${objects.length} of ${entries} entries`;
+    shown.textContent = problem || (isCanopen ? `COB-ID ${identifier(cobId, ofNode ? node.value : 0)}, ` : "") + length;
+    node.label.hidden = !isCanopen;
     bytes.replaceChildren(...byteGrid(objects.map((object) => ({ bits: object[2], name: object[3] }))));
     showCobIds(node.value);
     shown.classList.toggle("wrong", problem !== "");
-    const writes = problem || !objects.length ? [] : mappingWrites(pdo(), objects, node.value), cobId = hex(0x600 + node.value, 3);
-    const sdos = writes.flatMap(([index, sub, bytes]) => sdoDownload([index & 0xFF, index >> 8, sub], bytes).map((data) => `${cobId}  ${bytesText(data)}`));
-    const lines = writes.map(([index, sub, bytes]) => `node.sdo.download(0x${hex(index, 4)}, ${sub}, ${python(bytes)})`);
-    const rust = `lexibus::pdo! {\n    pub struct Mapping: device::pdo::${pdo().name} { ${objects.map((object) => object[6]).join(", ")} }\n}`;
-    const all = [["SDO downloads (COB-ID, data)", sdos.join("\n")], ["canopen", lines.join("\n")], ...pdo().name ? [["Rust", rust]] : []];
-    results.replaceChildren(...writes.length ? all.flatMap(copyable) : []);
+    results.replaceChildren(...problem || !objects.length ? [] : mappingLines(pdo(), objects, node.value).flatMap(copyable));
   };
   const node = keptNumber("node", "Node-ID", 1, 127, show);
   const start = () => {
-    objects = pdo().mapped.map(([index, sub]) => mapped.get(`${index}:${sub}`)).filter(Boolean);
+    objects = pdo().mapped.map(([index, sub, bits]) => !index && pdo().bus === "e" ? gap(bits) : mapped.get(`${index}:${sub}`)).filter(Boolean);
     show();
   };
   choice.addEventListener("change", start);

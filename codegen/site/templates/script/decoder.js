@@ -7,6 +7,7 @@ completions.push((row) => {
   if (!source) return;
   const parts = source.querySelectorAll(":scope > .more > td > :is(.wide, .fields, dl)");
   reference.after(...[...parts].map((part) => part.cloneNode(true)));
+  for (const part of row.querySelectorAll(".more [id]")) part.id = row.id + part.id.slice(source.id.length);
   for (const added of row.querySelectorAll("[data-control]")) added.remove();
 });
 

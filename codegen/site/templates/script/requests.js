@@ -78,9 +78,9 @@ function modbusRequests([table, address, count, flags, functions], { canRead, ca
   return lines;
 }
 
-// A record is read and written as a whole. The address of the submodule depends on the configuration.
-function recordRequests([index, offset, bits, length], { canRead, canWrite }) {
-  const record = `API 0, slot n, subslot 1, index 0x${hex(Number(index), 4)}, length ${length}`, bytes = `bits ${offset} to ${Number(offset) + Number(bits) - 1}`;
+// A record is read and written as a whole.
+function recordRequests([index, offset, bits, length, ...submodule], { canRead, canWrite }) {
+  const record = `${submodule.join(" ")}, index 0x${hex(Number(index), 4)}, length ${length}`, bytes = `bits ${offset} to ${Number(offset) + Number(bits) - 1}`;
   return [canRead && ["PROFINET record read", `${record}; the value is in ${bytes}`], canWrite && ["PROFINET record write", `${record}; the value is in ${bytes}`]].filter(Boolean);
 }
 

@@ -1,12 +1,12 @@
 // The rows of a table of items. Their details unfold in place: one row by its button, the row of the address, or all rows.
 
-// The details of a row are completed when they are shown for the first time. Each function gets a row group.
+// The details of an item are completed when they are shown for the first time. Each function gets a row group.
 const completions = [];
 
 function unfold(row, isOpen) {
   row.classList.toggle("open", isOpen);
   row.querySelector("button.fold")?.setAttribute("aria-expanded", String(isOpen));
-  if (!isOpen || row.dataset.complete) return;
+  if (!isOpen || row.dataset.complete || row.matches(".of-elements *")) return;
   row.dataset.complete = "yes";
   for (const complete of completions) complete(row);
 }
@@ -36,24 +36,20 @@ for (const button of document.querySelectorAll("button.unfold")) {
   });
 }
 
-// Unfolds the row of the address.
+// Unfolds the row of the address, or of the bit or value with the address.
 function unfoldTarget() {
-  const id = addressOfUrl();
-  const [, owner, kind, number] = id.match(/^(.*)\.(bit|value)-([^.]+)$/) ?? [];
-  const row = (byId(id) ?? byId(owner))?.closest(".items > tbody");
+  const id = addressOfUrl(), row = (byId(id) ?? byId(withoutPart(id)))?.closest(".items > tbody");
+  document.querySelector(".target")?.classList.remove("target");
   if (!row || !foldable.includes(row)) return;
   unfold(row, true);
-  const part = byId(id) ? undefined : partOf(row, kind, number);
-  part?.classList.add("target");
-  part?.scrollIntoView({ block: "center" });
+  const part = byId(id);
+  if (!part || part === row) return;
+  part.classList.add("target");
+  part.scrollIntoView({ block: "center" });
 }
 
-// Returns the line of a bit field or the term of a named value.
-function partOf(row, kind, number) {
-  const numbered = (cell) => cell.textContent.split(" ")[0] === number;
-  if (kind === "value") return [...row.querySelectorAll(":scope > .more > td > dl > dt")].find(numbered);
-  return [...row.querySelectorAll(".fields > tbody > tr")].find((line) => numbered(line.cells[0]));
-}
+// Returns the address of the item that has a bit or value: `0x6041` of `0x6041.bit-3`.
+const withoutPart = (address) => address.replace(/\.(bit|value)-[^.]+(\.value-[^.]+)?(\.[0-9]+)?$/, "");
 addEventListener("hashchange", unfoldTarget);
 
 // The description moves to the details, where it has more space.

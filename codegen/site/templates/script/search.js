@@ -201,7 +201,8 @@ const ownerOf = (place) => {
 };
 const anchorOf = (place) => {
   const { text, isPart } = printedAt(place), own = anchors[anchorAt[entryAt[place]]] || text;
-  return isPart ? `${anchorOf(ownerOf(place))}.${own.replace(" ", "-").replace(/ .*/, "")}` : own;
+  // The anchor of a part is derived from its number: `bit-3-0` for `bit 3–0`, `value-3` for `value 3 to 5`.
+  return isPart ? `${anchorOf(ownerOf(place))}.${own.replace(" ", "-").replace(/ .*/, "").replace("–", "-")}` : own;
 };
 const linkOf = (place) => {
   const anchor = anchorOf(place);
@@ -315,22 +316,20 @@ document.addEventListener("keydown", (event) => {
   input.select();
 });
 
-// Returns the address of the item that has a bit or value: `0x6041` of `0x6041.bit-3`.
-const withoutPart = (address) => address.replace(/\.(bit|value)-[^.]+$/, "");
-
 // Returns the address in the URL if this page does not have it.
 function missingAddress() {
   const address = addressOfUrl();
   return byId(address) || byId(withoutPart(address)) ? "" : plain(address);
 }
 
-// Opens the page that contains the address. If an entry has no separate row, opens the row of its object.
+// Opens the page that contains the address. The row of an item also shows bits and values that the index has in another row. If an entry
+// has no separate row, opens the row of its object.
 function lead() {
-  const address = missingAddress();
-  for (const candidate of address ? [address, withoutPart(address), address.split(":")[0]] : []) {
+  const address = missingAddress(), item = withoutPart(address);
+  for (const candidate of address ? [address, item, item.split(":")[0]] : []) {
     const place = entryAt.findIndex((_, place) => plain(anchorOf(place)) === candidate);
     if (place < 0) continue;
-    location.replace(linkOf(place));
+    location.replace(linkOf(place) + (candidate === item ? encodeURIComponent(address.slice(item.length)) : ""));
     return;
   }
 }

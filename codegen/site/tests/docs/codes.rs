@@ -2,7 +2,7 @@
 
 use crate::docs_support::{files, html_links, site, values};
 use lexibus_codegen::source::Source;
-use lexibus_site::Format;
+use lexibus_site::{Format, Page};
 
 #[test]
 fn codes_have_links_to_the_items_with_the_same_value() {
@@ -10,7 +10,7 @@ fn codes_have_links_to_the_items_with_the_same_value() {
     let page = pages.iter().find(|page| page.path.ends_with("/codes.html")).expect("the codes");
     let (_, row) = page.text.split_once("id=\"operating_modes-6\"").expect("homing");
     let (row, _) = row.split_once("</tbody>").expect("the end of the row");
-    assert!(row.contains("<b>Value of</b> <a href=\"profile-objects.html#0x6060\">"), "{row}");
+    assert!(row.contains("<b>Value of</b> <a href=\"profile-objects.html#0x6060.value-6\">"), "{row}");
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn codes_have_links_to_what_reports_them_on_each_page() {
     let [last] = linked.as_slice() else { panic!("{} pages have links", linked.len()) };
     let file = last.path.rsplit('/').next().expect("a file");
     let (_, row) = last.text.split_once("id=\"faults-2000\"").expect("the code");
-    assert!(row.contains("<b>Value of</b> <a href=\"control.html#fault_code\">"), "{row}");
+    assert!(row.contains("<b>Value of</b> <a href=\"control.html#fault_code.value-2000\">"), "{row}");
     assert!(row.contains("<b>See</b> <a href=\"control.html#status_word\">"), "{row}");
     let control = &pages.iter().find(|page| page.path.ends_with("/control.html")).expect("the registers").text;
     assert!(control.contains(&format!("<b>Codes</b> <a href=\"{file}#faults\">faults</a>")), "{control}");
@@ -59,4 +59,36 @@ fn a_table_of_codes_on_several_pages_is_linked_once() {
     let file = first.path.rsplit('/').next().expect("a file");
     assert_eq!(links, [format!("{file}#faults")]);
     html_links(&pages);
+}
+
+#[test]
+fn tables_of_errors_have_links_to_what_reports_them() {
+    for (path, table, link) in [
+        ("aec-vector-step.toml", "emergency", "communication-objects.html#0x1003"),
+        ("eco.toml", "emergency", "communication-objects.html#0x1003"),
+        ("eco.toml", "ethercat_alarms", "profile-objects.html#0x603F"),
+        ("kollmorgen-akd.toml", "faults", "states-and-procedures.html#drive.fault"),
+        ("demo-drive.eds", "emergency", "communication-objects.html#0x1003"),
+    ] {
+        let about = about_table(&files(Format::Html, &[&format!("dictionaries/{path}")]), table);
+        assert!(about.contains(&format!("<b>See</b> <a href=\"{link}\">")), "{path}, {table}: {about}");
+    }
+}
+
+/// Returns the text between the heading of a code table and its rows.
+fn about_table(pages: &[Page], table: &str) -> String {
+    let id = format!("<section id=\"{table}\">");
+    let (_, section) = pages.iter().find_map(|page| page.text.split_once(&id)).expect("the table");
+    section.split_once("<table").expect("its rows").0.to_owned()
+}
+
+#[test]
+fn errors_of_drives_have_a_link_to_the_error_code() {
+    let eds = "[DeviceInfo]\nProductName=Drive\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n\
+               [1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0x00020192\n\
+               [OptionalObjects]\nSupportedObjects=1\n1=0x603F\n\
+               [603F]\nParameterName=Error code\nDataType=6\nAccessType=ro\n";
+    let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.eds", eds.into()))]);
+    let about = about_table(&pages, "drive_errors");
+    assert!(about.contains("<b>See</b> <a href=\"profile-objects.html#0x603F\">"), "{about}");
 }

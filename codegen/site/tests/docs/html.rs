@@ -3,8 +3,9 @@
 use crate::docs_support::{files, hostile, html_links, html_markup, site, values, ALL};
 use std::collections::BTreeSet;
 
+use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
-use lexibus_site::{Format, Page};
+use lexibus_site::{Format, Page, Site};
 
 #[test]
 fn all_links_are_valid() {
@@ -16,7 +17,7 @@ fn all_links_are_valid() {
 fn the_search_finds_the_entries_of_pages() {
     let pages = files(Format::Html, &["dictionaries/hsd-sm137-sm140.toml"]);
     let index =
-        &pages.iter().find(|page| page.path == "hsd-s-p-a/hsd-motor/no-revision/search.js").expect("an index").text;
+        &pages.iter().find(|page| page.path == "hsd-s-p-a/_files/hsd-sm137-sm140/search.js").expect("an index").text;
     // Search for a parameter, the Italian name of a message, and a code.
     for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
         assert!(index.contains(text), "{text}");
@@ -122,7 +123,7 @@ fn repairs_stand_where_they_matter() {
         let heading = text(all).lines().find(|line| line.contains("EDS020") && line.contains("2 repairs"));
         assert!(heading.is_some(), "{}", text(all));
         let first = pages.iter().find(|page| page.path.contains("/no-revision/index."));
-        assert!(first.expect("the first page").text.contains(all.trim_start_matches('/')));
+        assert!(first.expect("the first page").text.contains(&format!("_files/pump{all}")));
     }
     // If a file has no diagnostics, its documentation has no page of diagnostics.
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
@@ -348,7 +349,7 @@ fn objects_that_are_mapped_by_default_are_in_the_builder() {
 #[test]
 fn the_search_has_printed_and_wire_addresses() {
     let pages = files(Format::Html, &["tests/ui/tables/printed-and-wire-addresses/input.toml"]);
-    let index = pages.iter().find(|page| page.path.ends_with("/no-revision/search.js")).expect("the index");
+    let index = pages.iter().find(|page| page.path.ends_with("/search.js")).expect("the index");
     for number in ["register 40101 (wire 100)", "register 40102–40103 (wire 101–102)", "coil 7 (wire 6)"] {
         assert!(index.text.contains(number), "{number}: {}", index.text);
     }
@@ -403,5 +404,16 @@ fn rows_of_a_list_differ() {
     let index = &pages.iter().find(|page| page.path == "search.js").expect("the index").text;
     for name in ["description 1 of 2, 2 identical descriptions", "0x00120000, description 2 of 2"] {
         assert!(index.contains(name), "{name}: {index}");
+    }
+}
+
+#[test]
+fn changes_name_their_device() {
+    for (format, element) in
+        [(Format::Html, "<th scope=\"row\">T1018 inputs: "), (Format::Markdown, "| T1018 inputs: ")]
+    {
+        let catalog = |bytes: &[u32]| check(terminals(bytes), &Options::default()).usable().expect("a catalog").clone();
+        let page = Site::new(format).compare(("old", &catalog(&[4])), ("new", &catalog(&[4, 2])));
+        assert!(page.text.contains(element), "{}", page.text);
     }
 }

@@ -11,10 +11,12 @@ mod doubts;
 #[path = "../../../../tests/support/root.rs"]
 mod root;
 
+mod addresses;
 mod codes;
 mod corpus;
 mod dictionaries;
 mod html;
 mod index;
 mod markdown;
+mod parts;
 mod slots;

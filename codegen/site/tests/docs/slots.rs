@@ -79,11 +79,11 @@ fn an_access_point_in_html() {
         assert!(text.contains(&format!("<tr><th scope=\"row\">{name}<td>{value}<")), "{name}: {text}");
     }
     for row in [
-        "<tr><th scope=\"row\">1<td><td>fixed<td><a href=\"modules.html#module-00000030\">Axis</a>",
-        "<tr><th scope=\"row\">2 to 3<td><td>possible<td><details><summary>20 modules</summary><a href=\"modules.html#module-00000100\">Axis</a>, ",
-        "<tr><th scope=\"row\">3<td><td>preset<td><a href=\"modules.html#module-00000107\">Axis</a>",
-        "<tr><th scope=\"row\">0x8000<td><td>fixed<td><a href=\"modules.html#submodule-00008000\">Interface</a>",
-        "<tr><th scope=\"row\">0x0002<td>Axis<td>4 bytes<td><a href=\"modules.html#submodule-00000001\">Servo head</a>",
+        "<tr><th scope=\"row\">1<td><td>fixed<td><a href=\"../../../example/_files/drive/modules.html#module-00000030\">Axis</a>",
+        "<tr><th scope=\"row\">2 to 3<td><td>possible<td><details><summary>20 modules</summary><a href=\"../../../example/_files/drive/modules.html#module-00000100\">Axis</a>, ",
+        "<tr><th scope=\"row\">3<td><td>preset<td><a href=\"../../../example/_files/drive/modules.html#module-00000107\">Axis</a>",
+        "<tr><th scope=\"row\">0x8000<td><td>fixed<td><a href=\"../../../example/_files/drive/modules.html#submodule-00008000\">Interface</a>",
+        "<tr><th scope=\"row\">0x0002<td>Axis<td>4 bytes<td><a href=\"../../../example/_files/drive/modules.html#submodule-00000001\">Servo head</a>",
     ] {
         assert!(text.contains(row), "{row}: {text}");
     }
@@ -98,11 +98,11 @@ fn an_access_point_in_markdown() {
         assert!(text.contains(&format!("\n| {name} | {} |\n", markdown::escape(value, |_| true))), "{name}: {text}");
     }
     for row in [
-        "\n| 1 |  | fixed | [Axis](modules.md#module-00000030) |\n",
-        "\n| 2 to 3 |  | possible | [Axis](modules.md#module-00000100), [Axis](",
-        "\n| 3 |  | preset | [Axis](modules.md#module-00000107) |\n",
-        "\n| 0x8000 |  | fixed | [Interface](modules.md#submodule-00008000) |\n",
-        "\n| 0x0002 | Axis | 4 bytes | [Servo head](modules.md#submodule-00000001) |\n",
+        "\n| 1 |  | fixed | [Axis](../../../example/_files/drive/modules.md#module-00000030) |\n",
+        "\n| 2 to 3 |  | possible | [Axis](../../../example/_files/drive/modules.md#module-00000100), [Axis](",
+        "\n| 3 |  | preset | [Axis](../../../example/_files/drive/modules.md#module-00000107) |\n",
+        "\n| 0x8000 |  | fixed | [Interface](../../../example/_files/drive/modules.md#submodule-00008000) |\n",
+        "\n| 0x0002 | Axis | 4 bytes | [Servo head](../../../example/_files/drive/modules.md#submodule-00000001) |\n",
     ] {
         assert!(text.contains(row), "{row}: {text}");
     }
@@ -129,4 +129,25 @@ fn links_to_submodules_without_a_name_have_a_text() {
     let links = pages.iter().flat_map(|page| page.text.split("#submodule-0000FFFF\">").skip(1));
     let texts: Vec<&str> = links.filter_map(|link| link.split('<').next()).collect();
     assert!(!texts.is_empty() && texts.iter().all(|text| *text == "0x0000FFFF"), "{texts:?}");
+}
+
+#[test]
+fn records_have_the_slot_and_subslot_of_their_submodule() {
+    let pages = files(Format::Markdown, &["tests/data/safe.gsdml.xml"]);
+    let text: String =
+        pages.iter().filter(|page| page.path.contains("/modules")).map(|page| page.text.as_str()).collect();
+    assert!(text.contains("PROFINET record read: API 0, slot of the module (1 to 3), subslot 1, index "), "{text}");
+    let pages = files(Format::Html, &["tests/data/safe.gsdml.xml"]);
+    let modules = pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules");
+    assert!(modules.text.contains(" API 0, slot of the module (1 to 3), subslot 1\""), "{}", modules.text);
+}
+
+#[test]
+fn objects_of_modules_have_rust_code() {
+    let pages = files(Format::Markdown, &["tests/data/coupler.esi.xml"]);
+    let modules = pages.iter().find(|page| page.path.ends_with("/modules.md")).expect("the modules");
+    let handle = "modules::ai_2::objects::settings::FILTER.shifted(offset).at(&mut client)";
+    for call in ["read()?", "write(value)?"] {
+        assert!(modules.text.contains(&format!("{handle}.{call}")), "{call}: {}", modules.text);
+    }
 }

@@ -35,8 +35,7 @@ const RESERVED: [&str; 18] = [
 ];
 
 pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
-    let modules = reachable(catalog);
-    let names = module_names(&modules);
+    let (modules, names) = named_modules(catalog);
     let mut code = Code::new(header(file), &options.runtime);
     match catalog.devices.as_slice() {
         [] if modules.is_empty() => return None,
@@ -67,6 +66,13 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         });
     }
     Some(code.finish())
+}
+
+/// Returns the modules for which code is generated, and the names of their Rust modules.
+pub(super) fn named_modules(catalog: &Catalog) -> (Vec<(ModuleId, &Module)>, Vec<String>) {
+    let modules = reachable(catalog);
+    let names = module_names(&modules);
+    (modules, names)
 }
 
 /// Returns the modules that can be plugged into an EtherCAT device, or all modules if the file has no device.

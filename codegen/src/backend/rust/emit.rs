@@ -9,7 +9,7 @@ use super::model::Model;
 use super::scope::Scope;
 use super::RustOptions;
 use super::{catalog, device_names, model, objects, print, quantity};
-use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, Scale};
+use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, ModuleId, ObjectBuses, Scale};
 
 /// Version of the interface between generated code and the runtime. The version must equal
 /// `lexibus::interface::VERSION`.
@@ -47,24 +47,43 @@ pub(super) fn header(file: &FileInfo) -> String {
     )
 }
 
+/// Rust calls that read and write each item, such as `device.identity().vendor_id().read()?`.
+pub type Calls = HashMap<ItemId, Vec<String>>;
+
 /// The names of a device's elements in the generated code, for documentation.
 pub struct Usage {
-    /// Rust calls that read and write each item, such as `device.identity().vendor_id().read()?`.
-    pub calls: HashMap<ItemId, Vec<String>>,
-    /// Names of the PDO structs, by the index of the mapping object.
-    pub pdos: HashMap<u16, String>,
+    /// Calls that read and write the items of the device.
+    pub calls: Calls,
+    /// Names of the PDO structs, by the index of the mapping object and the buses of the PDO.
+    pub pdos: HashMap<(u16, Option<ObjectBuses>), String>,
 }
 
 /// Returns the names of a device's elements in the generated code.
 pub fn usage(device: &Device) -> Usage {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
-    let calls = objects::calls(&context).map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &path)));
-    let pdos = context.names.pdos.iter().map(|named| (named.pdo.mapping_index, named.name.clone()));
+    let calls = objects::calls(&context)
+        .map(|(entry, path)| (entry.id, calls_of(&context, entry.item, &format!("device.{path}"))));
+    let pdos = context.names.pdos.iter().map(|named| ((named.pdo.mapping_index, named.pdo.buses), named.name.clone()));
     Usage { calls: calls.collect(), pdos: pdos.collect() }
 }
 
-/// Returns the calls that read and write an item: first in its physical unit, then as raw value.
-fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
+/// Returns the calls that read and write the items of the EtherCAT modules for which code is generated. `offset` is the increase of the
+/// object's index in the slot of the module.
+pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
+    let (modules, names) = catalog::named_modules(catalog);
+    let calls = |(id, module): (ModuleId, _), name: &str| {
+        let context = model::context(Scope::of_module(module), &RustOptions::default(), "");
+        let calls = objects::constants(&context).map(|(entry, path)| {
+            let item = format!("modules::{name}::{path}.shifted(offset).at(&mut client)");
+            (entry.id, calls_of(&context, entry.item, &item))
+        });
+        (id, calls.collect())
+    };
+    modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
+}
+
+/// Returns the calls that read and write an item: first in its physical unit, then as raw value. `handle` is the expression of the item.
+fn calls_of(context: &Context<'_>, item: &Item, handle: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),
         _ => ("", ""),
@@ -77,7 +96,7 @@ fn calls_of(context: &Context<'_>, item: &Item, path: &str) -> Vec<String> {
         (item.access.readable(), "read()".to_owned()),
         (item.access.writable(), "write(value)".to_owned()),
     ];
-    let line = |(_, call)| format!("device.{path}.{call}?");
+    let line = |(_, call)| format!("{handle}.{call}?");
     calls.into_iter().filter(|(exists, _)| *exists).map(line).collect()
 }
 

@@ -84,6 +84,11 @@ pub(super) struct ItemModule<'n> {
     pub outer: &'n str,
 }
 
+/// Returns the name of the constant of an item whose handle has this name.
+pub(super) fn constant(name: &str) -> String {
+    name.to_ascii_uppercase()
+}
+
 /// Returns the model of an item whose handle is in `module`.
 pub(super) fn model(
     context: &Context<'_>,
@@ -110,7 +115,7 @@ pub(super) fn model(
         .constructor(&addresses, || locations.code(context, &addresses, outer));
     ItemModel {
         id: *id,
-        constant: name.to_ascii_uppercase(),
+        constant: constant(name),
         method: names::escaped(name),
         docs: exact(docs::item(entry, original, chapter, context, doc_module)),
         method_docs: if context.links.has_methods {

@@ -69,7 +69,9 @@ mod window_model;
 mod words;
 
 use emit::header;
-pub use emit::{device_name, emit, emit_catalog, file_name, module_name, usage, Usage, INTERFACE_VERSION};
+pub use emit::{
+    device_name, emit, emit_catalog, file_name, module_name, usage, usage_of_modules, Calls, Usage, INTERFACE_VERSION,
+};
 pub use options::{Presence, RustOptions};
 #[cfg(feature = "gsdml")]
 pub use profinet::{profinet_program, ProfinetData, ProfinetProgram};

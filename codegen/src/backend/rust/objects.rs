@@ -159,6 +159,20 @@ fn aliases(item: &Item) -> Vec<String> {
     all
 }
 
+/// Returns the paths of the constants that describe each item, such as `objects::identity::VENDOR_ID`.
+pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
+    let entries = context.names.handles.objects.iter();
+    let entries = entries.flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
+    entries.map(|(object, entry)| {
+        let constant = item::constant(&entry.name);
+        let path = match object.is_module {
+            true => format!("objects::{}::{constant}", names::escaped(&object.name)),
+            false => format!("objects::{constant}"),
+        };
+        (entry, path)
+    })
+}
+
 /// Returns the method calls with which a program accesses each item, such as `identity().vendor_id()`.
 pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let call = |name: &str| format!("{}()", names::escaped(name));

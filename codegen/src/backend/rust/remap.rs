@@ -13,11 +13,11 @@ use super::objects::ObjectModel;
 use super::pdo;
 use super::reachable::addressable;
 use super::scope::ObjectBus;
-use crate::facts::pdo::{is_changeable, mappable, mapped_bits, mapped_objects, writable_entries, MAX_ENTRY};
+use crate::facts::pdo::{
+    configures, is_changeable, mappable, mapped_bits, mapped_objects, max_bytes_on_ethercat, writable_entries,
+    MAX_ENTRY,
+};
 use crate::ir::{Device, Direction, Item, Mappable, Pdo, MAX_PDO_SUBS};
-
-/// Maximum length of a sync manager in bytes. The length register of a sync manager has 16 bits (ETG.1000.4 6.7.2).
-const MAX_SYNC_MANAGER: u16 = u16::MAX;
 
 /// A PDO with a changeable mapping, ready to be printed.
 pub(super) struct RemappableModel {
@@ -122,18 +122,9 @@ fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mu
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;
     }
-    let managers = &device.process_data.sync_managers;
-    let sync_manager = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
-    let bytes = sync_manager.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
-    let bytes = pdo.max_bytes.map_or(bytes, |maximum| maximum.min(bytes));
+    let bytes = max_bytes_on_ethercat(device, pdo);
     constants.push(seq!["MAX_BITS: u32 = ", u32::from(bytes) * 8]);
     Some("rt::pdo::OnEtherCat")
-}
-
-/// Returns whether the device allows a master to write mappings.
-fn configures(device: &Device) -> bool {
-    let mailbox = device.ethercat.as_ref().and_then(|ethercat| ethercat.mailbox.as_ref());
-    mailbox.and_then(|mailbox| mailbox.coe.as_ref()).is_some_and(|coe| coe.pdo_config)
 }
 
 /// Returns the code of an entry's value in the mapping object.
