@@ -1,4 +1,4 @@
-//! Tests the macro `ethercrab_wire!` with a handwritten PDO struct and with a struct of `pdo!`.
+//! Tests the wire traits of `ethercrab` of a handwritten PDO struct, a struct of `pdo!` and a generated struct.
 
 use lexibus::LengthError;
 
@@ -31,7 +31,6 @@ lexibus::pdo! {
 }
 
 lexibus::ethercrab_wire!(Outputs, Outputs::LEN);
-lexibus::ethercrab_wire!(Fast, 4);
 
 const OUTPUTS: Outputs = Outputs { controlword: 0x000F, target_position: -2 };
 const BYTES: [u8; 6] = [0x0F, 0, 0xFE, 0xFF, 0xFF, 0xFF];
@@ -67,6 +66,8 @@ mod with_ethercrab {
         assert_eq!(echo(&OUTPUTS), OUTPUTS);
         let fast = Fast { target_position: i32::MIN };
         assert_eq!(echo(&fast), fast);
+        let generated = lexibus_drives::eco::pdo::Position::unpack(&BYTES).expect("six bytes");
+        assert_eq!(echo(&generated).pack(), BYTES);
         assert_eq!(<Outputs as EtherCrabWireWriteSized>::pack(&OUTPUTS), BYTES);
     }
 

@@ -6,16 +6,28 @@
 /// feature, the macro expands to nothing.
 ///
 /// In `ethercrab_wire!(Type, BYTES)`, the type must have the methods `pack(&self) -> [u8; BYTES]` and
-/// `unpack(&[u8]) -> Result<Self, LengthError>`. All generated PDO structs and all structs of [`pdo!`](crate::pdo!)
-/// have these methods.
+/// `unpack(&[u8]) -> Result<Self, LengthError>`.
+///
+/// Structs of [`pdo!`](crate::pdo!) and generated structs of PDOs on EtherCAT already have these traits. Use the macro
+/// for a handwritten struct:
 ///
 /// ```
-/// # use lexibus_drives::demo_drive;
-/// lexibus::pdo! {
-///     pub struct Fast: demo_drive::pdo::RxPdo2 { controlword, profile_velocity }
+/// struct Counter {
+///     value: u16,
 /// }
 ///
-/// lexibus::ethercrab_wire!(Fast, 6);
+/// impl Counter {
+///     fn pack(&self) -> [u8; 2] {
+///         self.value.to_le_bytes()
+///     }
+///
+///     fn unpack(data: &[u8]) -> Result<Self, lexibus::LengthError> {
+///         let Some(bytes) = data.first_chunk() else { return Err(lexibus::LengthError::new(2, data.len())) };
+///         Ok(Counter { value: u16::from_le_bytes(*bytes) })
+///     }
+/// }
+///
+/// lexibus::ethercrab_wire!(Counter, 2);
 /// ```
 ///
 /// If a buffer is too short, `unpack_from_slice` and `pack_to_slice` return an error of `ethercrab`.
@@ -63,12 +75,22 @@ macro_rules! ethercrab_wire {
 /// enabled. The feature is not enabled, so the macro expands to nothing.
 ///
 /// ```
-/// # use lexibus_drives::demo_drive;
-/// lexibus::pdo! {
-///     pub struct Fast: demo_drive::pdo::RxPdo2 { controlword, profile_velocity }
+/// struct Counter {
+///     value: u16,
 /// }
 ///
-/// lexibus::ethercrab_wire!(Fast, 6);
+/// impl Counter {
+///     fn pack(&self) -> [u8; 2] {
+///         self.value.to_le_bytes()
+///     }
+///
+///     fn unpack(data: &[u8]) -> Result<Self, lexibus::LengthError> {
+///         let Some(bytes) = data.first_chunk() else { return Err(lexibus::LengthError::new(2, data.len())) };
+///         Ok(Counter { value: u16::from_le_bytes(*bytes) })
+///     }
+/// }
+///
+/// lexibus::ethercrab_wire!(Counter, 2);
 /// ```
 #[cfg(not(feature = "ethercat"))]
 #[macro_export]

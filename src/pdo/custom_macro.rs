@@ -155,6 +155,8 @@ macro_rules! pdo {
             )+
         }
 
+        $crate::ethercrab_wire!($name, $name::LEN);
+
         impl $crate::Pdo for $name {
             const INDEX: u16 = <$path as $crate::pdo::Remappable>::INDEX;
             const LEN: usize = Self::LEN;

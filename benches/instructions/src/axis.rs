@@ -2509,6 +2509,7 @@ pub mod pdo {
             rt::MappedEntry::new(0x60B2, 0x00, 16),
         ];
     }
+    rt::ethercrab_wire!(SetPoints, 14);
     /// TxPDO 0x1A00: Encoder.
     ///
     /// Mapping object 0x1A00, 48 bits.
@@ -2600,6 +2601,7 @@ pub mod pdo {
             rt::MappedEntry::new(0x2000, 0x07, 16),
         ];
     }
+    rt::ethercrab_wire!(Encoder, 6);
     const _: () = {
         let word = 0xFFFFFFFFFFFF;
         let data: [u8; 6] = rt::pdo::to_bytes(word);
@@ -2696,6 +2698,7 @@ pub mod pdo {
             rt::MappedEntry::new(0x2001, 0x03, 12),
         ];
     }
+    rt::ethercrab_wire!(ActualValues, 12);
     /// TxPDO 0x1A02: Drive status.
     ///
     /// Mapping object 0x1A02, 64 bits.
@@ -2759,6 +2762,7 @@ pub mod pdo {
             rt::MappedEntry::new(0x6077, 0x00, 16),
         ];
     }
+    rt::ethercrab_wire!(DriveStatus, 8);
     const _: () = {
         let word = 0xFFFFFFFFFFFFFFFF;
         let data: [u8; 8] = rt::pdo::to_bytes(word);

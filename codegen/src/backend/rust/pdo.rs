@@ -55,6 +55,8 @@ pub(super) struct PdoModel {
     pub configuration: Vec<String>,
     /// True if the default COB-ID contains a CAN identifier.
     pub has_identifier: bool,
+    /// True if the struct implements the wire traits of `ethercrab`.
+    pub is_on_ethercat: bool,
 }
 
 /// A field of a PDO.
@@ -112,6 +114,7 @@ fn model(context: &Context<'_>, named: &NamedPdo<'_>, options: &RustOptions) -> 
         cob_id: cob_id(pdo),
         configuration: configuration(context, pdo),
         has_identifier: has_identifier(pdo),
+        is_on_ethercat: context.is_on_ethercat(pdo),
     }
 }
 

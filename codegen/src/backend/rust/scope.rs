@@ -61,6 +61,11 @@ impl<'a> Scope<'a> {
         }
     }
 
+    /// Returns whether a PDO can be transferred on EtherCAT.
+    pub fn is_on_ethercat(&self, pdo: &Pdo) -> bool {
+        pdo.buses.map_or(self.bus == ObjectBus::CoE, |buses| buses.coe)
+    }
+
     /// Returns the referenced process image.
     pub fn image(&self, reference: &ImageRef) -> Option<&'a ProcessImage> {
         self.device?.image(reference)

@@ -94,6 +94,7 @@ pub mod pdo {
             rt::MappedEntry::new(0x7000, 0x02, 65535),
         ];
     }
+    rt::ethercrab_wire!(P1602, 8192);
 }
     impl Outputs {
         /// Number of the sync manager.

@@ -46,6 +46,9 @@ pub(in crate::backend::rust) fn pdo(code: &mut Code, pdo: &PdoModel) {
     }
     code.close("];");
     code.close("}");
+    if pdo.is_on_ethercat {
+        line!(code, "rt::ethercrab_wire!(", pdo.name, ", ", pdo.length, ");");
+    }
     if pdo.word && !pdo.constant.is_empty() {
         proof(code, pdo);
     }
