@@ -26,7 +26,8 @@ pub fn content(catalog: &Catalog) -> Value {
     each_object(&mut value, &mut |fields| {
         fields.retain(|name, _| !matches!(name.as_str(), "origin" | "span" | "at" | "name_at"));
         if let Some(origins) = fields.get_mut("origins").and_then(Value::as_array_mut) {
-            let is_written = |rule: &Value| matches!(rule.as_str(), Some("missing_key" | "compact_object"));
+            let is_written =
+                |rule: &Value| matches!(rule.as_str(), Some("missing_key" | "compact_object" | "object_contents"));
             origins.retain(|origin| !is_written(&origin[1]["rule"]));
         }
         fields.retain(|name, value| name != "origins" || value.as_array().is_none_or(|origins| !origins.is_empty()));
