@@ -515,7 +515,7 @@ fn item_25_a_row_of_ten_cells_and_a_title_of_none() {
     assert_eq!(findings(&import), expected);
     let list = import.compilation.diagnostics.list().iter();
     let messages: Vec<&str> = list.map(|diagnostic| diagnostic.message.as_str()).collect();
-    assert!(messages.contains(&"the line has 10 cells, but the list has 9 titles"), "{messages:?}");
+    assert!(messages.contains(&"the line has 10 cells, but the list has 9 column titles"), "{messages:?}");
     assert!(!import.table.as_deref().expect("a table").contains("[units]"));
 }
 

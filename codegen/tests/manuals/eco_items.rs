@@ -25,7 +25,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A8", &["Some text is", "The manual prints 1312", "The name of d1", "The name of P1", "The name of P2"], &[38, 255, 1312]),
     ("A9", &["Rotated labels next to"], &[]),
     ("A10", &["References lead to"], &[]),
-    ("A11", &["The PROFINET example announces"], &[]),
+    ("A11", &["According to the PROFINET example, bold"], &[]),
     ("A12", &["The table of functions"], &[]),
     ("A13", &["The manual does not state", "On 104 pages,"], &[]),
     ("A14", &["Two paragraphs are"], &[]),
