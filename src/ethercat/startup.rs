@@ -108,9 +108,9 @@ impl From<&SdoWrite> for StartupCommand {
 ///
 /// ```
 /// use lexibus::ethercat::{configure, Assignment};
-/// use lexibus::{Client, CoE, Error};
+/// use lexibus::{Client, CoE, SdoWriteError};
 ///
-/// fn set_up<C: Client<Bus = CoE>>(client: &mut C, assignment: &Assignment) -> Result<(), Error<C::Error>> {
+/// fn set_up<C: Client<Bus = CoE>>(client: &mut C, assignment: &Assignment) -> Result<(), SdoWriteError<C::Error>> {
 ///     configure(client, assignment.startup())
 /// }
 /// ```

@@ -240,7 +240,7 @@ impl Converter<'_> {
                 raw(text)
             }
             // A node-ID formula defines an integer, so it is not a valid value of a real type.
-            _ => self.illegal(text, span, ty),
+            _ => self.not_finite(text, span, ty),
         }
     }
 
@@ -248,13 +248,13 @@ impl Converter<'_> {
     /// the type needs. Otherwise, the number is the value itself.
     fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
         let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
-        let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.illegal(text, span, ty) };
+        let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.not_finite(text, span, ty) };
         if digits.starts_with('+') {
-            return self.illegal(text, span, ty);
+            return self.not_finite(text, span, ty);
         }
         if digits.len() as u32 == bits / 4 {
             let value = if bits == 32 { f64::from(f32::from_bits(pattern as u32)) } else { f64::from_bits(pattern) };
-            return if value.is_finite() { Value::Real(value) } else { self.illegal(text, span, ty) };
+            return if value.is_finite() { Value::Real(value) } else { self.not_finite(text, span, ty) };
         }
         self.report(
             &codes::REAL_AS_HEX,
@@ -303,6 +303,12 @@ impl Converter<'_> {
 
     fn illegal(&mut self, text: &str, span: Span, ty: Type) -> Value {
         self.report(&codes::ILLEGAL_NUMBER, span, format!("`{text}` is not a value of the type {ty}"), "kept as text");
+        raw(text)
+    }
+
+    fn not_finite(&mut self, text: &str, span: Span, ty: Type) -> Value {
+        let message = format!("`{text}` is not a finite {ty} number");
+        self.report(&codes::ILLEGAL_NUMBER, span, message, "kept as text");
         raw(text)
     }
 

@@ -72,14 +72,18 @@ pub(super) fn refine(reader: &mut Reader<'_, '_>, group: &mut Group, index: u16,
             if reader.doc.is_comment(entry) {
                 reader.extension(entry, extensions);
             } else {
-                nothing_to_refine(reader, index, section, entry, extensions);
+                let message = format!("the key `{}` is not a decimal sub-index", reader.doc.key(entry));
+                nothing_to_refine(reader, section, entry, message, extensions);
             }
         });
         for (number, entry) in entries {
             let of_number = |item: &Item| item.object().is_some_and(|(_, sub)| u32::from(sub) == number);
             match group.items.iter().position(of_number) {
                 Some(position) => apply(reader, &mut group.items[position], *refinement, &entry),
-                None => nothing_to_refine(reader, index, section, &entry, &mut group.extensions),
+                None => {
+                    let message = format!("0x{index:04X} has no sub-index {}", reader.doc.key(&entry));
+                    nothing_to_refine(reader, section, &entry, message, &mut group.extensions);
+                }
             }
         }
     }
@@ -87,20 +91,15 @@ pub(super) fn refine(reader: &mut Reader<'_, '_>, group: &mut Group, index: u16,
 
 fn nothing_to_refine(
     reader: &mut Reader<'_, '_>,
-    index: u16,
     section: &Section,
     entry: &Entry,
+    message: String,
     extensions: &mut Extensions,
 ) {
-    let key = reader.doc.key(entry);
     reader.diagnostics.push(
-        Diagnostic::new(
-            &codes::NAME_WITHOUT_SUB,
-            reader.doc.key_span(entry),
-            format!("0x{index:04X} has no sub-index {key}"),
-        )
-        .label("kept as an extension attribute")
-        .help("write the number of an existing sub-index, in decimal"),
+        Diagnostic::new(&codes::NAME_WITHOUT_SUB, reader.doc.key_span(entry), message)
+            .label("kept as an extension attribute")
+            .help("write the number of an existing sub-index, in decimal"),
     );
     reader.foreign(section, entry, extensions);
 }

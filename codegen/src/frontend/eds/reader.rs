@@ -265,7 +265,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn missing_entry(&mut self, sections: &[Section], key: &str) {
         let Some(section) = sections.first() else { return };
         if self.diagnostics.wants(&codes::MISSING_ENTRY) {
-            let message = format!("[{}] has no {key}", self.doc.name(section));
+            let message = format!("the section [{}] has no key `{key}`", self.doc.name(section));
             let span = self.doc.name_span(section);
             self.diagnostics.push(Diagnostic::new(&codes::MISSING_ENTRY, span, message));
         }
