@@ -1,0 +1,11 @@
+//! Declared network → network: reads descriptions, looks up objects, and computes the values to write.
+
+mod cob_ids;
+mod heartbeat;
+mod node;
+mod object;
+mod pdo;
+mod run;
+mod value;
+
+pub use run::resolve;
