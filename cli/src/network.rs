@@ -66,7 +66,8 @@ fn summary(network: &Network) -> String {
         1 => format!(", without {}, which has no inhibit time", load.unbounded[0]),
         count => format!(", without {count} PDOs that have no inhibit time"),
     };
-    format!("{nodes} nodes; bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
+    let noun = if nodes == 1 { "node" } else { "nodes" };
+    format!("{nodes} {noun}; bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
 }
 
 /// Writes a file, or compares it with the existing file.

@@ -26,6 +26,8 @@ pub struct DeclaredMaster {
     pub span: Span,
     /// Node-ID of the master.
     pub node_id: Option<At<u8>>,
+    /// True if the section has a node-ID, even if it is invalid.
+    pub has_node_id: bool,
     /// Identity of the master: vendor-ID, product code, revision number, serial number (0x1018).
     pub identity: [u32; 4],
     /// SYNC period in µs (0x1006).
@@ -62,6 +64,7 @@ impl DeclaredMaster {
         DeclaredMaster {
             span,
             node_id: None,
+            has_node_id: false,
             identity: [0; 4],
             sync_period: None,
             sync_window: 0,
@@ -93,6 +96,8 @@ pub struct DeclaredNode {
     pub name: At<String>,
     /// Node-ID of the node.
     pub node_id: Option<At<u8>>,
+    /// True if the section has a node-ID, even if it is invalid.
+    pub has_node_id: bool,
     /// Path of the device description.
     pub device: Option<At<String>>,
     /// Name, order code or product code of the device, if the description contains several devices.
@@ -153,6 +158,7 @@ impl DeclaredNode {
         DeclaredNode {
             name,
             node_id: None,
+            has_node_id: false,
             device: None,
             model: None,
             folders: Vec::new(),

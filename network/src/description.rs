@@ -90,7 +90,7 @@ impl<'s> Descriptions<'s> {
         let select = Selection { devices, ..Selection::default() };
         let options = Options { overlays, select, ..Options::default() };
         let compilation = compile::check(source.clone(), &options);
-        match usable(&compilation) {
+        match usable(&compilation, &options.overlays) {
             Ok(()) => Some(Description { source, options, catalog: compilation.catalog? }),
             Err(fault) => {
                 let found = Diagnostic::new(&codes::DESCRIPTION_UNUSABLE, device.span, fault.message).help(fault.help);
@@ -129,7 +129,7 @@ impl<'s> Descriptions<'s> {
         let message = format!("the file `{}` is not found", name.value);
         let mut found = Diagnostic::new(&codes::DESCRIPTION_NOT_FOUND, name.span, message)
             .label("relative to the folder of the network file");
-        if let Some(other) = self.similar(&paths) {
+        if let Some(other) = similar_file(&name.value, &paths) {
             found = found.help(format!("write `{other}`"));
         }
         for variable in unknown {
@@ -141,20 +141,20 @@ impl<'s> Descriptions<'s> {
         diagnostics.push(found);
         None
     }
+}
 
-    /// Returns the name of a file in the folder of the first existing folder of `paths` that is similar to the name of the path.
-    fn similar(&self, paths: &[PathBuf]) -> Option<String> {
-        let similar = |path: &PathBuf| {
-            let entries = std::fs::read_dir(path.parent()?).ok()?;
-            let mut names: Vec<String> =
-                entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned())).collect();
-            names.sort();
-            let wanted = path.file_name()?.to_string_lossy().into_owned();
-            lexibus_codegen::text::similar(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
-        };
-        paths.iter().find_map(similar)
-    }
-
+/// Returns the path of a file with a similar name in one of the folders of `paths`.
+fn similar_file(name: &str, paths: &[PathBuf]) -> Option<String> {
+    let similar = |path: &PathBuf| {
+        let entries = std::fs::read_dir(path.parent()?).ok()?;
+        let mut names: Vec<String> =
+            entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned())).collect();
+        names.sort();
+        let wanted = path.file_name()?.to_string_lossy().into_owned();
+        let similar = lexibus_codegen::text::similar(&wanted, names.iter().map(String::as_str))?;
+        Some(Path::new(name).with_file_name(similar).to_string_lossy().into_owned())
+    };
+    paths.iter().find_map(similar)
 }
 
 /// Replaces `$NAME`, `${NAME}` and `@BUS_CONFIG_PATH@` in a path. `@BUS_CONFIG_PATH@` is the folder of the network file. Adds the
@@ -199,14 +199,16 @@ struct Fault {
     notes: Vec<String>,
 }
 
-fn usable(compilation: &Compilation) -> Result<(), Fault> {
+fn usable(compilation: &Compilation, overlays: &[Source]) -> Result<(), Fault> {
     let name = compilation.sources[0].name();
+    let overlays = overlays.iter().map(|overlay| format!(" --overlay {}", overlay.name()));
+    let overlays: String = overlays.collect();
     let devices = compilation.catalog.as_ref().map_or(&[][..], |catalog| &catalog.devices);
     if !compilation.is_usable() {
         let errors = compilation.diagnostics.list().iter().filter(|found| found.severity == Severity::Error);
         return Err(Fault {
             message: format!("the description `{name}` has errors"),
-            help: format!("correct the description; `lexibus check {name}` prints all diagnostics"),
+            help: format!("correct the description; `lexibus check {name}{overlays}` prints all diagnostics"),
             notes: errors.take(3).map(|found| compilation.one_line(found)).collect(),
         });
     }

@@ -33,7 +33,7 @@ pub struct BusLoad {
 impl BusLoad {
     /// Returns the number of bits per second.
     pub fn bits_per_second(&self) -> f64 {
-        self.traffic.iter().map(|traffic| traffic.rate * f64::from(traffic.bits)).sum()
+        self.traffic.iter().fold(0.0, |sum, traffic| sum + traffic.rate * f64::from(traffic.bits))
     }
 
     /// Returns the load as a part of the bit rate: 1.0 is a full bus.

@@ -15,6 +15,7 @@ pub(crate) struct Names {
 /// Reads the section of the master.
 pub(crate) fn master(reader: &mut Reader<'_>, table: Table<'_>, names: &Names) -> DeclaredMaster {
     let mut master = DeclaredMaster::new(table.node.span);
+    master.has_node_id = table.get(names.id).is_some();
     master.node_id = reader.integer(table, names.id);
     let identity = ["vendor_id", "product_code", "revision_number", "serial_number"];
     master.identity = identity.map(|key| number(reader, table, key, 0));
@@ -76,6 +77,7 @@ fn numbered(reader: &mut Reader<'_>, entry: &Entry, what: &str, maximum: u16) ->
 
 /// Reads the keys of a node that all formats have.
 pub(crate) fn node(reader: &mut Reader<'_>, table: Table<'_>, names: &Names, node: &mut DeclaredNode) {
+    node.has_node_id = table.get(names.id).is_some();
     node.node_id = reader.integer(table, names.id);
     node.revision_number = reader.integer(table, "revision_number").map(|number| number.value);
     node.serial_number = reader.integer(table, "serial_number").map(|number| number.value);

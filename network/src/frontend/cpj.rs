@@ -18,6 +18,7 @@ pub(super) fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
         let name = text(&format!("Node{id}Name")).filter(|name| !name.is_empty());
         let mut node = DeclaredNode::new(name.unwrap_or(At::new(format!("node{id}"), present.span)));
         node.node_id = Some(At::new(id, present.span));
+        node.has_node_id = true;
         node.device = text(&format!("Node{id}DCFName"));
         node.folders.extend(folder.clone());
         network.nodes.push(node);

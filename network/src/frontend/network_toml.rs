@@ -7,7 +7,7 @@ use super::object_name::object_name;
 use super::reader::{Reader, Table};
 use super::section::{keys, Form, Section};
 use crate::declared::{DeclaredNetwork, DeclaredNode, DeclaredParameter};
-use crate::syntax::{At, Entry, Node};
+use crate::syntax::{At, Content, Entry, Node};
 
 const U8: Form = Form::Integer(0, 0xFF);
 const U16: Form = Form::Integer(0, 0xFFFF);
@@ -125,12 +125,16 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> DeclaredNetwor
         master
     });
     let nodes = file.get("nodes").map_or(&[][..], |nodes| reader.entries(nodes, "name of the node = table"));
-    network.nodes = nodes.iter().map(|entry| node(&mut reader, entry)).collect();
+    network.nodes = nodes.iter().filter_map(|entry| node(&mut reader, entry)).collect();
     network
 }
 
-fn node(reader: &mut Reader<'_>, entry: &Entry) -> DeclaredNode {
+/// Reads a node. Returns `None` if it is not a table.
+fn node(reader: &mut Reader<'_>, entry: &Entry) -> Option<DeclaredNode> {
     let table = reader.table(&entry.value, &NODE);
+    if !matches!(entry.value.content, Content::Table(_)) {
+        return None;
+    }
     let mut node = DeclaredNode::new(entry.key.clone());
     common::node(reader, table, &NAMES, &mut node);
     node.device = reader.text(table, "device");
@@ -141,7 +145,7 @@ fn node(reader: &mut Reader<'_>, entry: &Entry) -> DeclaredNode {
         node.pdos.extend(common::pdos(reader, table, key, &PDO, &NAMES, named_object));
     }
     node.parameters = parameters(reader, table);
-    node
+    Some(node)
 }
 
 fn parameters(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<DeclaredParameter> {

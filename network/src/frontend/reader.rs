@@ -8,6 +8,9 @@ use lexibus_codegen::text::similar;
 use super::section::{Form, Section};
 use crate::syntax::{At, Content, Entry, Node, Scalar};
 
+/// Maximum number of keys that a message lists.
+const MAX_NAMED: usize = 12;
+
 /// Reads the tables of one file.
 pub(crate) struct Reader<'d> {
     pub diagnostics: &'d mut Diagnostics,
@@ -72,7 +75,11 @@ impl Reader<'_> {
             }
             (None, None) => {
                 let names: Vec<&str> = known.collect();
-                self.no_such_key(key, section).help(format!("use one of the keys {}", names.join(", ")))
+                let found = self.no_such_key(key, section);
+                match names.len() {
+                    0..=MAX_NAMED => found.help(format!("use one of the keys {}", names.join(", "))),
+                    _ => found.help("remove the key"),
+                }
             }
         };
         self.diagnostics.push(diagnostic);

@@ -1,5 +1,7 @@
 //! The list of all output files.
 
+use lexibus_codegen::RustOptions;
+
 use super::{concise, dbc, dcf, master_dcf, master_writes, rust};
 use crate::model::Network;
 
@@ -40,6 +42,6 @@ pub fn files(network: &Network) -> Vec<OutputFile> {
         files.push(OutputFile::new("master.bin", concise(entries)));
     }
     files.push(OutputFile::new("network.dbc", dbc(network)));
-    files.extend(rust(network).into_iter().map(|(name, text)| OutputFile::new(name, text)));
+    files.extend(rust(network, &RustOptions::default()).into_iter().map(|(name, text)| OutputFile::new(name, text)));
     files
 }

@@ -17,6 +17,9 @@ use crate::description::{expanded, Description};
 use crate::model::{NetworkNode, Write, DISABLED};
 use crate::syntax::{At, Scalar};
 
+/// Default COB-ID of EMCY without the node-ID (CiA 301 7.5.2.17).
+const EMCY: u32 = 0x80;
+
 /// Resolves a node.
 ///
 /// The order of the writes is that of `dcfgen`: heartbeat consumer, TIME, heartbeat producer, node guarding, error behavior, RPDOs,
@@ -53,7 +56,10 @@ pub(super) fn resolve(
         software_version: declared.software_version,
         device_type: number(initial((0x1000, 0))),
         identity: identity(device, declared, id),
-        emcy_cob_id: initial((0x1014, 0)).map_or(DISABLED, |cob_id| cob_id as u32),
+        emcy_cob_id: match device.entry(0x1014, 0) {
+            Some(_) => initial((0x1014, 0)).map_or(EMCY + u32::from(id), |cob_id| cob_id as u32),
+            None => DISABLED,
+        },
         heartbeat: heartbeat.unwrap_or(of_description),
         heartbeat_multiplier: declared.heartbeat_multiplier.clone(),
         guard_time: 0,

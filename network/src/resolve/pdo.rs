@@ -143,7 +143,8 @@ fn write_mapping(pdo: &mut NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer
     let index = pdo.index() + 0x200;
     let entries: Vec<(MappedObject, Span)> =
         objects.value.iter().filter_map(|object| Some((mapped(pdo.direction, object, writer)?, object.span))).collect();
-    if !pdo.entries.is_empty() || !entries.is_empty() {
+    let is_empty = initial(writer.device, (index, 0), writer.id).is_none_or(|count| count == 0);
+    if !is_empty || !entries.is_empty() {
         writer.write((index, 0), 0, objects.span);
     }
     for (entry, sub_index) in entries.iter().zip(1..=u8::MAX) {

@@ -18,11 +18,12 @@ const BIT_RATE: u16 = 1000;
 /// Resolves a declared network. Nodes that cannot be resolved are reported and left out.
 pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Diagnostics) -> Network {
     check_master(&declared, diagnostics);
-    check_node_ids(&declared, diagnostics);
+    let repeated = check_node_ids(&declared, diagnostics);
     let mut descriptions = Descriptions::new(source);
     let nodes: Vec<(&DeclaredNode, u8, Rc<Description>)> = declared
         .nodes
         .iter()
+        .filter(|node| !repeated.contains(&node.name.value))
         .filter_map(|node| {
             let description = descriptions.of(node, diagnostics);
             Some((node, node.node_id.as_ref()?.value, description?))
@@ -55,7 +56,7 @@ fn check_master(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
             let found = Diagnostic::new(&codes::NO_MASTER, Span::new(FileId(0), 0, 0), "the network has no master");
             diagnostics.push(found.help("add the section `master` with the node-ID of the master"));
         }
-        Some(master) if master.node_id.is_none() => {
+        Some(master) if !master.has_node_id => {
             let found = Diagnostic::new(&codes::NO_NODE_ID, master.span, "the master has no node-ID");
             diagnostics.push(found.help("add a node-ID from 1 to 127"));
         }
@@ -63,8 +64,9 @@ fn check_master(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports nodes without a node-ID, and nodes with the node-ID of another node.
-fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
+/// Reports nodes without a node-ID, and nodes with the node-ID of another node. Returns the names of the latter.
+fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<String> {
+    let mut repeated = Vec::new();
     let mut known: BTreeMap<u8, (String, Span)> = BTreeMap::new();
     if let Some(id) = declared.master.as_ref().and_then(|master| master.node_id.as_ref()) {
         known.insert(id.value, ("the master".to_owned(), id.span));
@@ -73,8 +75,10 @@ fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
     for node in &declared.nodes {
         let name = format!("the node `{}`", node.name.value);
         let Some(id) = &node.node_id else {
-            let found = Diagnostic::new(&codes::NO_NODE_ID, node.name.span, format!("{name} has no node-ID"));
-            diagnostics.push(found.help("add a node-ID from 1 to 127"));
+            if !node.has_node_id {
+                let found = Diagnostic::new(&codes::NO_NODE_ID, node.name.span, format!("{name} has no node-ID"));
+                diagnostics.push(found.help("add a node-ID from 1 to 127"));
+            }
             continue;
         };
         match known.get(&id.value) {
@@ -84,10 +88,12 @@ fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
                 let help = free.map_or("remove a node".to_owned(), |free| format!("use a free node-ID, such as {free}"));
                 let found = Diagnostic::new(&codes::NODE_ID_TWICE, id.span, message);
                 diagnostics.push(found.note_at(*span, format!("{other} is here")).help(help));
+                repeated.push(node.name.value.clone());
             }
             None => {
                 known.insert(id.value, (name, id.span));
             }
         }
     }
+    repeated
 }

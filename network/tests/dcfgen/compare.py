@@ -40,6 +40,30 @@ def values(path):
     return found, device
 
 
+# First indices of the master's objects for received and for sent PDOs: communication, mapping, data, number and mapping of the node.
+PDOS = {"TPDO": (0x1400, 0x1600, 0x2000, 0x5800, 0x5A00), "RPDO": (0x1800, 0x1A00, 0x2200, 0x5C00, 0x5E00)}
+
+
+def by_pdo(found):
+    """Replaces the indices of objects for PDOs with the name of the PDO, and the places of mapped data with their types, so that a PDO
+    that only one file has changes nothing else. Returns the names of the PDOs, too."""
+    names, pdos = {}, set()
+    for kind, (communication, mapping, data, number, remote) in PDOS.items():
+        for position in range(512):
+            if (number + position, 0) in found:
+                value = found[number + position, 0][2]
+                pdos.add(f"{kind} {value >> 8} of node {value & 0xFF}")
+                for part, first in zip(("communication", "mapping", "data", "number", "remote"), PDOS[kind]):
+                    names[first + position] = f"{kind} {value >> 8} of node {value & 0xFF}, {part}"
+    renamed = {}
+    for (index, sub_index), (ty, access, value) in found.items():
+        name = names.get(index, f"{index:#06x}")
+        if name.endswith("mapping") and sub_index > 0:
+            value = (*found[value >> 16, value >> 8 & 0xFF][:2], value & 0xFF)
+        renamed[name, sub_index] = (ty, access, value)
+    return renamed, pdos
+
+
 def entries(path):
     """Returns the entries of a concise DCF, or its bytes if they are not valid."""
     data = open(path, "rb").read()
@@ -76,9 +100,19 @@ def compare_concise(name):
 
 def compare_master():
     (ours, our_device), (theirs, their_device) = values("lexibus/master.dcf"), values("dcfgen/master.dcf")
+    (ours, our_pdos), (theirs, their_pdos) = by_pdo(ours), by_pdo(theirs)
+    single = our_pdos ^ their_pdos
+    yield from (f"{'lexibus' if pdo in our_pdos else 'dcfgen'} only: {pdo}" for pdo in sorted(single))
+    nodes = {pdo.split()[-1] for pdo in single}
+
+    def is_of_single(name):
+        """The data of a PDO are where the first PDO of the node maps them, so a single PDO moves the data of others."""
+        pdo, _, part = name.partition(", ")
+        return pdo in single or part == "data" and pdo.split()[-1] in nodes
+
     for object in sorted(ours.keys() | theirs.keys()):
-        if ours.get(object) != theirs.get(object):
-            yield f"master.dcf {object[0]:#06x}:{object[1]}: lexibus {ours.get(object)}, dcfgen {theirs.get(object)}"
+        if ours.get(object) != theirs.get(object) and not is_of_single(object[0]):
+            yield f"master.dcf {object[0]}:{object[1]}: lexibus {ours.get(object)}, dcfgen {theirs.get(object)}"
     for name in ("node_id", "vendor_id", "product_code", "revision_number"):
         if getattr(our_device, name) != getattr(their_device, name):
             yield f"master.dcf: {name}"
@@ -86,6 +120,8 @@ def compare_master():
         one, other = (dict(device.cfg[section]) for device in (our_device, their_device))
         for key in ("Baudrate", "CANopenManager", "NrOfRxPDO", "NrOfTxPDO", *(key for key in other if key.startswith("Dummy"))):
             lower = lambda entries: {name.lower(): value for name, value in entries.items()}
+            if key.startswith("NrOf") and single:
+                continue
             if key.lower() in lower(other) and lower(one).get(key.lower()) != lower(other)[key.lower()]:
                 yield f"master.dcf [{section}] {key}"
 
