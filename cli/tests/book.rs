@@ -161,7 +161,9 @@ fn commands_run_and_print_what_stands_there() {
 fn tables_are_tables() {
     let mut count = 0;
     for name in chapters() {
-        for block in chapter(&name).iter().filter(|block| block.kind == "toml" && block.file.is_none() && name != "network.md") {
+        for block in
+            chapter(&name).iter().filter(|block| block.kind == "toml" && block.file.is_none() && name != "network.md")
+        {
             let compilation = check(Source::new(name.clone(), whole(&block.text).into()), &Options::default());
             let errors =
                 compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);

@@ -85,7 +85,8 @@ impl<'s> Descriptions<'s> {
             diagnostics.push(Diagnostic::new(&codes::DESCRIPTION_UNUSABLE, device.span, message));
         };
         let source = self.open(path).map_err(&mut unreadable).ok()?;
-        let overlays = overlays.iter().map(|path| self.open(path)).collect::<Result<_, _>>().map_err(unreadable).ok()?;
+        let overlays =
+            overlays.iter().map(|path| self.open(path)).collect::<Result<_, _>>().map_err(unreadable).ok()?;
         let devices = if model.is_empty() { Vec::new() } else { model.parse().into_iter().collect() };
         let select = Selection { devices, ..Selection::default() };
         let options = Options { overlays, select, ..Options::default() };
@@ -215,7 +216,9 @@ fn usable(compilation: &Compilation, overlays: &[Source]) -> Result<(), Fault> {
     let fault = |message: String, help: &str| Err(Fault { message, help: help.to_owned(), notes: Vec::new() });
     match devices {
         [device] if buses(device).canopen && device.items().any(|item| item.object().is_some()) => Ok(()),
-        [_] => fault(format!("the device in `{name}` has no CANopen objects"), "name the description of a CANopen device"),
+        [_] => {
+            fault(format!("the device in `{name}` has no CANopen objects"), "name the description of a CANopen device")
+        }
         [] => fault(format!("`{name}` describes no device"), "name the description of a CANopen device"),
         several => Err(Fault {
             message: format!("`{name}` describes {} devices", several.len()),

@@ -50,7 +50,8 @@ impl Network {
 
     /// Returns the number of SYNCs per second that the master sends.
     pub fn sync_rate(&self) -> f64 {
-        let period = self.master.as_ref().and_then(|master| master.sync_period.as_ref()).map_or(0, |period| period.value);
+        let period =
+            self.master.as_ref().and_then(|master| master.sync_period.as_ref()).map_or(0, |period| period.value);
         if period == 0 {
             0.0
         } else {
@@ -137,7 +138,8 @@ impl NetworkNode {
 
     /// Returns the value that an object has after the configuration: the last value that is written, or the initial value.
     pub fn value(&self, object: (u16, u8)) -> Option<i128> {
-        let written = self.writes.iter().rev().find(|write| write.object == object).and_then(|write| write.value.as_ref());
+        let written =
+            self.writes.iter().rev().find(|write| write.object == object).and_then(|write| write.value.as_ref());
         written.or_else(|| self.item(object)?.initial())?.resolved(self.id).as_int()
     }
 

@@ -18,6 +18,7 @@ const FAMILIES: [(&str, &str); 11] = [
     ("TAB", "Register tables, and checks for all formats"),
     ("MSG", "Command protocols"),
     ("MOD", "Modules of a CANopen device"),
+    ("NET", "CANopen networks"),
     ("CSV", "Register lists (CSV)"),
 ];
 

@@ -101,7 +101,9 @@ impl Case {
                 |name: &String| *name == SETTINGS || is_expected(name) || self.settings.overlays.contains(name);
             names = self.file_names().into_iter().filter(|name| !is_other(name)).collect();
             if self.settings.network {
-                names.retain(|name| NETWORK_FILES.contains(&name.rsplit('.').next().unwrap_or_default()) || name == "network.toml");
+                names.retain(|name| {
+                    NETWORK_FILES.contains(&name.rsplit('.').next().unwrap_or_default()) || name == "network.toml"
+                });
             }
         }
         assert!(!names.is_empty(), "{}: no input", self.name());

@@ -64,7 +64,12 @@ pub fn bus_load(network: &Network) -> BusLoad {
         add("SYNC".to_owned(), 0x80, has_counter.into(), sync);
     }
     if let Some(master) = network.master.as_ref().filter(|master| master.heartbeat.value > 0) {
-        add("heartbeat of the master".to_owned(), 0x700 + u32::from(network.master_id()), 1, per_second(master.heartbeat.value));
+        add(
+            "heartbeat of the master".to_owned(),
+            0x700 + u32::from(network.master_id()),
+            1,
+            per_second(master.heartbeat.value),
+        );
     }
     for node in &network.nodes {
         let (id, name) = (0x700 + u32::from(node.id), &node.name.value);
@@ -116,7 +121,8 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     let mut largest: Vec<&Traffic> = load.traffic.iter().collect();
     let bits = |traffic: &Traffic| traffic.rate * f64::from(traffic.bits);
     largest.sort_by(|one, other| bits(other).total_cmp(&bits(one)));
-    let found = Diagnostic::new(&codes::BUS_LOAD, load_at(network), message).help("use longer periods or a higher bit rate");
+    let found =
+        Diagnostic::new(&codes::BUS_LOAD, load_at(network), message).help("use longer periods or a higher bit rate");
     let note = |traffic: &&Traffic| {
         format!("{}: {:.1} frames per second of {} bits", traffic.name, traffic.rate, traffic.bits)
     };

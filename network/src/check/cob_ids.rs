@@ -27,7 +27,8 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
             Some(other) => {
                 let message = format!("the CAN-ID 0x{:X} of {name} is also that of {}", pdo.can_id(), other.name);
                 let found = Diagnostic::new(&codes::COB_ID_CONFLICT, span, message);
-                let found = if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
+                let found =
+                    if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
                 diagnostics.push(found.help("choose another `cob_id`, or use `auto`"));
             }
             None => {

@@ -15,7 +15,13 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
         consumers(network, node, diagnostics);
         let is_monitored = network.master.as_ref().is_some_and(|master| master.consumes_heartbeats);
         if is_monitored {
-            times(&format!("`{}`", node.name.value), &node.heartbeat, &node.heartbeat_multiplier, node.name.span, diagnostics);
+            times(
+                &format!("`{}`", node.name.value),
+                &node.heartbeat,
+                &node.heartbeat_multiplier,
+                node.name.span,
+                diagnostics,
+            );
         }
         if node.heartbeat.value != 0 && node.guard_time != 0 && node.life_time_factor != 0 {
             let message = format!("`{}` uses heartbeat and node guarding", node.name.value);
@@ -37,7 +43,9 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
     let of = format!("the consumer time of the heartbeat of {who} is {consumer} ms");
     if consumer <= producer.into() {
         let found = Diagnostic::new(&codes::HEARTBEAT_TIME, multiplier.span.or(span), of);
-        diagnostics.push(found.label(format!("the producer time is {producer} ms")).help("use a multiplier above 1, such as 3"));
+        diagnostics.push(
+            found.label(format!("the producer time is {producer} ms")).help("use a multiplier above 1, such as 3"),
+        );
     } else if consumer > MAX_TIME {
         let found = Diagnostic::new(&codes::HEARTBEAT_TIME, heartbeat.span.or(span), of);
         diagnostics.push(found.label(format!("the maximum is {MAX_TIME} ms")).help("use a shorter heartbeat"));

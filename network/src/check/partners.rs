@@ -16,7 +16,9 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
             let message = format!("no node receives {} of `{}`", pdo.title(), node.name.value);
             let found = Diagnostic::new(&codes::PDO_WITHOUT_PARTNER, place(node, pdo), message);
             let receiver = format!("`cob_id = \"{}.tpdo{}\"`", node.name.value, pdo.number);
-            diagnostics.push(found.help(format!("declare the RPDO of a node with {receiver}, or disable the PDO with `enabled = false`")));
+            diagnostics.push(found.help(format!(
+                "declare the RPDO of a node with {receiver}, or disable the PDO with `enabled = false`"
+            )));
         }
     }
     let is_sent = |can_id| network.pdos(Direction::Transmit).any(|(_, pdo)| pdo.can_id() == can_id);

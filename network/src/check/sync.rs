@@ -29,7 +29,8 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     };
     if time > f64::from(available) {
         let count = synchronous.len();
-        let message = format!("SYNC and {count} synchronous PDOs take up to {time:.0} µs, but the {name} is {available} µs");
+        let message =
+            format!("SYNC and {count} synchronous PDOs take up to {time:.0} µs, but the {name} is {available} µs");
         let found = Diagnostic::new(&codes::SYNC_PERIOD, period.span, message);
         diagnostics.push(found.help(format!("use a {name} of at least {:.0} µs", time.ceil())));
     }

@@ -1,11 +1,14 @@
 //! `bus.yml` of Lely's `dcfgen`, with the extensions of ros2_canopen: `nodes`, `defaults`, and keys for its drivers.
 
 use lexibus_codegen::diagnostics::Diagnostics;
+use lexibus_codegen::source::Span;
 
 use super::common::{self, Names};
 use super::reader::{Reader, Table};
 use super::section::{keys, Form, Section};
-use crate::declared::{DeclaredNetwork, DeclaredNode, DeclaredParameter, ObjectName, HEARTBEAT_MULTIPLIER, RETRY_FACTOR};
+use crate::declared::{
+    DeclaredNetwork, DeclaredNode, DeclaredParameter, ObjectName, HEARTBEAT_MULTIPLIER, RETRY_FACTOR,
+};
 use crate::syntax::{At, Content, Entry, Node, Scalar};
 
 const U8: Form = Form::Integer(0, 0xFF);
@@ -16,132 +19,132 @@ const NODE_ID: Form = Form::Integer(1, 127);
 static OPTIONS: Section = Section {
     name: "the section `options`",
     keys: keys! {
-        "dcf_path" Form::Text, "";
-        "heartbeat_multiplier" Form::Number, "";
-        "retry_factor" U8, "";
+        "dcf_path" Form::Text;
+        "heartbeat_multiplier" Form::Number;
+        "retry_factor" U8;
     },
 };
 
 static MASTER: Section = Section {
     name: "the section `master`",
     keys: keys! {
-        "node_id" NODE_ID, "";
-        "baudrate" Form::Integer(10, 1000), "";
-        "vendor_id" U32, "";
-        "product_code" U32, "";
-        "revision_number" U32, "";
-        "serial_number" U32, "";
-        "sync_period" U32, "";
-        "sync_window" U32, "";
-        "sync_overflow" Form::Integer(0, 240), "";
-        "time_cob_id" U32, "";
-        "emcy_inhibit_time" U16, "";
-        "heartbeat_producer" U16, "";
-        "heartbeat_multiplier" Form::Number, "";
-        "heartbeat_consumer" Form::Flag, "";
-        "error_behavior" Form::Values, "";
-        "nmt_inhibit_time" U16, "";
-        "start" Form::Flag, "";
-        "start_nodes" Form::Flag, "";
-        "start_all_nodes" Form::Flag, "";
-        "reset_all_nodes" Form::Flag, "";
-        "stop_all_nodes" Form::Flag, "";
-        "boot_time" U32, "";
-        "dcf_path" Form::Ignored, "";
-        "driver" Form::Ignored, "";
-        "package" Form::Ignored, "";
-        "namespace" Form::Ignored, "";
-        "remappings" Form::Ignored, "";
-        "container_name" Form::Ignored, "";
-        "boot_timeout" Form::Ignored, "";
-        "boot_timeout_ms" Form::Ignored, "";
-        "non_transmit_timeout" Form::Ignored, "";
+        "node_id" NODE_ID;
+        "baudrate" Form::Integer(10, 1000);
+        "vendor_id" U32;
+        "product_code" U32;
+        "revision_number" U32;
+        "serial_number" U32;
+        "sync_period" U32;
+        "sync_window" U32;
+        "sync_overflow" Form::Integer(0, 240);
+        "time_cob_id" U32;
+        "emcy_inhibit_time" U16;
+        "heartbeat_producer" U16;
+        "heartbeat_multiplier" Form::Number;
+        "heartbeat_consumer" Form::Flag;
+        "error_behavior" Form::Values;
+        "nmt_inhibit_time" U16;
+        "start" Form::Flag;
+        "start_nodes" Form::Flag;
+        "start_all_nodes" Form::Flag;
+        "reset_all_nodes" Form::Flag;
+        "stop_all_nodes" Form::Flag;
+        "boot_time" U32;
+        "dcf_path" Form::Ignored;
+        "driver" Form::Ignored;
+        "package" Form::Ignored;
+        "namespace" Form::Ignored;
+        "remappings" Form::Ignored;
+        "container_name" Form::Ignored;
+        "boot_timeout" Form::Ignored;
+        "boot_timeout_ms" Form::Ignored;
+        "non_transmit_timeout" Form::Ignored;
     },
 };
 
 static NODE: Section = Section {
     name: "the section of a node",
     keys: keys! {
-        "node_id" NODE_ID, "";
-        "dcf" Form::Text, "";
-        "dcf_path" Form::Text, "";
-        "revision_number" U32, "";
-        "serial_number" U32, "";
-        "time_cob_id" U32, "";
-        "heartbeat_producer" U16, "";
-        "heartbeat_multiplier" Form::Number, "";
-        "heartbeat_consumer" Form::Flag, "";
-        "guard_time" U16, "";
-        "life_time_factor" U8, "";
-        "retry_factor" U8, "";
-        "error_behavior" Form::Values, "";
-        "rpdo" Form::Named(&PDO), "";
-        "tpdo" Form::Named(&PDO), "";
-        "boot" Form::Flag, "";
-        "mandatory" Form::Flag, "";
-        "reset_communication" Form::Flag, "";
-        "software_file" Form::Text, "";
-        "software_version" U32, "";
-        "configuration_file" Form::Ignored, "";
-        "restore_configuration" U8, "";
-        "sdo" Form::Objects, "";
-        "vendor_id" Form::Ignored, "";
-        "product_code" Form::Ignored, "";
-        "driver" Form::Ignored, "";
-        "package" Form::Ignored, "";
-        "namespace" Form::Ignored, "";
-        "remappings" Form::Ignored, "";
-        "container_name" Form::Ignored, "";
-        "enable_lazy_load" Form::Ignored, "";
-        "boot_timeout_ms" Form::Ignored, "";
-        "sdo_timeout_ms" Form::Ignored, "";
-        "non_transmit_timeout" Form::Ignored, "";
-        "polling" Form::Ignored, "";
-        "period" Form::Ignored, "";
-        "diagnostics" Form::Ignored, "";
-        "switching_state" Form::Ignored, "";
-        "position_mode" Form::Ignored, "";
-        "velocity_mode" Form::Ignored, "";
-        "effort_mode" Form::Ignored, "";
-        "homing_timeout_seconds" Form::Ignored, "";
-        "scale_pos_to_dev" Form::Ignored, "";
-        "scale_pos_from_dev" Form::Ignored, "";
-        "scale_vel_to_dev" Form::Ignored, "";
-        "scale_vel_from_dev" Form::Ignored, "";
-        "scale_eff_from_dev" Form::Ignored, "";
-        "offset_pos_to_dev" Form::Ignored, "";
-        "offset_pos_from_dev" Form::Ignored, "";
+        "node_id" NODE_ID;
+        "dcf" Form::Text;
+        "dcf_path" Form::Text;
+        "revision_number" U32;
+        "serial_number" U32;
+        "time_cob_id" U32;
+        "heartbeat_producer" U16;
+        "heartbeat_multiplier" Form::Number;
+        "heartbeat_consumer" Form::Flag;
+        "guard_time" U16;
+        "life_time_factor" U8;
+        "retry_factor" U8;
+        "error_behavior" Form::Values;
+        "rpdo" Form::Named(&PDO);
+        "tpdo" Form::Named(&PDO);
+        "boot" Form::Flag;
+        "mandatory" Form::Flag;
+        "reset_communication" Form::Flag;
+        "software_file" Form::Text;
+        "software_version" U32;
+        "configuration_file" Form::Ignored;
+        "restore_configuration" U8;
+        "sdo" Form::Objects;
+        "vendor_id" Form::Ignored;
+        "product_code" Form::Ignored;
+        "driver" Form::Ignored;
+        "package" Form::Ignored;
+        "namespace" Form::Ignored;
+        "remappings" Form::Ignored;
+        "container_name" Form::Ignored;
+        "enable_lazy_load" Form::Ignored;
+        "boot_timeout_ms" Form::Ignored;
+        "sdo_timeout_ms" Form::Ignored;
+        "non_transmit_timeout" Form::Ignored;
+        "polling" Form::Ignored;
+        "period" Form::Ignored;
+        "diagnostics" Form::Ignored;
+        "switching_state" Form::Ignored;
+        "position_mode" Form::Ignored;
+        "velocity_mode" Form::Ignored;
+        "effort_mode" Form::Ignored;
+        "homing_timeout_seconds" Form::Ignored;
+        "scale_pos_to_dev" Form::Ignored;
+        "scale_pos_from_dev" Form::Ignored;
+        "scale_vel_to_dev" Form::Ignored;
+        "scale_vel_from_dev" Form::Ignored;
+        "scale_eff_from_dev" Form::Ignored;
+        "offset_pos_to_dev" Form::Ignored;
+        "offset_pos_from_dev" Form::Ignored;
     },
 };
 
 static PDO: Section = Section {
     name: "the section of a PDO",
     keys: keys! {
-        "enabled" Form::Flag, "";
-        "cob_id" Form::IntegerOrText, "";
-        "transmission" U8, "";
-        "inhibit_time" U16, "";
-        "event_timer" U16, "";
-        "event_deadline" U16, "";
-        "sync_start" Form::Integer(0, 240), "";
-        "mapping" Form::Objects, "";
+        "enabled" Form::Flag;
+        "cob_id" Form::IntegerOrText;
+        "transmission" U8;
+        "inhibit_time" U16;
+        "event_timer" U16;
+        "event_deadline" U16;
+        "sync_start" Form::Integer(0, 240);
+        "mapping" Form::Objects;
     },
 };
 
 static MAPPED: Section = Section {
     name: "a mapped object",
     keys: keys! {
-        "index" U16, "";
-        "sub_index" U8, "";
+        "index" U16;
+        "sub_index" U8;
     },
 };
 
 static SDO: Section = Section {
     name: "a value in `sdo`",
     keys: keys! {
-        "index" U16, "";
-        "sub_index" U8, "";
-        "value" Form::IntegerOrText, "";
+        "index" U16;
+        "sub_index" U8;
+        "value" Form::IntegerOrText;
     },
 };
 
@@ -236,13 +239,14 @@ fn mapped(reader: &mut Reader<'_>, node: &Node) -> Option<At<ObjectName>> {
 /// Returns the address in the keys `index` and `sub_index`.
 fn address(reader: &mut Reader<'_>, table: Table<'_>) -> Option<At<ObjectName>> {
     if table.get("index").is_none() {
-        reader.invalid(table.node, "a table with the key `index`");
+        reader.missing(table, "index");
         return None;
     }
     let index: At<u16> = reader.integer(table, "index")?;
     let sub_index: Option<At<u8>> = reader.integer(table, "sub_index");
-    let span = sub_index.as_ref().map_or(index.span, |sub| lexibus_codegen::source::Span { end: sub.span.end.max(index.span.end), ..index.span });
-    Some(At::new(ObjectName::Address(index.value, sub_index.map_or(0, |sub| sub.value)), span))
+    let end = sub_index.as_ref().map_or(0, |sub_index| sub_index.span.end).max(index.span.end);
+    let object = ObjectName::Address(index.value, sub_index.map_or(0, |sub_index| sub_index.value));
+    Some(At::new(object, Span { end, ..index.span }))
 }
 
 fn parameters(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<DeclaredParameter> {

@@ -162,4 +162,3 @@ fn sender(text: &str) -> Option<DeclaredCobId> {
 pub(crate) fn named_object(reader: &mut Reader<'_>, node: &Node) -> Option<At<ObjectName>> {
     reader.text_of(node).map(|text| At::new(object_name(&text.value), text.span))
 }
-

@@ -9,12 +9,15 @@ use crate::syntax::At;
 /// Reads the section `[Topology]` of a file. Sections of further networks (`[Topology2]`) are reported and skipped.
 pub(super) fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> DeclaredNetwork {
     let entries = entries(source, file, diagnostics);
-    let text = |key: &str| entries.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.clone());
+    let text =
+        |key: &str| entries.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.clone());
     let mut network = DeclaredNetwork { is_master_optional: true, ..DeclaredNetwork::default() };
     network.name = text("NetName").filter(|name| !name.is_empty());
     let folder = text("EDSBaseName").filter(|folder| !folder.is_empty());
     for id in 1..=127u8 {
-        let Some(present) = text(&format!("Node{id}Present")).filter(|value| number(value) == Some(1)) else { continue };
+        let Some(present) = text(&format!("Node{id}Present")).filter(|value| number(value) == Some(1)) else {
+            continue;
+        };
         let name = text(&format!("Node{id}Name")).filter(|name| !name.is_empty());
         let mut node = DeclaredNode::new(name.unwrap_or(At::new(format!("node{id}"), present.span)));
         node.node_id = Some(At::new(id, present.span));
@@ -26,7 +29,7 @@ pub(super) fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
     let declared = text("Nodes");
     if let Some((declared, count)) = declared.and_then(|declared| Some((number(&declared)?, declared))) {
         if declared != network.nodes.len() as u64 {
-            let message = format!("`Nodes` is {declared}, but {} nodes are present", network.nodes.len());
+            let message = format!("`Nodes` is {declared}, but the number of present nodes is {}", network.nodes.len());
             diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, count.span, message));
         }
     }

@@ -13,4 +13,3 @@ mod section;
 
 pub use detect::{read, Format};
 pub use schema::schema;
-

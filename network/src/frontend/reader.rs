@@ -70,9 +70,7 @@ impl Reader<'_> {
                     .label(format!("this is {}", section.name))
                     .help(format!("move the key to {}", other.name))
             }
-            (None, Some(name)) => {
-                self.no_such_key(key, section).help(format!("write `{name}`"))
-            }
+            (None, Some(name)) => self.no_such_key(key, section).help(format!("write `{name}`")),
             (None, None) => {
                 let names: Vec<&str> = known.collect();
                 let found = self.no_such_key(key, section);
@@ -87,13 +85,20 @@ impl Reader<'_> {
 
     fn no_such_key(&self, key: &At<String>, section: &Section) -> Diagnostic {
         let message = format!("the key `{}` is unknown", key.value);
-        Diagnostic::new(&codes::UNKNOWN_NETWORK_KEY, key.span, message).label(format!("{} has no such key", section.name))
+        Diagnostic::new(&codes::UNKNOWN_NETWORK_KEY, key.span, message)
+            .label(format!("{} has no such key", section.name))
     }
 
     /// Reports a value of the wrong form.
     pub fn invalid(&mut self, node: &Node, expected: &str) {
         let message = format!("expected {expected}, found {}", node.described());
         self.diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, node.span, message));
+    }
+
+    /// Reports a missing key.
+    pub fn missing(&mut self, table: Table<'_>, key: &str) {
+        let message = format!("{} has no key `{key}`", table.section.name);
+        self.diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, table.node.span, message));
     }
 
     /// Returns an integer. The range is that of the key's declaration.

@@ -16,7 +16,10 @@ pub fn schema() -> String {
 /// Writes the members of a schema for a table.
 fn object(text: &mut String, section: &Section, depth: usize) {
     let indent = "  ".repeat(depth);
-    let _ = writeln!(text, "{indent}\"type\": \"object\",\n{indent}\"additionalProperties\": false,\n{indent}\"properties\": {{");
+    let _ = writeln!(
+        text,
+        "{indent}\"type\": \"object\",\n{indent}\"additionalProperties\": false,\n{indent}\"properties\": {{"
+    );
     for (key, number) in section.keys.iter().zip(1..) {
         let _ = writeln!(text, "{indent}  \"{}\": {{", key.name);
         self::key(text, key, depth + 2);
@@ -36,7 +39,8 @@ fn key(text: &mut String, key: &Key, depth: usize) {
         Form::Text => "\"type\": \"string\"".to_owned(),
         Form::Texts | Form::Objects => "\"type\": \"array\", \"items\": { \"type\": \"string\" }".to_owned(),
         Form::Values => {
-            "\"type\": \"object\", \"additionalProperties\": { \"type\": [\"number\", \"string\", \"boolean\"] }".to_owned()
+            "\"type\": \"object\", \"additionalProperties\": { \"type\": [\"number\", \"string\", \"boolean\"] }"
+                .to_owned()
         }
         Form::IntegerOrText => "\"type\": [\"integer\", \"string\"]".to_owned(),
         Form::Ignored => "\"type\": [\"number\", \"string\", \"boolean\", \"object\", \"array\"]".to_owned(),

@@ -47,10 +47,10 @@ pub(crate) enum Form {
     Ignored,
 }
 
-/// Declares the keys of a section: name, form, description.
+/// Declares the keys of a section: name, form, description. Only `network.toml` needs descriptions, for its JSON Schema.
 macro_rules! keys {
-    ($($name:literal $form:expr, $about:literal;)*) => {
-        &[$($crate::frontend::section::Key { name: $name, form: $form, about: $about }),*]
+    ($($name:literal $form:expr $(, $about:literal)?;)*) => {
+        &[$($crate::frontend::section::Key { name: $name, form: $form, about: concat!($($about)?) }),*]
     };
 }
 pub(crate) use keys;

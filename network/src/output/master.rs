@@ -95,7 +95,11 @@ fn communication(network: &Network, master: &DeclaredMaster) -> Vec<Group> {
         let entry = item(0x1018, sub_index, (name, U32, ReadOnly));
         let number = master.identity[usize::from(sub_index) - 1];
         // The serial number is written when the master starts.
-        if sub_index < 4 { with_value(entry, number) } else { entry }
+        if sub_index < 4 {
+            with_value(entry, number)
+        } else {
+            entry
+        }
     };
     let names = ["Vendor-ID", "Product code", "Revision number", "Serial number"];
     let identity = (1..).zip(names).map(|(sub_index, name)| identity(sub_index, name)).collect();
@@ -219,7 +223,8 @@ impl Network {
             let key = (pdo.can_id(), pdo.bytes());
             let is_new = !known.contains(&key);
             known.push(key);
-            master.exchanges_pdos && (direction == Direction::Transmit || is_new && self.is_sent_by_master(pdo.can_id()))
+            master.exchanges_pdos
+                && (direction == Direction::Transmit || is_new && self.is_sent_by_master(pdo.can_id()))
         };
         self.pdos(direction).filter(is_exchanged).collect()
     }
@@ -254,8 +259,7 @@ type Places = HashMap<(u16, u8), (u16, u8)>;
 /// Returns the object with the data of a PDO. A later PDO of the same node maps the same data.
 fn place(node: &NetworkNode, pdo: &NetworkPdo, index: u16, places: &mut Places) -> Option<Group> {
     let is_received = pdo.direction == Direction::Transmit;
-    let (access, kind) =
-        if is_received { (Access::ReadWriteOutput, "RPDO") } else { (Access::ReadWriteInput, "TPDO") };
+    let (access, kind) = if is_received { (Access::ReadWriteOutput, "RPDO") } else { (Access::ReadWriteInput, "TPDO") };
     let mut items = Vec::new();
     for entry in &pdo.entries {
         let place = (index, items.len() as u8 + 1);

@@ -1,8 +1,6 @@
 //! Builds objects of the master's object dictionary.
 
-use lexibus_codegen::ir::{
-    Access, Binding, Configured, Group, Item, Mappable, ObjectCode, Type, Value,
-};
+use lexibus_codegen::ir::{Access, Binding, Configured, Group, Item, Mappable, ObjectCode, Type, Value};
 use lexibus_codegen::source::Origin;
 
 pub(super) const U8: Type = Type::Unsigned(8);

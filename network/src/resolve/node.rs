@@ -10,8 +10,8 @@ use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
 use super::object::{address, find};
-use super::value::{basic_type, broken_limit, convert};
 use super::pdo;
+use super::value::{basic_type, broken_limit, convert};
 use crate::declared::{DeclaredNode, DeclaredParameter, ObjectName};
 use crate::description::{expanded, Description};
 use crate::model::{NetworkNode, Write, DISABLED};
@@ -47,7 +47,8 @@ pub(super) fn resolve(
     let mut writes = if declared.is_description_written { described(device, id) } else { Vec::new() };
     writes.append(&mut writer.writes);
     let heartbeat = declared.heartbeat.clone();
-    let of_description = At::new(initial((0x1017, 0)).and_then(|time| u16::try_from(time).ok()).unwrap_or(0), Span::MISSING);
+    let of_description =
+        At::new(initial((0x1017, 0)).and_then(|time| u16::try_from(time).ok()).unwrap_or(0), Span::MISSING);
     let mut node = NetworkNode {
         name: declared.name.clone(),
         id,
@@ -83,8 +84,10 @@ pub(super) fn resolve(
 /// Returns the writes of the values that the description configures.
 fn described(device: &Device, id: u8) -> Vec<Write> {
     let Some(configuration) = Configuration::of(device) else { return Vec::new() };
-    let Configuration { disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos, .. } = configuration;
-    let settings = [disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos].into_iter().flatten();
+    let Configuration { disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos, .. } =
+        configuration;
+    let settings =
+        [disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos].into_iter().flatten();
     let write = |setting: Setting| {
         let number = setting.bytes.iter().rev().fold(0u64, |number, byte| number.wrapping_shl(8) | u64::from(*byte));
         let bytes = match setting.adds_node_id {
@@ -183,7 +186,9 @@ impl Writer<'_> {
             let message = format!("{} cannot be written", title(item, object));
             let found = Diagnostic::new(&codes::READ_ONLY_PARAMETER, parameter.object.span, message);
             let access = item.access_on(Bus::CanOpen).name();
-            self.diagnostics.push(found.label(format!("the description states the access rights `{access}`")).help("remove the value"));
+            self.diagnostics.push(
+                found.label(format!("the description states the access rights `{access}`")).help("remove the value"),
+            );
         }
     }
 }

@@ -40,7 +40,9 @@ fn no_address(device: &Device, object: &At<ObjectName>, index: u16, sub_index: u
         let found = diagnostic(object, format!("{name} has no object {}", hex16(index)));
         let nearest = device.groups.iter().filter_map(Group::index).min_by_key(|other| distance(*other, index));
         return match nearest.and_then(|index| device.object(index)) {
-            Some(group) => found.help(format!("the nearest object is {} `{}`", hex16(group.index().unwrap_or(0)), group.name)),
+            Some(group) => {
+                found.help(format!("the nearest object is {} `{}`", hex16(group.index().unwrap_or(0)), group.name))
+            }
             None => found,
         };
     };

@@ -87,7 +87,8 @@ pub(super) fn pdo(device: &Device, direction: Direction, number: u16, id: u8) ->
 fn mapping(device: &Device, index: u16, id: u8) -> Vec<MappedObject> {
     let count = initial(device, (index, 0), id).and_then(|count| u8::try_from(count).ok()).unwrap_or(0);
     let words = (1..=count.min(64)).filter_map(|sub_index| initial(device, (index, sub_index), id));
-    let entry = |word: i128| MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 };
+    let entry =
+        |word: i128| MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 };
     words.filter(|word| *word != 0).map(entry).collect()
 }
 

@@ -85,7 +85,8 @@ fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> 
             Some((other, span)) => {
                 let message = format!("{name} has the node-ID {} of {other}", id.value);
                 let free = (1..=127).find(|free| !used.contains(free) && !known.contains_key(free));
-                let help = free.map_or("remove a node".to_owned(), |free| format!("use a free node-ID, such as {free}"));
+                let help =
+                    free.map_or("remove a node".to_owned(), |free| format!("use a free node-ID, such as {free}"));
                 let found = Diagnostic::new(&codes::NODE_ID_TWICE, id.span, message);
                 diagnostics.push(found.note_at(*span, format!("{other} is here")).help(help));
                 repeated.push(node.name.value.clone());

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use lexibus_codegen::facts::{encoding, types};
-use lexibus_codegen::ir::{Device, Item, Limits, Scale, Type, Value};
 use lexibus_codegen::ir::owner::Owner;
+use lexibus_codegen::ir::{Device, Item, Limits, Scale, Type, Value};
 use lexibus_codegen::text::similar;
 
 use crate::syntax::Scalar;
@@ -44,7 +44,8 @@ pub(crate) fn convert(device: &Device, item: &Item, given: &Scalar, id: u8) -> R
         (Scalar::Real(number), _) if ty.integer_range().is_some() => {
             let wrong = WrongValue::new(format!("{number} is not an integer, but the type of the object is {ty}"));
             return Err(match unit(item) {
-                Some(unit) => wrong.help(format!("write `\"{number} {unit}\"` for a physical value, or an integer for a raw value")),
+                Some(unit) => wrong
+                    .help(format!("write `\"{number} {unit}\"` for a physical value, or an integer for a raw value")),
                 None => wrong.help("write a raw value"),
             });
         }
@@ -57,9 +58,8 @@ pub(crate) fn convert(device: &Device, item: &Item, given: &Scalar, id: u8) -> R
 fn fitting(value: Value, ty: Type) -> Result<Value, WrongValue> {
     match (encoding::fits(&value, ty), ty.integer_range()) {
         (true, _) => Ok(value),
-        (false, Some((low, high))) => {
-            Err(WrongValue::new(format!("{value} is not in the range of {ty}")).help(format!("write a value from {low} to {high}")))
-        }
+        (false, Some((low, high))) => Err(WrongValue::new(format!("{value} is not in the range of {ty}"))
+            .help(format!("write a value from {low} to {high}"))),
         (false, None) => Err(WrongValue::new(format!("{value} is not a value of the type {ty}"))),
     }
 }
@@ -73,7 +73,8 @@ fn text_value(device: &Device, item: &Item, text: &str, ty: Type) -> Result<Valu
     match ty {
         Type::VisibleString(_) | Type::UnicodeString(_) => return Ok(Value::Text(text.into())),
         Type::OctetString(_) | Type::Domain | Type::Opaque(_) => {
-            let wrong = || WrongValue::new(format!("{text:?} is not a list of bytes")).help("write bytes, such as \"01 FF\"");
+            let wrong =
+                || WrongValue::new(format!("{text:?} is not a list of bytes")).help("write bytes, such as \"01 FF\"");
             return bytes(text).map(Value::Bytes).ok_or_else(wrong);
         }
         _ => {}
@@ -109,7 +110,8 @@ fn quantity(text: &str) -> Option<(f64, &str)> {
 /// Returns the raw value of a physical value.
 fn physical(item: &Item, number: f64, given: &str, ty: Type) -> Result<Value, WrongValue> {
     let Some(unit) = unit(item) else {
-        return Err(WrongValue::new(format!("the object has no unit, but the value has the unit `{given}`")).help("write a raw value"));
+        return Err(WrongValue::new(format!("the object has no unit, but the value has the unit `{given}`"))
+            .help("write a raw value"));
     };
     if unit != given {
         let wrong = WrongValue::new(format!("the value has the unit `{given}`, but the object has the unit `{unit}`"));

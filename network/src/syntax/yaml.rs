@@ -104,7 +104,8 @@ impl Loader<'_> {
             Event::MappingStart(anchor, _) => self.open(start, anchor, Content::Table(Vec::new()), span),
             Event::SequenceEnd | Event::MappingEnd => {
                 let Some(open) = self.open.pop() else { return Ok(()) };
-                let node = Node { span: Span::new(self.file, open.start, start.max(open.start)), content: open.content };
+                let node =
+                    Node { span: Span::new(self.file, open.start, start.max(open.start)), content: open.content };
                 self.put(node, open.anchor)
             }
             _ => Ok(()),

@@ -50,7 +50,8 @@ struct Accepted {
 /// Returns the devices of the corpus that `dcfgen` accepts.
 fn models(python: &Path) -> Option<Vec<Model>> {
     let folder = folder_of("eds")?;
-    let files: Vec<_> = files_of("eds")?.into_iter().filter(|file| file.name.to_lowercase().ends_with(".eds")).collect();
+    let files: Vec<_> =
+        files_of("eds")?.into_iter().filter(|file| file.name.to_lowercase().ends_with(".eds")).collect();
     let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.name)).collect();
     let accepted: Vec<Accepted> = run(python, "../codegen/export/tests/corpus_exports/check.py", &paths);
     let pairs = files.into_iter().zip(accepted).filter(|(_, accepted)| accepted.strict);
@@ -94,7 +95,9 @@ fn reason(difference: &str, network: &Network) -> Option<&'static str> {
         return reason_of_pdo(pdo, network);
     }
     if difference.starts_with("master.dcf 0x1028:") && difference.ends_with("dcfgen (7, 'rw', 0)") {
-        return Some("0x1014 has no default value: dcfgen expects EMCY with CAN-ID 0, Lexibus with the default of CiA 301");
+        return Some(
+            "0x1014 has no default value: dcfgen expects EMCY with CAN-ID 0, Lexibus with the default of CiA 301",
+        );
     }
     let (name, entries) = difference.split_once(".bin: ")?;
     let node = network.nodes.iter().find(|node| node.name.value == name)?;
@@ -127,7 +130,8 @@ fn reason_of_pdo(pdo: &str, network: &Network) -> Option<&'static str> {
     if !network.is_sent_by_master(pdo.can_id()) {
         return Some("a node sends the RPDO of another node, but dcfgen lets the master send it, too");
     }
-    let is_same = |(_, other): &(&NetworkNode, &NetworkPdo)| other.can_id() == pdo.can_id() && other.bytes() == pdo.bytes();
+    let is_same =
+        |(_, other): &(&NetworkNode, &NetworkPdo)| other.can_id() == pdo.can_id() && other.bytes() == pdo.bytes();
     (network.pdos(Direction::Receive).filter(is_same).count() > 1)
         .then_some("two RPDOs have one COB-ID and one length, but dcfgen lets the master send two PDOs")
 }
@@ -210,7 +214,8 @@ fn bus_yml_files_of_the_corpus_are_equal() {
         folders.push(folder);
     }
     let verdicts: Vec<Verdict> = run(&python, "tests/dcfgen/compare.py", &folders);
-    let rejected: Vec<&String> = names.iter().zip(&verdicts).filter(|(_, v)| !v.error.is_empty()).map(|(n, _)| n).collect();
+    let rejected: Vec<&String> =
+        names.iter().zip(&verdicts).filter(|(_, v)| !v.error.is_empty()).map(|(n, _)| n).collect();
     assert_eq!(rejected, ["cia402"], "dcfgen does not know the sections `defaults` and `nodes`");
     judge(&names, &folders, &verdicts);
 }

@@ -134,7 +134,11 @@ fn pdos(model: &Model, key: &str, first: u16, random: &mut Random) -> String {
             text += "      enabled: false\n";
         }
     }
-    if text.is_empty() { text } else { format!("  {key}:\n{text}") }
+    if text.is_empty() {
+        text
+    } else {
+        format!("  {key}:\n{text}")
+    }
 }
 
 fn mapping(model: &Model, is_tpdo: bool, index: u16, random: &mut Random) -> String {
@@ -155,7 +159,11 @@ fn mapping(model: &Model, is_tpdo: bool, index: u16, random: &mut Random) -> Str
         text += &format!("        - {{index: {object:#06x}, sub_index: {sub}}}\n");
         (free, sub_index) = (free - length, sub_index + 1);
     }
-    if text.lines().count() == 1 { "      mapping: []\n".to_owned() } else { text }
+    if text.lines().count() == 1 {
+        "      mapping: []\n".to_owned()
+    } else {
+        text
+    }
 }
 
 /// Returns values of writable integers, within the limits of the description.
@@ -179,5 +187,9 @@ fn values(model: &Model, random: &mut Random) -> String {
         let (index, sub_index) = item.object().expect("an object");
         text += &format!("    - {{index: {index:#06x}, sub_index: {sub_index}, value: {value}}}\n");
     }
-    if text.is_empty() { text } else { format!("  sdo:\n{text}") }
+    if text.is_empty() {
+        text
+    } else {
+        format!("  sdo:\n{text}")
+    }
 }
