@@ -42,7 +42,8 @@ fn entries(mut bytes: &[u8]) -> Vec<(u16, u8, Vec<u8>)> {
 /// Returns the catalog of an exported file, which must have no diagnostics.
 fn read(name: &str, text: String) -> Catalog {
     let compilation = check(Source::new(name, text.into_bytes()), &Options::default());
-    let messages: Vec<String> = compilation.diagnostics.list().iter().map(|found| compilation.one_line(found)).collect();
+    let messages: Vec<String> =
+        compilation.diagnostics.list().iter().map(|found| compilation.one_line(found)).collect();
     assert_eq!(messages, Vec::<String>::new());
     compilation.catalog.expect("a catalog")
 }
@@ -53,7 +54,11 @@ fn a_concise_dcf_contains_the_values_in_order() {
     let files = files(compilation.usable().expect("a network"));
     let file = |name: &str| files.iter().find(|file| file.name == name).expect("a file").content.clone();
     let valves = entries(&file("valves.bin"));
-    assert_eq!(valves, [(0x1017, 0, vec![0xF4, 0x01]), (0x2100, 0, vec![0x8A, 0x02])], "500 ms, and 6.5 bar is raw 650");
+    assert_eq!(
+        valves,
+        [(0x1017, 0, vec![0xF4, 0x01]), (0x2100, 0, vec![0x8A, 0x02])],
+        "500 ms, and 6.5 bar is raw 650"
+    );
     let addresses: Vec<(u16, u8)> =
         entries(&file("axis2.bin")).into_iter().map(|(index, sub_index, _)| (index, sub_index)).collect();
     let pdo = [(0x1601, 0), (0x1601, 1), (0x1601, 0), (0x1401, 1)];
@@ -72,7 +77,8 @@ fn the_dcf_of_a_node_contains_its_values() {
     let device = &catalog.devices[0];
     let commissioning = device.commissioning.as_ref().expect("network settings");
     assert_eq!((commissioning.node_id, commissioning.bit_rate), (Some(1), Some(500)));
-    let configured = |index, sub_index| device.entry(index, sub_index).and_then(|item| item.configured_value().cloned());
+    let configured =
+        |index, sub_index| device.entry(index, sub_index).and_then(|item| item.configured_value().cloned());
     assert_eq!(configured(0x6081, 0), Some(Value::Int(3000)));
     assert_eq!(configured(0x6060, 0), Some(Value::Int(3)), "the name of a value");
     assert_eq!(configured(0x1801, 1), Some(Value::Int(0x281)));
@@ -148,7 +154,8 @@ fn damaged_files_cause_no_panic() {
     let drive = std::fs::read_to_string(root().join("examples/network/drive.eds")).expect("the example");
     let io = std::fs::read_to_string(root().join("examples/network/io.eds")).expect("the example");
     let toml = std::fs::read_to_string(root().join("examples/network/network.toml")).expect("the example");
-    let yaml = "options: {dcf_path: \".\"}\nmaster: {node_id: 127, sync_period: 1000}\ndefaults: &d\n  dcf: drive.eds\n\
+    let yaml =
+        "options: {dcf_path: \".\"}\nmaster: {node_id: 127, sync_period: 1000}\ndefaults: &d\n  dcf: drive.eds\n\
                 nodes:\n  a:\n    <<: *d\n    node_id: 1\n    sdo: [{index: 0x6081, value: 5}]\n    tpdo:\n      1: \
                 {cob_id: auto, mapping: [{index: 0x6041, sub_index: 0}]}\n";
     compiled("damaged", &[("drive.eds", drive), ("io.eds", io)]);

@@ -24,7 +24,8 @@ fn the_schema_accepts_the_example_and_rejects_faults() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("network.schema.json");
     std::fs::write(&path, schema()).expect("a file");
-    let cases = ["net002-unknown-network-key", "net003-misplaced-key", "net004-network-value", "net013-parameter-range"];
+    let cases =
+        ["net002-unknown-network-key", "net003-misplaced-key", "net004-network-value", "net013-parameter-range"];
     let files = cases.map(|case| root.join("tests/ui/codes-network").join(case).join("network.toml"));
     let mut command = Command::new(python);
     command.args(["-c", SCRIPT]).arg(path).arg(root.join("examples/network/network.toml")).args(files);

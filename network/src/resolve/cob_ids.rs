@@ -8,7 +8,7 @@ use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Direction;
 use lexibus_codegen::text::similar;
 
-use super::pdo;
+use super::described::{direction, pdo};
 use crate::declared::{DeclaredCobId, DeclaredNode, DeclaredPdo};
 use crate::description::Description;
 use crate::model::DISABLED;
@@ -65,7 +65,7 @@ impl CobIds {
         let declared = self.0.get(&(node.to_owned(), Direction::Transmit, number)).copied();
         let described = || {
             let (_, id, description) = nodes.iter().find(|(other, ..)| other.name.value == node)?;
-            pdo::pdo(description.device(), Direction::Transmit, number, *id).map(|pdo| pdo.cob_id)
+            pdo(description.device(), Direction::Transmit, number, *id).map(|pdo| pdo.cob_id)
         };
         // Flags of a TPDO have another meaning in an RPDO.
         declared.or_else(described).filter(|cob_id| cob_id & DISABLED == 0).map(|cob_id| cob_id & 0x3FFF_FFFF)
@@ -73,7 +73,7 @@ impl CobIds {
 }
 
 fn key(node: &DeclaredNode, declared: &DeclaredPdo) -> Key {
-    (node.name.value.clone(), pdo::direction(declared), declared.number.value)
+    (node.name.value.clone(), direction(declared), declared.number.value)
 }
 
 /// Returns the COB-ID of a PDO that does not refer to another node: the declared one, that of the description, or an automatic one.
@@ -85,7 +85,7 @@ fn own(
     diagnostics: &mut Diagnostics,
 ) -> Option<u32> {
     let of_description = || {
-        let pdo = pdo::pdo(description.device(), pdo::direction(declared), declared.number.value, id)?;
+        let pdo = pdo(description.device(), direction(declared), declared.number.value, id)?;
         (pdo.cob_id & DISABLED == 0 || !declared.enabled).then_some(pdo.cob_id)
     };
     match declared.cob_id.as_ref().map(|cob_id| &cob_id.value) {

@@ -3,7 +3,8 @@
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Group;
 
-use super::node::{initial, Writer};
+use super::described::initial;
+use super::writer::Writer;
 use crate::model::{consumer_time, Network};
 
 /// Configures the heartbeat consumers of all nodes. `consumers` states for each node whether it monitors the master. The writes come

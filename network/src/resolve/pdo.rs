@@ -2,14 +2,15 @@
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
 use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
-use lexibus_codegen::ir::{Device, Direction, Type};
+use lexibus_codegen::ir::{Direction, Type};
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
-use super::node::{initial, title, Writer};
+use super::described::{described, direction, initial};
 use super::object::find;
+use super::writer::{title, Writer};
 use crate::declared::{DeclaredNode, DeclaredPdo, ObjectName};
-use crate::model::{communication_index, MappedObject, NetworkPdo, DISABLED};
+use crate::model::{MappedObject, NetworkPdo, DISABLED};
 use crate::syntax::At;
 
 /// Maximum length of a PDO on CAN in bits.
@@ -34,15 +35,6 @@ pub(super) fn resolve(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer
     pdos
 }
 
-/// Returns the direction of a declared PDO.
-pub(super) fn direction(declared: &DeclaredPdo) -> Direction {
-    if declared.is_tpdo {
-        Direction::Transmit
-    } else {
-        Direction::Receive
-    }
-}
-
 fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>) {
     let name = if declared.is_tpdo { "TPDO" } else { "RPDO" };
     let numbers = pdos.iter().filter(|pdo| pdo.direction == direction(declared)).map(|pdo| pdo.number.to_string());
@@ -53,43 +45,6 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
         false => format!("use one of the {name}s {}", numbers.join(", ")),
     };
     writer.diagnostics.push(Diagnostic::new(&codes::NO_SUCH_PDO, declared.number.span, message).help(help));
-}
-
-/// Returns the PDOs of a device with the values of its description.
-fn described(device: &Device, direction: Direction, id: u8) -> Vec<NetworkPdo> {
-    (1..=512).filter_map(|number| pdo(device, direction, number, id)).collect()
-}
-
-/// Returns a PDO with the values of its description. Returns `None` if the device does not have the PDO.
-pub(super) fn pdo(device: &Device, direction: Direction, number: u16, id: u8) -> Option<NetworkPdo> {
-    let index = communication_index(direction, number);
-    device.object(index)?;
-    let last = initial(device, (index, 0), id).unwrap_or(i128::from(u8::MAX));
-    let value = |sub_index: u8| initial(device, (index, sub_index), id).filter(|_| last >= sub_index.into());
-    let cob_id = value(1).map_or(DISABLED, |cob_id| cob_id as u32);
-    let is_sender = direction == Direction::Transmit;
-    Some(NetworkPdo {
-        direction,
-        number,
-        span: Span::MISSING,
-        is_enabled: false,
-        cob_id,
-        cob_id_at: Span::MISSING,
-        transmission: value(2).unwrap_or(0) as u8,
-        inhibit_time: value(3).filter(|_| is_sender).unwrap_or(0) as u16,
-        event_timer: value(5).filter(|_| is_sender).unwrap_or(0) as u16,
-        event_deadline: value(5).filter(|_| !is_sender).unwrap_or(0) as u16,
-        sync_start: value(6).filter(|_| is_sender).unwrap_or(0) as u8,
-        entries: mapping(device, index + 0x200, id),
-    })
-}
-
-fn mapping(device: &Device, index: u16, id: u8) -> Vec<MappedObject> {
-    let count = initial(device, (index, 0), id).and_then(|count| u8::try_from(count).ok()).unwrap_or(0);
-    let words = (1..=count.min(64)).filter_map(|sub_index| initial(device, (index, sub_index), id));
-    let entry =
-        |word: i128| MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 };
-    words.filter(|word| *word != 0).map(entry).collect()
 }
 
 /// Applies the declaration of a PDO, and writes the changed values: disable the PDO, set the parameters, clear the mapping, write the
