@@ -33,7 +33,7 @@ struct Verdict {
 /// Number of frames of each PDO.
 fn frames() -> usize {
     if lane::is_full() {
-        1000
+        10_000
     } else {
         50
     }
