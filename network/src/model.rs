@@ -120,10 +120,9 @@ impl NetworkNode {
         self.description.device()
     }
 
-    /// Returns the name of the node as a file name: other characters than letters, digits, `-`, `_` and `.` become `_`.
+    /// Returns the name of the node's output files, without extension.
     pub fn file_stem(&self) -> String {
-        let is_safe = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
-        self.name.value.chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
+        file_stem(&self.name.value)
     }
 
     /// Returns the consumer time of the node's heartbeat in ms.
@@ -147,6 +146,12 @@ impl NetworkNode {
     pub fn pdo(&self, direction: Direction, number: u16) -> Option<&NetworkPdo> {
         self.pdos.iter().find(|pdo| pdo.direction == direction && pdo.number == number)
     }
+}
+
+/// Returns a name as a file name: other characters than letters, digits, `-`, `_` and `.` become `_`.
+pub fn file_stem(name: &str) -> String {
+    let is_safe = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
+    name.chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
 }
 
 /// Returns the consumer time of a heartbeat in ms.

@@ -10,7 +10,7 @@ use super::cob_ids::CobIds;
 use super::{heartbeat, node};
 use crate::declared::{DeclaredNetwork, DeclaredNode};
 use crate::description::{Description, Descriptions};
-use crate::model::Network;
+use crate::model::{file_stem, Network};
 
 /// Default bit rate in kbit/s, as in `dcfgen`.
 const BIT_RATE: u16 = 1000;
@@ -18,12 +18,13 @@ const BIT_RATE: u16 = 1000;
 /// Resolves a declared network. Nodes that cannot be resolved are reported and left out.
 pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Diagnostics) -> Network {
     check_master(&declared, diagnostics);
-    let repeated = check_node_ids(&declared, diagnostics);
+    let mut repeated = check_node_ids(&declared, diagnostics);
+    repeated.extend(check_names(&declared, diagnostics));
     let mut descriptions = Descriptions::new(source);
     let nodes: Vec<(&DeclaredNode, u8, Rc<Description>)> = declared
         .nodes
         .iter()
-        .filter(|node| !repeated.contains(&node.name.value))
+        .filter(|node| !repeated.contains(&node.name.span))
         .filter_map(|node| {
             let description = descriptions.of(node, diagnostics);
             Some((node, node.node_id.as_ref()?.value, description?))
@@ -50,6 +51,23 @@ fn consumes(nodes: &[DeclaredNode], name: &str) -> bool {
     nodes.iter().any(|node| node.name.value == name && node.consumes_heartbeat)
 }
 
+/// Reports nodes whose output files would have the names of other files. Returns the locations of their names.
+fn check_names(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
+    let mut known = BTreeMap::from([("master".to_owned(), Span::MISSING), ("network".to_owned(), Span::MISSING)]);
+    let mut repeated = Vec::new();
+    for node in &declared.nodes {
+        let stem = file_stem(&node.name.value).to_lowercase();
+        let Some(other) = known.insert(stem.clone(), node.name.span) else { continue };
+        let message = format!("the files of the node `{}` have the same names as other files", node.name.value);
+        let found =
+            Diagnostic::new(&codes::NETWORK_VALUE, node.name.span, message).label(format!("`{stem}` is in use"));
+        let found = if other.is_empty() { found } else { found.note_at(other, "the other node is here") };
+        diagnostics.push(found.help("give the node another name"));
+        repeated.push(node.name.span);
+    }
+    repeated
+}
+
 fn check_master(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
     match &declared.master {
         None if !declared.is_master_optional => {
@@ -64,8 +82,9 @@ fn check_master(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports nodes without a node-ID, and nodes with the node-ID of another node. Returns the names of the latter.
-fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<String> {
+/// Reports nodes without a node-ID, and nodes with the node-ID of another node. Returns the locations of the
+/// latter's names.
+fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
     let mut repeated = Vec::new();
     let mut known: BTreeMap<u8, (String, Span)> = BTreeMap::new();
     if let Some(id) = declared.master.as_ref().and_then(|master| master.node_id.as_ref()) {
@@ -89,7 +108,7 @@ fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> 
                     free.map_or("remove a node".to_owned(), |free| format!("use a free node-ID, such as {free}"));
                 let found = Diagnostic::new(&codes::NODE_ID_TWICE, id.span, message);
                 diagnostics.push(found.note_at(*span, format!("{other} is here")).help(help));
-                repeated.push(node.name.value.clone());
+                repeated.push(node.name.span);
             }
             None => {
                 known.insert(id.value, (name, id.span));
