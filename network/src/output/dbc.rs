@@ -174,7 +174,7 @@ struct Signal<'n> {
 fn signal(out: &mut Dbc, id: u32, names: &mut Names, signal: &Signal<'_>, receivers: &str) {
     let Signal { node, item, entry, start } = signal;
     let name = names.unique(&path(node, item, entry));
-    let ty = types::basic(&node.device().types, item.object_type());
+    let ty = mapped_type(types::basic(&node.device().types, item.object_type()), entry.bits);
     let (factor, offset) = scale(item);
     let sign = if matches!(ty, Type::Integer(_) | Type::Real32 | Type::Real64) { '-' } else { '+' };
     let (low, high) = limits(item, node.id, factor, offset);
@@ -201,6 +201,15 @@ fn signal(out: &mut Dbc, id: u32, names: &mut Names, signal: &Signal<'_>, receiv
         Type::Real32 => drop(writeln!(out.types, "SIG_VALTYPE_ {id} {short} : 1;")),
         Type::Real64 => drop(writeln!(out.types, "SIG_VALTYPE_ {id} {short} : 2;")),
         _ => {}
+    }
+}
+
+/// Returns the type of a mapped object. If the mapping has another length than a real number, the bits have no known meaning.
+fn mapped_type(ty: Type, bits: u8) -> Type {
+    match (ty, bits) {
+        (Type::Real32, 32) | (Type::Real64, 64) => ty,
+        (Type::Real32 | Type::Real64, _) => Type::Unsigned(bits),
+        _ => ty,
     }
 }
 

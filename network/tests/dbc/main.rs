@@ -43,8 +43,8 @@ fn frames() -> usize {
 fn physical(node: &NetworkNode, item: &Item, bits: u64, length: u32) -> String {
     let ty = types::basic(&node.device().types, item.object_type());
     let raw = match ty {
-        Type::Real32 => return format!("{:e}", f64::from(f32::from_bits(bits as u32))),
-        Type::Real64 => return format!("{:e}", f64::from_bits(bits)),
+        Type::Real32 if length == 32 => return format!("{:e}", f64::from(f32::from_bits(bits as u32))),
+        Type::Real64 if length == 64 => return format!("{:e}", f64::from_bits(bits)),
         Type::Integer(_) if length < 64 && bits >> (length - 1) != 0 => i128::from(bits) - (1 << length),
         Type::Integer(_) => i128::from(bits as i64),
         _ => i128::from(bits),

@@ -167,7 +167,7 @@ fn random_networks_of_the_corpus_are_equal() {
     let corpus = folder_of("eds").expect("the corpus");
     let mut random = Random(30);
     let (mut names, mut folders, mut rejected) = (Vec::new(), Vec::new(), Vec::new());
-    for number in 0..if lane::is_full() { 220 } else { 20 } {
+    for number in 0..if lane::is_full() { 220 } else { 6 } {
         let folder = root.join(number.to_string());
         std::fs::create_dir(&folder).expect("a folder");
         let (text, used) = network(&models, &mut random);
@@ -191,7 +191,7 @@ fn random_networks_of_the_corpus_are_equal() {
     }
     judge(&names, &folders, &verdicts);
     assert!(rejected.is_empty(), "Lexibus rejects {} networks:\n{}", rejected.len(), rejected.join("\n"));
-    assert!(accepted >= if lane::is_full() { 200 } else { 10 }, "dcfgen accepts only {accepted} networks");
+    assert!(accepted >= if lane::is_full() { 200 } else { 5 }, "dcfgen accepts only {accepted} networks");
 }
 
 #[test]
