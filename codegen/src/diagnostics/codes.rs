@@ -955,10 +955,10 @@ codes! {
         then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."
     NET018 PDO_WITHOUT_PARTNER Lint Warn "no node receives or sends a PDO"
         "The master exchanges no PDOs (`pdos = false`), and no other node receives the TPDO or sends the RPDO. A TPDO \
-        that nobody receives only adds bus load. Disable the PDO, or declare its receiver with `cob_id`."
+        without a receiver only adds bus load. Disable the PDO, or declare its receiver with `cob_id`."
     NET019 COB_ID_CONFLICT Lint Deny "two senders use the same CAN-ID"
-        "Two nodes that send the same CAN-ID at the same time cause bus errors, and a receiver cannot tell their \
-        messages apart. The CAN-IDs of NMT, SYNC, TIME, EMCY, SDO, heartbeat and LSS are also in use. Choose another \
+        "Two nodes that send the same CAN-ID at the same time cause bus errors, and a receiver cannot distinguish \
+        their messages. The CAN-IDs of NMT, SYNC, TIME, EMCY, SDO, heartbeat and LSS are also in use. Choose another \
         `cob_id`, or use `auto`."
     NET020 HEARTBEAT_TIME Lint Deny "a heartbeat or guard time cannot hold"
         "The consumer time of a heartbeat must be longer than the producer time, and at most 65535 ms. A consumer of a \
