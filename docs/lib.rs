@@ -37,6 +37,8 @@ bindings! {
     station;
     /// A station with a PROFIsafe module on PROFINET: `tests/data/safe.gsdml.xml`.
     safe;
+    /// A network of three nodes: `examples/network/network.toml`.
+    network;
 }
 
 /// One module for each chapter in `docs/src`. A test of the book checks this list.
@@ -76,6 +78,8 @@ mod chapters {
     mod serial {}
     #[doc = include_str!("src/simulation.md")]
     mod simulation {}
+    #[doc = include_str!("src/network.md")]
+    mod network {}
     #[doc = include_str!("src/recipes.md")]
     mod recipes {}
     #[doc = include_str!("src/diff.md")]

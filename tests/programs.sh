@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the programs that tests use in addition to Cargo: Python with canopen, pymodbus, jsonschema and lxml; valgrind; Chromium with
+# Installs the programs that tests use in addition to Cargo: Python with canopen, pymodbus, dcf-tools, cantools, jsonschema and lxml; valgrind; Chromium with
 # playwright-core. Writes the environment variables of these programs to target/programs.env. Reports the programs that cannot be
 # installed.
 set -uo pipefail
@@ -19,7 +19,7 @@ command -v valgrind >/dev/null || echo "no valgrind: the tests that count instru
 if tests/interop/setup.sh >/dev/null; then
     echo "export LEXIBUS_PYTHON=$PWD/target/python/bin/python" >>target/programs.env
 else
-    echo "no Python with canopen, pymodbus, jsonschema and lxml: the tests against them are skipped, and nothing is validated by schema"
+    echo "no Python with canopen, pymodbus, dcf-tools, cantools, jsonschema and lxml: the tests against them are skipped, and nothing is validated by schema"
 fi
 # If a browser is available, LEXIBUS_BROWSER makes a skipped browser test an error.
 if cli/tests/browser/setup.sh >/dev/null; then

@@ -1,5 +1,5 @@
 //! The `lexibus` command: `lexibus generate`, `export`, `docs`, `diff`, `check`, `fix`, `info`, `dump`, `new`, `import`,
-//! `schema`, `explain`, `completions`.
+//! `schema`, `network`, `explain`, `completions`.
 //!
 //! ```text
 //! $ lexibus generate drive.eds --out src/drive.rs
@@ -27,6 +27,7 @@ mod fix;
 mod generate;
 mod import;
 mod inputs;
+mod network;
 mod new;
 mod output;
 mod report;
@@ -112,6 +113,7 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
         Command::New(new) => new::run(&new),
         Command::Import(import) => import::run(&import),
         Command::Schema(schema) => schema::run(&schema),
+        Command::Network(arguments) => network::run(&arguments),
         Command::Explain { code, format } => explain(code.as_deref(), format),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -138,6 +138,15 @@ impl Difference {
     }
 }
 
+/// Reports an error if the content of a file differs from `content`. Texts are compared line by line.
+pub(super) fn check_bytes(path: &Path, content: &[u8], reporter: &mut Reporter) {
+    match std::str::from_utf8(content) {
+        Ok(text) => check(path, text, reporter),
+        Err(_) if std::fs::read(path).is_ok_and(|bytes| bytes == content) => {}
+        Err(_) => reporter.error(&format!("{} is missing or stale: write it again without --check", path.display())),
+    }
+}
+
 /// Returns an error if the content of a file differs from `text`, or if the file cannot be compared.
 pub(super) fn difference(path: &Path, text: &str) -> Option<Difference> {
     let found = |reason: &str, old| Some(Difference { message: format!("{} {reason}", path.display()), old });

@@ -10,7 +10,11 @@ use super::output;
 use super::Failure;
 
 pub(super) fn run(schema: &Schema) -> Result<bool, Failure> {
-    let text = table::SCHEMA;
+    print(schema, table::SCHEMA)
+}
+
+/// Writes a schema, or compares it with the existing file.
+pub(super) fn print(schema: &Schema, text: &str) -> Result<bool, Failure> {
     match &schema.out {
         Some(path) if schema.check => {
             let stale = output::difference(path, text);

@@ -8,7 +8,7 @@ use lexibus_codegen::selection::DeviceFilter;
 use lexibus_import::Field;
 
 use super::inputs::{choice, DIAGNOSTICS};
-use super::{Export, Generate, Inputs, Printing};
+use super::{Export, Generate, Inputs, Network, NetworkCommand, Printing};
 
 /// The object-dictionary compiler: generates typed Rust from device descriptions.
 #[derive(Debug, Parser)]
@@ -53,6 +53,9 @@ pub(in super::super) enum Command {
     /// Print the JSON Schema of register tables.
     #[command(after_help = "Example:\n  lexibus schema --out lexibus.schema.json")]
     Schema(Schema),
+    /// Check and build the configuration of a CANopen network.
+    #[command(after_help = "Example:\n  lexibus network build network.toml --out network/")]
+    Network(Network),
     /// Explain a diagnostic code. Without a code, list all codes.
     #[command(after_help = "Example:\n  lexibus explain EDS020")]
     Explain {
@@ -273,19 +276,28 @@ impl Arguments {
     pub(in super::super) fn parse_in_order() -> Self {
         let matches = Arguments::command().get_matches();
         let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
-        let inputs = match &mut arguments.command {
-            Command::Generate(generate) => &mut generate.inputs,
-            Command::Export(export) => &mut export.inputs,
-            Command::Docs(docs) => &mut docs.inputs,
-            Command::Check(check) => &mut check.inputs,
-            Command::Fix(fix) => &mut fix.inputs,
-            Command::Info(info) => &mut info.inputs,
-            Command::Dump(dump) => &mut dump.inputs,
+        let mut matches = matches.subcommand();
+        let levels = match &mut arguments.command {
+            Command::Generate(generate) => &mut generate.inputs.levels,
+            Command::Export(export) => &mut export.inputs.levels,
+            Command::Docs(docs) => &mut docs.inputs.levels,
+            Command::Check(check) => &mut check.inputs.levels,
+            Command::Fix(fix) => &mut fix.inputs.levels,
+            Command::Info(info) => &mut info.inputs.levels,
+            Command::Dump(dump) => &mut dump.inputs.levels,
+            Command::Network(network) => {
+                matches = matches.and_then(|(_, matches)| matches.subcommand());
+                match &mut network.command {
+                    NetworkCommand::Check(check) => &mut check.input.levels,
+                    NetworkCommand::Build(build) => &mut build.input.levels,
+                    NetworkCommand::Schema(_) => return arguments,
+                }
+            }
             Command::New(_) | Command::Import(_) | Command::Schema(_) | Command::Diff(_) => return arguments,
             Command::Explain { .. } | Command::Completions { .. } => return arguments,
         };
-        if let Some((_, matches)) = matches.subcommand() {
-            inputs.order_levels(matches);
+        if let Some((_, matches)) = matches {
+            levels.order(matches);
         }
         arguments
     }

@@ -47,6 +47,15 @@ pub(crate) struct Inputs {
     /// Number of files to read in parallel; by default, the number of processors.
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = INPUT)]
     pub jobs: Option<u16>,
+    #[command(flatten)]
+    pub levels: LevelArguments,
+    #[command(flatten)]
+    pub printing: Printing,
+}
+
+/// Levels of diagnostics.
+#[derive(Debug, Args)]
+pub(crate) struct LevelArguments {
     /// Report repairs of the input as errors.
     #[arg(long, help_heading = DIAGNOSTICS)]
     pub strict: bool,
@@ -62,9 +71,7 @@ pub(crate) struct Inputs {
     /// The codes in `allow`, `warn` and `deny`, in the order in which the user wrote them. If a code occurs several times, the
     /// last level applies.
     #[arg(skip)]
-    pub levels: Vec<(String, Level)>,
-    #[command(flatten)]
-    pub printing: Printing,
+    ordered: Vec<(String, Level)>,
 }
 
 /// Selection and form of the printed diagnostics.
@@ -115,9 +122,9 @@ pub(crate) enum ColorChoice {
     Never,
 }
 
-impl Inputs {
-    /// Fills `levels` with the options `--allow`, `--warn` and `--deny` in the order in which the user wrote them.
-    pub(super) fn order_levels(&mut self, matches: &ArgMatches) {
+impl LevelArguments {
+    /// Fills `ordered` with the options `--allow`, `--warn` and `--deny` in the order in which the user wrote them.
+    pub(super) fn order(&mut self, matches: &ArgMatches) {
         let settings = [
             ("allow", &self.allow, Level::Allow),
             ("warn", &self.warn, Level::Warn),
@@ -129,14 +136,21 @@ impl Inputs {
             ordered.extend(positions.zip(codes).map(|(position, code)| (position, code.clone(), level)));
         }
         ordered.sort_by_key(|&(position, ..)| position);
-        self.levels = ordered.into_iter().map(|(_, code, level)| (code, level)).collect();
+        self.ordered = ordered.into_iter().map(|(_, code, level)| (code, level)).collect();
     }
 
-    pub(crate) fn options(&self) -> Result<Options, Failure> {
+    /// Returns the levels of all codes.
+    pub(crate) fn levels(&self) -> Result<Levels, Failure> {
         let mut levels = if self.strict { Levels::strict() } else { Levels::lenient() };
-        for (code, level) in &self.levels {
+        for (code, level) in &self.ordered {
             levels.set(code, *level).map_err(|error| Failure::Usage(error.to_string()))?;
         }
+        Ok(levels)
+    }
+}
+
+impl Inputs {
+    pub(crate) fn options(&self) -> Result<Options, Failure> {
         let overlay = |path: &PathBuf| {
             Source::read(path).map_err(|error| Failure::Usage(format!("cannot read {}: {error}", path.display())))
         };
@@ -144,7 +158,7 @@ impl Inputs {
         let select =
             Selection { devices: self.device.clone(), modules: self.module.clone(), objects: self.objects.clone() };
         Ok(Options {
-            levels,
+            levels: self.levels.levels()?,
             node_id_aliases: self.node_id_alias.clone(),
             choices: self.option.clone(),
             select,

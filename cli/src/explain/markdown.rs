@@ -7,7 +7,7 @@ use super::example::example;
 use super::{level, strictness};
 
 /// Families of codes: the letters that start their codes, and their headings.
-const FAMILIES: [(&str, &str); 11] = [
+const FAMILIES: [(&str, &str); 12] = [
     ("IO", "Input files and selection"),
     ("EDS", "EDS and DCF"),
     ("XML", "XML files of any format"),
@@ -18,6 +18,7 @@ const FAMILIES: [(&str, &str); 11] = [
     ("TAB", "Register tables, and checks for all formats"),
     ("MSG", "Command protocols"),
     ("MOD", "Modules of a CANopen device"),
+    ("NET", "CANopen networks"),
     ("CSV", "Register lists (CSV)"),
 ];
 

@@ -12,6 +12,8 @@ use similar::TextDiff;
 
 /// Name of the file with the settings of a test case.
 const SETTINGS: &str = "case.toml";
+/// Extensions of network files in a test case for networks, except `network.toml`.
+const NETWORK_FILES: [&str; 3] = ["yml", "cpj", "xml"];
 /// Name of the file with the expected diagnostics. The file is absent if none are expected.
 const DIAGNOSTICS: &str = "diagnostics";
 
@@ -49,6 +51,8 @@ pub struct Settings {
     pub markdown: Option<Vec<String>>,
     /// Whether `lexibus diff` compares the two inputs.
     pub diff: bool,
+    /// Whether the inputs are network files, whose descriptions are other files of the folder.
+    pub network: bool,
     /// Calls of `lexibus` whose output is compared. A line `cat FILE` shows a file. If there are calls, all other
     /// outputs are omitted.
     pub commands: Vec<String>,
@@ -97,6 +101,11 @@ impl Case {
             let is_other =
                 |name: &String| *name == SETTINGS || is_expected(name) || self.settings.overlays.contains(name);
             names = self.file_names().into_iter().filter(|name| !is_other(name)).collect();
+            if self.settings.network {
+                names.retain(|name| {
+                    NETWORK_FILES.contains(&name.rsplit('.').next().unwrap_or_default()) || name == "network.toml"
+                });
+            }
         }
         assert!(!names.is_empty(), "{}: no input", self.name());
         names.iter().map(|name| self.source(name)).collect()

@@ -31,6 +31,11 @@ pub fn of(case: &Case) -> Result<Outputs, String> {
         import_lists(case, inputs, &mut outputs)?;
         return Ok(outputs);
     }
+    if case.settings.network {
+        let compilations = inputs.into_iter().map(|input| network(input, case));
+        put_diagnostics(&mut outputs, compilations.map(|compilation| printed(&compilation)).collect());
+        return Ok(outputs);
+    }
     let options = case.options();
     let compilations: Vec<Compilation> = inputs.into_iter().map(|input| check(input, &options)).collect();
     let mut diagnostics: String = compilations.iter().map(printed).collect();
@@ -46,6 +51,12 @@ pub fn of(case: &Case) -> Result<Outputs, String> {
     }
     put_diagnostics(&mut outputs, diagnostics);
     Ok(outputs)
+}
+
+/// Compiles a network file.
+fn network(input: Source, case: &Case) -> Compilation {
+    let compilation = lexibus_network::compile::compile(input, case.levels());
+    Compilation::of_diagnostics(compilation.source, compilation.diagnostics)
 }
 
 /// Returns the diagnostics of a file as printed on a terminal.

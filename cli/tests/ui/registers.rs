@@ -94,7 +94,7 @@ const INPUTS: usize = 50;
 
 /// The Rust code of all inputs without errors must compile without warnings. Each crate with up to 50 inputs is a
 /// separate trial.
-pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
+pub fn rust_of_all_cases_compiles(cases: &[&Case]) -> Vec<Trial> {
     let mut inputs = Vec::new();
     for case in cases {
         let rust = RustOptions { table: Presence::Always, ..RustOptions::default() };
@@ -119,10 +119,10 @@ pub fn rust_of_all_cases_compiles(cases: &[Case]) -> Vec<Trial> {
 }
 
 /// Each lint must report a diagnostic in at least one test case, and may only report codes that it declares.
-pub fn lints_declare_their_codes(cases: &[Case]) -> Trial {
+pub fn lints_declare_their_codes(cases: &[&Case]) -> Trial {
     let mut levels = Levels::lenient();
     CODES.iter().for_each(|code| levels.set(code.id, Level::Warn).expect("a code"));
-    let of = |case: &Case| -> Vec<(Source, Options)> {
+    let of = |case: &&Case| -> Vec<(Source, Options)> {
         let options = Options { levels: levels.clone(), no_profiles: true, ..case.options() };
         let described = case.inputs().into_iter().filter(|input| ending(input.name()) != "csv");
         described.map(|input| (input, options.clone())).collect()

@@ -904,6 +904,77 @@ codes! {
     CSV009 CSV_NO_SUCH_COLUMN Error Deny "a column that `--map` names does not exist"
         "Titles are compared without regard to case and punctuation. Lexibus writes no table. Correct the title, or \
         name the column by its number: `--map reg=#2`."
+    NET001 NETWORK_SYNTAX Error Deny "a network file cannot be parsed"
+        "The file is not valid TOML or YAML, or its extension is not one of `.toml`, `.yml`, `.yaml` and `.cpj`. In \
+        YAML, Lexibus also rejects a key that occurs twice, because other tools silently use the last value. Correct \
+        the marked text."
+    NET002 UNKNOWN_NETWORK_KEY Lint Deny "a network file has an unknown key"
+        "No section of the format has the key, so its value would have no effect. Correct the name of the key. If the \
+        key is for another program, allow this code."
+    NET003 MISPLACED_KEY Lint Deny "a key of a network file is in the wrong section"
+        "Another section of the format has the key. In this section, its value would have no effect. Move the key to \
+        the section that the message names."
+    NET004 NETWORK_VALUE Error Deny "a value of a network file is invalid"
+        "The value has the wrong type or is out of range, or a required key is missing. The message states the \
+        expected value. Correct the value."
+    NET005 NO_MASTER Lint Deny "a network has no master"
+        "A CANopen network has one NMT master, which configures and starts the nodes. Without the section `master`, \
+        Lexibus writes no files for the master. Add the section. If another program is the master, allow this code."
+    NET006 NO_NODE_ID Error Deny "a node has no node-ID"
+        "Each node needs a node-ID from 1 to 127, from which the COB-IDs of its services follow. Add the node-ID."
+    NET007 NODE_ID_TWICE Error Deny "two nodes have the same node-ID"
+        "Two devices with one node-ID both answer SDO requests and send the same CAN-IDs, which leads to bus errors. \
+        Give each node its own node-ID."
+    NET008 DESCRIPTION_NOT_FOUND Error Deny "the device description of a node is not found"
+        "Paths in a network file are relative to the folder of the network file. In `bus.yml`, they are also relative \
+        to `dcf_path`, and `@BUS_CONFIG_PATH@` is the folder of the network file. Correct the path."
+    NET009 DESCRIPTION_UNUSABLE Error Deny "the device description of a node cannot be used"
+        "The description has errors, describes no CANopen device, or describes several devices. Check the description \
+        with `lexibus check`, or choose a device with `model`."
+    NET010 NO_SUCH_OBJECT Error Deny "a device does not have an object"
+        "The description of the device has no object with this index, sub-index or name. The value or the key needs \
+        this object: `heartbeat`, for example, needs the object 0x1017. Correct the address or the name, or add the \
+        object with an overlay."
+    NET011 SEVERAL_OBJECTS Error Deny "several objects have the same name"
+        "The name is not unique in the description of the device. Write the path of the object and the sub-index \
+        (`Object/Sub-index`), or the address."
+    NET012 PARAMETER_TYPE Error Deny "a value is not a value of the object's type"
+        "The value does not fit the data type of the object, has another unit than the object, or is not the name of a \
+        value. A number is a raw value. A text with a unit is a physical value (`\"15.5 rev/s\"`). Correct the value."
+    NET013 PARAMETER_RANGE Lint Deny "a value is outside of the object's limits"
+        "The description states limits for the object, and the device probably aborts a write outside of them. Correct \
+        the value. If the limits in the description are wrong, correct them with an overlay."
+    NET014 READ_ONLY_PARAMETER Lint Deny "a value is written to a read-only object"
+        "The device aborts the write, so the node is not started. Remove the value. If the access rights in the \
+        description are wrong, correct them with an overlay."
+    NET015 NO_SUCH_PDO Error Deny "a node does not have a PDO"
+        "The description has no communication object for the PDO, or no node sends the PDO that an RPDO receives. Use \
+        a PDO that the device has."
+    NET016 UNMAPPABLE_OBJECT Lint Deny "an object cannot be mapped"
+        "The description states that no PDO of this direction can map the object, or the type of the object has no \
+        fixed length. The device aborts the write of the mapping. Map another object. If the description is wrong, \
+        correct it with an overlay."
+    NET017 PDO_LENGTH Lint Deny "a PDO has an invalid length"
+        "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the PDO that it receives, because the node \
+        then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."
+    NET018 PDO_WITHOUT_PARTNER Lint Warn "no node receives or sends a PDO"
+        "The master exchanges no PDOs (`pdos = false`), and no other node receives the TPDO or sends the RPDO. A TPDO \
+        without a receiver only adds bus load. Disable the PDO, or declare its receiver with `cob_id`."
+    NET019 COB_ID_CONFLICT Lint Deny "two senders use the same CAN-ID"
+        "Two nodes that send the same CAN-ID at the same time cause bus errors, and a receiver cannot distinguish \
+        their messages. The CAN-IDs of NMT, SYNC, TIME, EMCY, SDO, heartbeat and LSS are also in use. Choose another \
+        `cob_id`, or use `auto`."
+    NET020 HEARTBEAT_TIME Lint Deny "a heartbeat or guard time cannot hold"
+        "The consumer time of a heartbeat must be longer than the producer time, and at most 65535 ms. A consumer of a \
+        node that sends no heartbeat always reports an error. A node cannot use heartbeat and node guarding at the \
+        same time (CiA 301, 7.2.8.3). Correct the times."
+    NET021 BUS_LOAD Lint Deny "the bus load exceeds the bit rate"
+        "Lexibus adds the lengths of all cyclic frames with the largest number of stuff bits. A PDO with an inhibit \
+        time counts as sent each inhibit time, and a PDO with only an event timer as sent each event timer. PDOs \
+        without either have no bound and are left out. Increase the bit rate or the periods."
+    NET022 SYNC_PERIOD Lint Deny "the synchronous PDOs do not fit in the SYNC period"
+        "SYNC and all synchronous PDOs together take longer than the SYNC period or the synchronous window. Or there \
+        are synchronous PDOs, but no node sends SYNC. Declare a longer `sync_period`, or map fewer objects."
 }
 
 #[cfg(test)]

@@ -1,0 +1,56 @@
+//! Arguments of `lexibus network`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::{LevelArguments, Printing, Schema};
+
+#[derive(Debug, Args)]
+pub(crate) struct Network {
+    #[command(subcommand)]
+    pub command: NetworkCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum NetworkCommand {
+    /// Read and check a network file, and print its bus load.
+    #[command(after_help = "Example:\n  lexibus network check network.toml")]
+    Check(NetworkCheck),
+    /// Write DCF and concise DCF of all nodes and of the master, a DBC, and Rust modules.
+    #[command(after_help = "Example:\n  lexibus network build network.toml --out network/")]
+    Build(NetworkBuild),
+    /// Print the JSON Schema of network.toml.
+    #[command(after_help = "Example:\n  lexibus network schema --out network.schema.json")]
+    Schema(Schema),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NetworkCheck {
+    #[command(flatten)]
+    pub input: NetworkInput,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NetworkBuild {
+    /// Folder to write to.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub out: PathBuf,
+    /// Write nothing, and fail if a file is missing or out of date.
+    #[arg(long)]
+    pub check: bool,
+    #[command(flatten)]
+    pub input: NetworkInput,
+}
+
+/// A network file, and how its diagnostics are reported.
+#[derive(Debug, Args)]
+pub(crate) struct NetworkInput {
+    /// Network file: network.toml, bus.yml (dcfgen, ros2_canopen) or .cpj (CiA 306-3).
+    #[arg(value_name = "FILE")]
+    pub path: PathBuf,
+    #[command(flatten)]
+    pub levels: LevelArguments,
+    #[command(flatten)]
+    pub printing: Printing,
+}

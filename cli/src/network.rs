@@ -1,0 +1,87 @@
+//! `lexibus network`: checks and builds the configuration of a CANopen network.
+
+use lexibus_codegen::compile::Compilation as Reported;
+use lexibus_codegen::output::write_if_changed;
+use lexibus_codegen::source::Source;
+use lexibus_network::check::bus_load;
+use lexibus_network::compile::{compile, Compilation};
+use lexibus_network::frontend::schema;
+use lexibus_network::model::Network;
+use lexibus_network::output::{files, OutputFile};
+
+use super::args::{self, NetworkBuild, NetworkCheck, NetworkCommand, NetworkInput};
+use super::report::Reporter;
+use super::{output, Failure};
+
+pub(super) fn run(network: &args::Network) -> Result<bool, Failure> {
+    match &network.command {
+        NetworkCommand::Check(arguments) => check(arguments),
+        NetworkCommand::Build(arguments) => build(arguments),
+        NetworkCommand::Schema(arguments) => super::schema::print(arguments, &schema()),
+    }
+}
+
+fn check(arguments: &NetworkCheck) -> Result<bool, Failure> {
+    let (mut reporter, compilation) = read(&arguments.input, true)?;
+    report(&mut reporter, &compilation)?;
+    if let Some(network) = compilation.usable() {
+        reporter.progress(&summary(network));
+    }
+    reporter.finish()
+}
+
+fn build(arguments: &NetworkBuild) -> Result<bool, Failure> {
+    let (mut reporter, compilation) = read(&arguments.input, false)?;
+    report(&mut reporter, &compilation)?;
+    if let Some(network) = compilation.usable() {
+        let files = files(network);
+        files.iter().try_for_each(|file| write(file, arguments, &mut reporter))?;
+        if !arguments.check && !reporter.has_errors() {
+            reporter.progress(&format!("wrote {} files to {}", files.len(), arguments.out.display()));
+            reporter.progress(&summary(network));
+        }
+    }
+    reporter.finish()
+}
+
+fn read(input: &NetworkInput, is_result: bool) -> Result<(Reporter, Compilation), Failure> {
+    let source = Source::read(&input.path)
+        .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", input.path.display())))?;
+    let reporter = Reporter::with(&input.printing, is_result)?;
+    Ok((reporter, compile(source, input.levels.levels()?)))
+}
+
+fn report(reporter: &mut Reporter, compilation: &Compilation) -> Result<(), Failure> {
+    let Compilation { source, diagnostics, .. } = compilation;
+    reporter.report(&Reported::of_diagnostics(source.clone(), diagnostics.clone()))
+}
+
+/// Returns the number of nodes and PDOs, and the bus load.
+fn summary(network: &Network) -> String {
+    let load = bus_load(network);
+    let nodes = network.nodes.len() + usize::from(network.master.is_some());
+    let (percent, rate) = (load.ratio() * 100.0, network.bit_rate);
+    let unbounded = match load.unbounded.len() {
+        0 => String::new(),
+        1 => format!(", without {}, which has no inhibit time", load.unbounded[0]),
+        count => format!(", without {count} PDOs that have no inhibit time"),
+    };
+    let noun = if nodes == 1 { "node" } else { "nodes" };
+    format!("{nodes} {noun}; bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
+}
+
+/// Writes a file, or compares it with the existing file.
+fn write(file: &OutputFile, arguments: &NetworkBuild, reporter: &mut Reporter) -> Result<(), Failure> {
+    let path = arguments.out.join(&file.name);
+    if arguments.check {
+        output::check_bytes(&path, &file.content, reporter);
+        return Ok(());
+    }
+    let folder = path.parent().unwrap_or(&arguments.out);
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::Usage(format!("cannot create the folder {}: {error}", folder.display())))?;
+    if let Err(error) = write_if_changed(&path, &file.content) {
+        reporter.error(&format!("cannot write {}: {error}", path.display()));
+    }
+    Ok(())
+}

@@ -1,0 +1,150 @@
+//! Bus load: bits per second of all cyclic frames, with the largest number of stuff bits.
+
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::ir::Direction;
+use lexibus_codegen::source::Span;
+
+use crate::model::{Network, NetworkPdo, EXTENDED};
+
+/// Cyclic frames of one sender.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traffic {
+    /// Name of the frames: `TPDO 1 of axis1`.
+    pub name: String,
+    /// CAN-ID, with bit 29 if it has 29 bits.
+    pub can_id: u32,
+    /// Frames per second.
+    pub rate: f64,
+    /// Maximum length of a frame on the bus in bits.
+    pub bits: u32,
+}
+
+/// Load of a bus by cyclic frames.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BusLoad {
+    /// All cyclic frames.
+    pub traffic: Vec<Traffic>,
+    /// Names of PDOs that are sent at any rate, because they have neither an inhibit time nor an event timer.
+    pub unbounded: Vec<String>,
+    /// Bit rate in bit/s.
+    pub bit_rate: u32,
+}
+
+impl BusLoad {
+    /// Returns the number of bits per second.
+    pub fn bits_per_second(&self) -> f64 {
+        self.traffic.iter().fold(0.0, |sum, traffic| sum + traffic.rate * f64::from(traffic.bits))
+    }
+
+    /// Returns the load as a part of the bit rate: 1.0 is a full bus.
+    pub fn ratio(&self) -> f64 {
+        self.bits_per_second() / f64::from(self.bit_rate)
+    }
+}
+
+/// Returns the maximum number of bits of a data frame with `bytes` bytes, including stuff bits and the interframe space
+/// (ISO 11898-1).
+pub fn frame_bits(can_id: u32, bytes: u32) -> u32 {
+    // Bits that can be stuffed: from the start of frame to the CRC. At worst, each fourth bit after the first is followed by a stuff bit.
+    let stuffed = if can_id & EXTENDED == 0 { 34 } else { 54 } + 8 * bytes;
+    // CRC delimiter, acknowledge slot and delimiter, end of frame, interframe space.
+    const UNSTUFFED: u32 = 1 + 2 + 7 + 3;
+    stuffed + (stuffed - 1) / 4 + UNSTUFFED
+}
+
+/// Computes the load of all cyclic frames: SYNC, PDOs, heartbeats and node guarding.
+pub fn bus_load(network: &Network) -> BusLoad {
+    let mut load = BusLoad { bit_rate: u32::from(network.bit_rate) * 1000, ..BusLoad::default() };
+    let mut add = |name: String, can_id: u32, bytes: u32, rate: f64| {
+        load.traffic.push(Traffic { name, can_id, rate, bits: frame_bits(can_id, bytes) });
+    };
+    let sync = network.sync_rate();
+    if sync > 0.0 {
+        let has_counter = network.master.as_ref().is_some_and(|master| master.sync_overflow > 0);
+        add("SYNC".to_owned(), 0x80, has_counter.into(), sync);
+    }
+    if let Some(master) = network.master.as_ref().filter(|master| master.heartbeat.value > 0) {
+        add(
+            "heartbeat of the master".to_owned(),
+            0x700 + u32::from(network.master_id()),
+            1,
+            per_second(master.heartbeat.value),
+        );
+    }
+    for node in &network.nodes {
+        let (id, name) = (0x700 + u32::from(node.id), &node.name.value);
+        if node.heartbeat.value > 0 {
+            add(format!("heartbeat of `{name}`"), id, 1, per_second(node.heartbeat.value));
+        } else if node.guard_time > 0 {
+            add(format!("node guarding request to `{name}`"), id, 0, per_second(node.guard_time));
+            add(format!("node guarding reply of `{name}`"), id, 1, per_second(node.guard_time));
+        }
+    }
+    let received = network.pdos(Direction::Receive).filter(|(_, pdo)| network.is_sent_by_master(pdo.can_id()));
+    let mut unbounded = Vec::new();
+    for (node, pdo) in network.pdos(Direction::Transmit).chain(received) {
+        let name = format!("{} of `{}`", pdo.title(), node.name.value);
+        match rate(pdo, sync) {
+            Some(rate) => add(name, pdo.can_id(), pdo.bytes(), rate),
+            None => unbounded.push(name),
+        }
+    }
+    load.unbounded = unbounded;
+    load
+}
+
+/// Returns the number of cycles per second for a time in ms.
+fn per_second(milliseconds: u16) -> f64 {
+    1000.0 / f64::from(milliseconds)
+}
+
+/// Returns the maximum number of PDOs per second, or `None` if it has no bound.
+fn rate(pdo: &NetworkPdo, sync: f64) -> Option<f64> {
+    match (pdo.syncs(), pdo.inhibit_time, pdo.event_timer) {
+        (Some(syncs), ..) => Some(sync / f64::from(syncs)),
+        (None, inhibit_time @ 1.., _) => Some(10_000.0 / f64::from(inhibit_time)),
+        (None, 0, event_timer @ 1..) => Some(per_second(event_timer)),
+        _ => None,
+    }
+}
+
+pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
+    let load = bus_load(network);
+    if load.ratio() <= 1.0 {
+        return;
+    }
+    let message = format!(
+        "the bus load is {:.0} kbit/s, but the bit rate is {} kbit/s",
+        load.bits_per_second() / 1000.0,
+        network.bit_rate
+    );
+    let mut largest: Vec<&Traffic> = load.traffic.iter().collect();
+    let bits = |traffic: &Traffic| traffic.rate * f64::from(traffic.bits);
+    largest.sort_by(|one, other| bits(other).total_cmp(&bits(one)));
+    let found =
+        Diagnostic::new(&codes::BUS_LOAD, load_at(network), message).help("use longer periods or a higher bit rate");
+    let note = |traffic: &&Traffic| {
+        format!("{}: {:.1} frames per second of {} bits", traffic.name, traffic.rate, traffic.bits)
+    };
+    diagnostics.push(largest.iter().take(3).map(note).fold(found, Diagnostic::note));
+}
+
+/// Returns the location of the bit rate, or of the master.
+fn load_at(network: &Network) -> Span {
+    network.bit_rate_at.or(network.master.as_ref().map_or(Span::MISSING, |master| master.span))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_have_the_length_of_the_literature() {
+        // Davis et al., "Controller Area Network schedulability analysis: refuted, revisited and revised", 2007: 55 + 10 s bits
+        // with 11-bit identifiers, 80 + 10 s with 29-bit identifiers.
+        for bytes in 0..=8 {
+            assert_eq!(frame_bits(0x181, bytes), 55 + 10 * bytes);
+            assert_eq!(frame_bits(EXTENDED | 0x181, bytes), 80 + 10 * bytes);
+        }
+    }
+}

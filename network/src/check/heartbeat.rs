@@ -1,0 +1,73 @@
+//! Times of heartbeats and of node guarding that cannot hold.
+
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::ir::Value;
+use lexibus_codegen::source::Span;
+
+use crate::model::{consumer_time, Network, NetworkNode};
+use crate::syntax::At;
+
+/// Maximum consumer time: 0x1016 has 16 bits for it.
+const MAX_TIME: u32 = 0xFFFF;
+
+pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
+    for node in &network.nodes {
+        consumers(network, node, diagnostics);
+        let is_monitored = network.master.as_ref().is_some_and(|master| master.consumes_heartbeats);
+        if is_monitored {
+            times(
+                &format!("`{}`", node.name.value),
+                &node.heartbeat,
+                &node.heartbeat_multiplier,
+                node.name.span,
+                diagnostics,
+            );
+        }
+        if node.heartbeat.value != 0 && node.guard_time != 0 && node.life_time_factor != 0 {
+            let message = format!("`{}` uses heartbeat and node guarding", node.name.value);
+            let found = Diagnostic::new(&codes::HEARTBEAT_TIME, node.heartbeat.span.or(node.name.span), message);
+            diagnostics.push(found.help("set the guard time or the heartbeat to 0"));
+        }
+    }
+    if let Some(master) = &network.master {
+        times("the master", &master.heartbeat, &master.heartbeat_multiplier, master.span, diagnostics);
+    }
+}
+
+/// Reports a consumer time that is not longer than the producer time, or too long.
+fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagnostics: &mut Diagnostics) {
+    let (producer, consumer) = (heartbeat.value, consumer_time(heartbeat.value, multiplier.value));
+    if producer == 0 {
+        return;
+    }
+    let of = format!("the consumer time of the heartbeat of {who} is {consumer} ms");
+    if consumer <= producer.into() {
+        let found = Diagnostic::new(&codes::HEARTBEAT_TIME, multiplier.span.or(span), of);
+        diagnostics.push(
+            found.label(format!("the producer time is {producer} ms")).help("use a multiplier above 1, such as 3"),
+        );
+    } else if consumer > MAX_TIME {
+        let found = Diagnostic::new(&codes::HEARTBEAT_TIME, heartbeat.span.or(span), of);
+        diagnostics.push(found.label(format!("the maximum is {MAX_TIME} ms")).help("use a shorter heartbeat"));
+    }
+}
+
+/// Reports values of 0x1016 for nodes that send no heartbeat, or send it too rarely.
+fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostics) {
+    for write in node.writes.iter().filter(|write| write.object.0 == 0x1016 && write.object.1 > 0) {
+        let value = write.value.as_ref().and_then(Value::as_int).unwrap_or(0);
+        let (time, producer) = (value & 0xFFFF, (value >> 16) as u8);
+        if time == 0 || producer == network.master_id() {
+            continue;
+        }
+        let other = network.nodes.iter().find(|other| other.id == producer);
+        let problem = match other.map(|other| (&other.name.value, i128::from(other.heartbeat.value))) {
+            None => format!("no node has the node-ID {producer}"),
+            Some((name, 0)) => format!("`{name}` sends no heartbeat"),
+            Some((name, sent)) if sent >= time => format!("`{name}` sends its heartbeat each {sent} ms"),
+            Some(_) => continue,
+        };
+        let message = format!("`{}` expects a heartbeat of node {producer} each {time} ms", node.name.value);
+        diagnostics.push(Diagnostic::new(&codes::HEARTBEAT_TIME, write.span, message).label(problem));
+    }
+}

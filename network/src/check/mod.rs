@@ -1,0 +1,11 @@
+//! Checks of a resolved network.
+
+mod bus_load;
+mod cob_ids;
+mod heartbeat;
+mod partners;
+mod run;
+mod sync;
+
+pub use bus_load::{bus_load, frame_bits, BusLoad, Traffic};
+pub use run::check;

@@ -1,0 +1,37 @@
+//! Compiles a network file: front end, resolution and checks.
+
+use lexibus_codegen::diagnostics::{Diagnostics, Levels};
+use lexibus_codegen::source::{FileId, Source};
+
+use crate::model::Network;
+use crate::{check, frontend, resolve};
+
+/// The result of a compilation.
+#[derive(Debug)]
+pub struct Compilation {
+    /// The network file.
+    pub source: Source,
+    /// The network; `None` if the file cannot be read as a network.
+    pub network: Option<Network>,
+    /// Diagnostics, sorted by position.
+    pub diagnostics: Diagnostics,
+}
+
+impl Compilation {
+    /// Returns the network, or `None` if there are errors.
+    pub fn usable(&self) -> Option<&Network> {
+        self.network.as_ref().filter(|_| !self.diagnostics.has_errors())
+    }
+}
+
+/// Reads and checks a network file. The descriptions of the nodes are read from the folder of the file.
+pub fn compile(source: Source, levels: Levels) -> Compilation {
+    let mut diagnostics = Diagnostics::new(levels);
+    let declared = frontend::read(&source, FileId(0), &mut diagnostics);
+    let network = declared.map(|declared| resolve::resolve(&source, declared, &mut diagnostics));
+    if let Some(network) = &network {
+        check::check(network, &mut diagnostics);
+    }
+    diagnostics.sort();
+    Compilation { source, network, diagnostics }
+}

@@ -1,0 +1,257 @@
+//! The resolved network: nodes with their descriptions, values as bytes, and PDOs with COB-IDs.
+
+use std::rc::Rc;
+
+use lexibus_codegen::ir::{Device, Direction, Item, Value};
+use lexibus_codegen::source::Span;
+
+use crate::declared::DeclaredMaster;
+use crate::description::Description;
+use crate::syntax::At;
+
+/// Bit of a COB-ID that disables a PDO or an EMCY (CiA 301 7.5.2.17, 7.5.2.35).
+pub const DISABLED: u32 = 1 << 31;
+
+/// Bit of a COB-ID with a 29-bit CAN-ID.
+pub const EXTENDED: u32 = 1 << 29;
+
+/// A network whose nodes have descriptions.
+#[derive(Debug, Default)]
+pub struct Network {
+    /// Name of the network; may be empty.
+    pub name: String,
+    /// Bit rate in kbit/s.
+    pub bit_rate: u16,
+    /// Location of the bit rate; empty if the file does not declare it.
+    pub bit_rate_at: Span,
+    /// The master, if the file declares one.
+    pub master: Option<DeclaredMaster>,
+    /// All nodes except the master, in the order of the file.
+    pub nodes: Vec<NetworkNode>,
+}
+
+impl Network {
+    /// Returns the node-ID of the master; 255 = not configured.
+    pub fn master_id(&self) -> u8 {
+        self.master.as_ref().and_then(|master| master.node_id.as_ref()).map_or(255, |id| id.value)
+    }
+
+    /// Returns the enabled PDOs of all nodes with this direction: for each node, sorted by number.
+    pub fn pdos(&self, direction: Direction) -> impl Iterator<Item = (&NetworkNode, &NetworkPdo)> {
+        let is_sent = move |(_, pdo): &(&NetworkNode, &NetworkPdo)| pdo.is_enabled && pdo.direction == direction;
+        self.nodes.iter().flat_map(|node| node.pdos.iter().map(move |pdo| (node, pdo))).filter(is_sent)
+    }
+
+    /// Returns whether the master sends the RPDOs with a CAN-ID, because no node sends it.
+    pub fn is_sent_by_master(&self, can_id: u32) -> bool {
+        let is_sent = || self.pdos(Direction::Transmit).any(|(_, pdo)| pdo.can_id() == can_id);
+        self.master.as_ref().is_some_and(|master| master.exchanges_pdos) && !is_sent()
+    }
+
+    /// Returns the number of SYNCs per second that the master sends.
+    pub fn sync_rate(&self) -> f64 {
+        let period =
+            self.master.as_ref().and_then(|master| master.sync_period.as_ref()).map_or(0, |period| period.value);
+        if period == 0 {
+            0.0
+        } else {
+            1e6 / f64::from(period)
+        }
+    }
+
+    /// Returns the nodes that receive a CAN-ID with an RPDO.
+    pub fn receivers(&self, cob_id: u32) -> impl Iterator<Item = &NetworkNode> {
+        self.pdos(Direction::Receive).filter(move |(_, pdo)| pdo.can_id() == can_id(cob_id)).map(|(node, _)| node)
+    }
+}
+
+/// Returns the CAN-ID of a COB-ID, with bit 29 if it has 29 bits.
+pub fn can_id(cob_id: u32) -> u32 {
+    match cob_id & EXTENDED {
+        0 => cob_id & 0x7FF,
+        _ => cob_id & (EXTENDED | 0x1FFF_FFFF),
+    }
+}
+
+/// A node of the network.
+#[derive(Debug)]
+pub struct NetworkNode {
+    /// Name of the node, as its file spells it.
+    pub name: At<String>,
+    /// Node-ID, from 1 to 127.
+    pub id: u8,
+    /// Description of the device.
+    pub description: Rc<Description>,
+    /// Path of the node's concise DCF, as the master finds it.
+    pub upload_file: String,
+    /// Path of the program that the master downloads; may be empty.
+    pub software_file: String,
+    /// Expected software identification; 0 = not checked.
+    pub software_version: u32,
+    /// Device type (0x1000).
+    pub device_type: u32,
+    /// Expected identity: vendor-ID, product code, revision number, serial number; 0 = not checked.
+    pub identity: [u32; 4],
+    /// COB-ID of EMCY (0x1014).
+    pub emcy_cob_id: u32,
+    /// Heartbeat producer time in ms; 0 = no heartbeat.
+    pub heartbeat: At<u16>,
+    /// Consumer time of the heartbeat as a multiple of its producer time.
+    pub heartbeat_multiplier: At<f64>,
+    /// Guard time in ms; 0 = no node guarding.
+    pub guard_time: u16,
+    /// Life time factor; 0 = no life guarding.
+    pub life_time_factor: u8,
+    /// All PDOs of the device: RPDOs, then TPDOs, each sorted by number.
+    pub pdos: Vec<NetworkPdo>,
+    /// Values that configure the node, in the order in which they are written.
+    pub writes: Vec<Write>,
+    /// Bits of the node in 0x1F81 (CiA 302-2).
+    pub assignment: u32,
+    /// Sub-index of 0x1011 that restores the defaults before the configuration; 0 = none.
+    pub restore: u8,
+    /// True if the node stores its configuration.
+    pub store: bool,
+}
+
+impl NetworkNode {
+    /// Returns the device.
+    pub fn device(&self) -> &Device {
+        self.description.device()
+    }
+
+    /// Returns the name of the node's output files, without extension.
+    pub fn file_stem(&self) -> String {
+        file_stem(&self.name.value)
+    }
+
+    /// Returns the consumer time of the node's heartbeat in ms.
+    pub fn heartbeat_time(&self) -> u32 {
+        consumer_time(self.heartbeat.value, self.heartbeat_multiplier.value)
+    }
+
+    /// Returns the item at an index and sub-index.
+    pub fn item(&self, object: (u16, u8)) -> Option<&Item> {
+        self.device().entry(object.0, object.1)
+    }
+
+    /// Returns the value that an object has after the configuration: the last value that is written, or the initial value.
+    pub fn value(&self, object: (u16, u8)) -> Option<i128> {
+        let written =
+            self.writes.iter().rev().find(|write| write.object == object).and_then(|write| write.value.as_ref());
+        written.or_else(|| self.item(object)?.initial())?.resolved(self.id).as_int()
+    }
+
+    /// Returns the PDO with this direction and number.
+    pub fn pdo(&self, direction: Direction, number: u16) -> Option<&NetworkPdo> {
+        self.pdos.iter().find(|pdo| pdo.direction == direction && pdo.number == number)
+    }
+}
+
+/// Returns a name as a file name: other characters than letters, digits, `-`, `_` and `.` become `_`.
+pub fn file_stem(name: &str) -> String {
+    let is_safe = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
+    name.chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
+}
+
+/// Returns the consumer time of a heartbeat in ms.
+pub fn consumer_time(producer_time: u16, multiplier: f64) -> u32 {
+    (f64::from(producer_time) * multiplier) as u32
+}
+
+/// A PDO of a node.
+#[derive(Clone, Debug)]
+pub struct NetworkPdo {
+    /// Direction, seen from the node.
+    pub direction: Direction,
+    /// Number of the PDO, counted from 1.
+    pub number: u16,
+    /// Location of the PDO in the network file; empty if the file does not mention it.
+    pub span: Span,
+    /// True if the PDO is enabled and maps objects.
+    pub is_enabled: bool,
+    /// COB-ID with flags.
+    pub cob_id: u32,
+    /// Location of the COB-ID in the network file; empty if the file does not declare it.
+    pub cob_id_at: Span,
+    /// Transmission type.
+    pub transmission: u8,
+    /// Inhibit time of the sender in units of 100 µs; 0 = none.
+    pub inhibit_time: u16,
+    /// Event timer of the sender in ms; 0 = none.
+    pub event_timer: u16,
+    /// Deadline of the receiver in ms; 0 = none.
+    pub event_deadline: u16,
+    /// SYNC start value of the sender; 0 = none.
+    pub sync_start: u8,
+    /// Mapped objects, in their order.
+    pub entries: Vec<MappedObject>,
+}
+
+impl NetworkPdo {
+    /// Returns the CAN-ID, with bit 29 if it has 29 bits.
+    pub fn can_id(&self) -> u32 {
+        can_id(self.cob_id)
+    }
+
+    /// Returns the length in bits.
+    pub fn bits(&self) -> u32 {
+        self.entries.iter().map(|entry| u32::from(entry.bits)).sum()
+    }
+
+    /// Returns the length in bytes.
+    pub fn bytes(&self) -> u32 {
+        self.bits().div_ceil(8)
+    }
+
+    /// Returns whether the PDO is sent after a SYNC, and the number of SYNCs from PDO to PDO. An acyclic PDO counts as sent after
+    /// each SYNC.
+    pub fn syncs(&self) -> Option<u8> {
+        match self.transmission {
+            0 => Some(1),
+            syncs @ 1..=240 => Some(syncs),
+            _ => None,
+        }
+    }
+
+    /// Returns the name of the PDO: `TPDO 1`.
+    pub fn title(&self) -> String {
+        let direction = if self.direction == Direction::Transmit { "TPDO" } else { "RPDO" };
+        format!("{direction} {}", self.number)
+    }
+
+    /// Returns the index of the communication object.
+    pub fn index(&self) -> u16 {
+        communication_index(self.direction, self.number)
+    }
+}
+
+/// Returns the index of the communication object of a PDO.
+pub fn communication_index(direction: Direction, number: u16) -> u16 {
+    let first = if direction == Direction::Receive { 0x1400 } else { 0x1800 };
+    first + number - 1
+}
+
+/// An object in a PDO.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MappedObject {
+    /// Index of the object, or code of a data type below 0x1000 for a gap.
+    pub index: u16,
+    /// Sub-index of the object.
+    pub sub_index: u8,
+    /// Length in bits.
+    pub bits: u8,
+}
+
+/// A value that is written to an object of a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Write {
+    /// Index and sub-index.
+    pub object: (u16, u8),
+    /// The value, as a value of the object's type; `None` for a value that the description already configures.
+    pub value: Option<Value>,
+    /// The value as in an SDO transfer.
+    pub bytes: Vec<u8>,
+    /// Location of the value in the network file.
+    pub span: Span,
+}

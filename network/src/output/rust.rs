@@ -1,0 +1,253 @@
+//! Rust modules of a network: a module for each node with the bindings of its device, and the module of the network.
+
+use std::fmt::Write as _;
+
+use lexibus_codegen::backend::rust::{emit_catalog, RustOptions};
+use lexibus_codegen::facts::configuration::Configuration;
+use lexibus_codegen::ir::{Direction, Entries, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
+use lexibus_codegen::names::{unique, Case, NameRequest};
+use lexibus_codegen::source::Source;
+
+use super::dcf::configured;
+use crate::check::bus_load;
+use crate::model::{Network, NetworkNode, NetworkPdo};
+
+/// Bit of 0x1F81: the master does not reset the node while it is Operational.
+const KEEP_RUNNING: u32 = 0x10;
+
+/// Names of items in the module of the network, which no node can have.
+const RESERVED: [&str; 6] = ["boot", "bit_rate", "network_node", "node_id", "duration", "rt"];
+
+/// Returns the Rust files with their names: `network.rs`, and `network/<node>.rs` for each node. `options` are the options of the
+/// bindings, except the name of the device.
+pub fn rust(network: &Network, options: &RustOptions) -> Vec<(String, String)> {
+    let requests: Vec<NameRequest<'_>> =
+        network.nodes.iter().map(|node| NameRequest::new(&node.name.value, "node", node.id)).collect();
+    let modules = unique(&requests, &RESERVED, Case::Snake);
+    let types = unique(&requests, &["NetworkNode", "Node", "Boot", "Booted", "BootError"], Case::Pascal);
+    let mut files = Vec::new();
+    let mut named = Vec::new();
+    for ((node, module), ty) in network.nodes.iter().zip(&modules).zip(&types) {
+        let Some((text, is_configured)) = bindings(network, node, ty, options) else { continue };
+        files.push((format!("network/{module}.rs"), text));
+        named.push(Named { node, module, ty, is_configured });
+    }
+    files.push(("network.rs".to_owned(), module(network, &named)));
+    files
+}
+
+/// A node with its names in Rust.
+struct Named<'n> {
+    node: &'n NetworkNode,
+    module: &'n str,
+    ty: &'n str,
+    is_configured: bool,
+}
+
+/// Returns the bindings of a node's device with the configured values and PDOs of the node, and whether they contain a configuration.
+fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<(String, bool)> {
+    let mut catalog = configured(network, node, node.description.catalog().clone());
+    let device = &mut catalog.devices[0];
+    let entries = Entries::new(&device.groups);
+    for pdo in &node.pdos {
+        let is_same = |other: &&mut Pdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
+        if let Some(described) = device.process_data.pdos.iter_mut().find(is_same) {
+            described.entries = mapped(&entries, node, pdo);
+            communicate(described, pdo);
+        }
+    }
+    // A disabled PDO has no COB-ID that a program could use.
+    let is_used = |other: &Pdo| {
+        let is_same =
+            |pdo: &&NetworkPdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
+        node.pdos.iter().find(is_same).is_none_or(|pdo| pdo.is_enabled)
+    };
+    device.process_data.pdos.retain(is_used);
+    let is_configured = Configuration::of(&catalog.devices[0]).is_some();
+    let options = RustOptions { device_name: Some(ty.to_owned()), ..options.clone() };
+    Some((emit_catalog(&catalog, &options)?, is_configured))
+}
+
+/// Sets the communication parameters of a PDO to those of the network.
+fn communicate(described: &mut Pdo, pdo: &NetworkPdo) {
+    let communication = described.communication.get_or_insert_with(PdoCommunication::default);
+    let is_sender = pdo.direction == Direction::Transmit;
+    communication.index = pdo.index();
+    communication.cob_id = Some(Value::Int(pdo.cob_id.into()));
+    communication.transmission_type = Some(pdo.transmission);
+    communication.inhibit_time = is_sender.then_some(pdo.inhibit_time).filter(|time| *time > 0);
+    communication.event_timer =
+        Some(if is_sender { pdo.event_timer } else { pdo.event_deadline }).filter(|time| *time > 0);
+    communication.sync_start = is_sender.then_some(pdo.sync_start).filter(|start| *start > 0);
+}
+
+fn mapped(entries: &Entries<'_>, node: &NetworkNode, pdo: &NetworkPdo) -> Vec<PdoEntry> {
+    let mut offset = 0;
+    let entry = |mapped: &crate::model::MappedObject| {
+        let bits = u32::from(mapped.bits);
+        let mut entry = PdoEntry { bit_offset: offset, ..PdoEntry::new(mapped.index, mapped.sub_index, bits) };
+        offset += bits;
+        match entries.get(mapped.index, mapped.sub_index).filter(|_| mapped.index >= 0x1000) {
+            None if mapped.index < 0x1000 => entry.kind = PdoEntryKind::Padding,
+            None => {}
+            Some(item) => {
+                entry.kind = PdoEntryKind::Item;
+                entry.item = entries.find(mapped.index, mapped.sub_index);
+                entry.ty = item.ty;
+                let group = node.device().object(mapped.index).filter(|group| group.items.len() > 1);
+                entry.name = match group {
+                    Some(group) => format!("{} {}", group.name, item.name).into(),
+                    None => item.name.clone(),
+                };
+            }
+        }
+        entry
+    };
+    pdo.entries.iter().map(entry).collect()
+}
+
+/// Returns the module of the network.
+fn module(network: &Network, nodes: &[Named<'_>]) -> String {
+    let mut text =
+        String::from("// Generated by lexibus-network. Changes to this file are lost when it is generated again.\n\n");
+    text += "use core::time::Duration;\n\nuse ::lexibus::clients::canopen::{Boot, BootError, Booted, CanPort, ErrorControl, Node};\n";
+    text += "use ::lexibus::NodeId;\n\n";
+    for Named { node, module, .. } in nodes {
+        let name = one_line(&node.name.value);
+        let _ = writeln!(text, "/// Bindings and configuration of the node `{name}`.");
+        let _ = writeln!(text, "#[path = \"network/{module}.rs\"]\npub mod {module};");
+    }
+    text.push('\n');
+    for Named { module, ty, .. } in nodes {
+        let _ = writeln!(text, "pub use {module}::{ty};");
+    }
+    let _ = write!(text, "\n/// Bit rate in kbit/s.\npub const BIT_RATE: u16 = {};\n\n", network.bit_rate);
+    documentation(&mut text, network, nodes);
+    text += TRAIT;
+    for named in nodes {
+        implementation(&mut text, network, named);
+    }
+    text
+}
+
+const TRAIT: &str = r"pub trait NetworkNode<P: CanPort>: Sized {
+    /// Node-ID of the node.
+    const NODE_ID: NodeId;
+
+    /// Steps of the boot of the node (CiA 302-2): identity, configuration, start and error control.
+    const BOOT: Boot;
+
+    /// Creates the driver of the node on a port.
+    fn on(port: P) -> Self;
+
+    /// Boots the node: compares its identity, writes the configuration unless the node has stored it, and starts the node.
+    ///
+    /// # Errors
+    ///
+    /// Returns the step that failed.
+    fn boot(&mut self) -> Result<Booted, BootError<P::Error>>;
+}
+
+/// Returns a node-ID of this file.
+const fn node_id(id: u8) -> NodeId {
+    match NodeId::new(id) {
+        Some(id) => id,
+        None => panic!(),
+    }
+}
+";
+
+fn documentation(text: &mut String, network: &Network, nodes: &[Named<'_>]) {
+    let name = if network.name.is_empty() { String::new() } else { format!(" `{}`", one_line(&network.name)) };
+    let _ = writeln!(text, "/// A node of the network{name}.\n///");
+    text.push_str("/// | node | node-ID | device | type |\n/// |---|---|---|---|\n");
+    for Named { node, ty, .. } in nodes {
+        let (name, device) = (one_line(&node.name.value), one_line(&node.device().name));
+        let _ = writeln!(text, "/// | {name} | {} | {device} | [`{ty}`] |", node.id);
+    }
+    let load = bus_load(network);
+    let _ = writeln!(
+        text,
+        "///\n/// Bus load of all cyclic frames: {:.1} % of {} kbit/s.",
+        load.ratio() * 100.0,
+        network.bit_rate
+    );
+}
+
+/// Returns a text that cannot leave its line or its cell.
+fn one_line(text: &str) -> String {
+    lexibus_codegen::text::printable(text).replace(['|', '`', '[', ']', '<', '>'], " ").trim().to_owned()
+}
+
+fn implementation(text: &mut String, network: &Network, named: &Named<'_>) {
+    let Named { node, ty, .. } = named;
+    let _ = write!(
+        text,
+        "\nimpl<P: CanPort> NetworkNode<P> for {ty}<Node<P>> {{\n    const NODE_ID: NodeId = node_id({});\n\n    const BOOT: Boot = {};\n\n    \
+         fn on(port: P) -> Self {{\n        {ty}::new(Node::new(port, node_id({})))\n    }}\n\n    \
+         fn boot(&mut self) -> Result<Booted, BootError<P::Error>> {{\n        \
+         self.client().boot(&<Self as NetworkNode<P>>::BOOT)\n    }}\n}}\n",
+        node.id,
+        boot(network, named),
+        node.id,
+    );
+}
+
+/// Returns the expression of a node's boot.
+fn boot(network: &Network, named: &Named<'_>) -> String {
+    let Named { node, module, is_configured, .. } = named;
+    let mut text = format!("Boot::new({})", error_control(node));
+    let mut call = |method: &str, argument: String| {
+        let _ = write!(text, "\n        .{method}({argument})");
+    };
+    if node.assignment & KEEP_RUNNING != 0 {
+        call("keep_running", String::new());
+    }
+    let patience = network.master.as_ref().map_or(0, |master| master.boot_time);
+    call("reset", format!("Duration::from_millis({})", if patience == 0 { BOOT_TIME } else { patience }));
+    let [vendor, product, revision, serial] = node.identity;
+    let numbers = [
+        ("device_type", node.device_type),
+        ("vendor_id", vendor),
+        ("product_code", product),
+        ("revision_number", revision),
+        ("serial_number", serial),
+    ];
+    for (method, number) in numbers.into_iter().filter(|(_, number)| *number != 0) {
+        call(method, format!("0x{number:08X}"));
+    }
+    if *is_configured {
+        call("configuration", format!("{module}::CONFIGURATION"));
+    }
+    if node.store {
+        let (milliseconds, days) = date(node);
+        call("configuration_date", format!("::lexibus::TimeOfDay::new({milliseconds}, {days})"));
+        call("store", String::new());
+    }
+    text
+}
+
+/// Time in ms for the boot-up message of a node, if the network file states none.
+const BOOT_TIME: u32 = 5000;
+
+fn error_control(node: &NetworkNode) -> String {
+    match (node.heartbeat.value, node.guard_time, node.life_time_factor) {
+        (1.., ..) => format!("ErrorControl::Heartbeat(Duration::from_millis({}))", node.heartbeat_time()),
+        (0, time @ 1.., factor @ 1..) => {
+            format!(
+                "ErrorControl::Guarding {{ guard_time: Duration::from_millis({time}), life_time_factor: {factor} }}"
+            )
+        }
+        _ => "ErrorControl::None".to_owned(),
+    }
+}
+
+/// Returns a date that changes if the configuration changes: milliseconds and days for 0x1020. It is computed from the SHA-256 of the
+/// configuration, so that equal network files give equal dates.
+fn date(node: &NetworkNode) -> (u32, u16) {
+    let entries = node.writes.iter().map(|write| (write.object, write.bytes.as_slice()));
+    let digest = Source::new("", super::concise(entries)).sha256().to_owned();
+    let number = |range: std::ops::Range<usize>| u32::from_str_radix(&digest[range], 16).unwrap_or(1);
+    // The date must not be January 1, 1984, which represents a missing date.
+    (number(0..8) % 86_400_000, (number(8..12) as u16).max(1))
+}

@@ -1,0 +1,13 @@
+//! Declared network → network: reads descriptions, looks up objects, and computes the values to write.
+
+mod cob_ids;
+mod described;
+mod heartbeat;
+mod node;
+mod object;
+mod pdo;
+mod run;
+mod value;
+mod writer;
+
+pub use run::resolve;

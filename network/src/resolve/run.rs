@@ -1,0 +1,119 @@
+//! Resolves all nodes.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::source::{FileId, Source, Span};
+
+use super::cob_ids::CobIds;
+use super::{heartbeat, node};
+use crate::declared::{DeclaredNetwork, DeclaredNode};
+use crate::description::{Description, Descriptions};
+use crate::model::{file_stem, Network};
+
+/// Default bit rate in kbit/s, as in `dcfgen`.
+const BIT_RATE: u16 = 1000;
+
+/// Resolves a declared network. Nodes that cannot be resolved are reported and left out.
+pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Diagnostics) -> Network {
+    check_master(&declared, diagnostics);
+    let mut repeated = check_node_ids(&declared, diagnostics);
+    repeated.extend(check_names(&declared, diagnostics));
+    let mut descriptions = Descriptions::new(source);
+    let nodes: Vec<(&DeclaredNode, u8, Rc<Description>)> = declared
+        .nodes
+        .iter()
+        .filter(|node| !repeated.contains(&node.name.span))
+        .filter_map(|node| {
+            let description = descriptions.of(node, diagnostics);
+            Some((node, node.node_id.as_ref()?.value, description?))
+        })
+        .collect();
+    let cob_ids = CobIds::new(&nodes, diagnostics);
+    let mut resolved = Vec::new();
+    for (node, id, description) in nodes {
+        resolved.push(node::resolve(node, id, description, &cob_ids, diagnostics));
+    }
+    let mut network = Network {
+        name: declared.name.map_or(String::new(), |name| name.value),
+        bit_rate: declared.bit_rate.as_ref().map_or(BIT_RATE, |rate| rate.value),
+        bit_rate_at: declared.bit_rate.map_or(Span::MISSING, |rate| rate.span),
+        master: declared.master,
+        nodes: resolved,
+    };
+    let consumers: Vec<bool> = network.nodes.iter().map(|node| consumes(&declared.nodes, &node.name.value)).collect();
+    heartbeat::monitor_master(&mut network, &consumers, diagnostics);
+    network
+}
+
+fn consumes(nodes: &[DeclaredNode], name: &str) -> bool {
+    nodes.iter().any(|node| node.name.value == name && node.consumes_heartbeat)
+}
+
+/// Reports nodes whose output files would have the names of other files. Returns the locations of their names.
+fn check_names(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
+    let mut known = BTreeMap::from([("master".to_owned(), Span::MISSING), ("network".to_owned(), Span::MISSING)]);
+    let mut repeated = Vec::new();
+    for node in &declared.nodes {
+        let stem = file_stem(&node.name.value).to_lowercase();
+        let Some(other) = known.insert(stem.clone(), node.name.span) else { continue };
+        let message = format!("the files of the node `{}` have the same names as other files", node.name.value);
+        let found =
+            Diagnostic::new(&codes::NETWORK_VALUE, node.name.span, message).label(format!("`{stem}` is in use"));
+        let found = if other.is_empty() { found } else { found.note_at(other, "the other node is here") };
+        diagnostics.push(found.help("give the node another name"));
+        repeated.push(node.name.span);
+    }
+    repeated
+}
+
+fn check_master(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
+    match &declared.master {
+        None if !declared.is_master_optional => {
+            let found = Diagnostic::new(&codes::NO_MASTER, Span::new(FileId(0), 0, 0), "the network has no master");
+            diagnostics.push(found.help("add the section `master` with the node-ID of the master"));
+        }
+        Some(master) if !master.has_node_id => {
+            let found = Diagnostic::new(&codes::NO_NODE_ID, master.span, "the master has no node-ID");
+            diagnostics.push(found.help("add a node-ID from 1 to 127"));
+        }
+        _ => {}
+    }
+}
+
+/// Reports nodes without a node-ID, and nodes with the node-ID of another node. Returns the locations of the
+/// latter's names.
+fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
+    let mut repeated = Vec::new();
+    let mut known: BTreeMap<u8, (String, Span)> = BTreeMap::new();
+    if let Some(id) = declared.master.as_ref().and_then(|master| master.node_id.as_ref()) {
+        known.insert(id.value, ("the master".to_owned(), id.span));
+    }
+    let used: Vec<u8> = declared.nodes.iter().filter_map(|node| Some(node.node_id.as_ref()?.value)).collect();
+    for node in &declared.nodes {
+        let name = format!("the node `{}`", node.name.value);
+        let Some(id) = &node.node_id else {
+            if !node.has_node_id {
+                let found = Diagnostic::new(&codes::NO_NODE_ID, node.name.span, format!("{name} has no node-ID"));
+                diagnostics.push(found.help("add a node-ID from 1 to 127"));
+            }
+            continue;
+        };
+        match known.get(&id.value) {
+            Some((other, span)) => {
+                let message = format!("{name} has the node-ID {} of {other}", id.value);
+                let free = (1..=127).find(|free| !used.contains(free) && !known.contains_key(free));
+                let help =
+                    free.map_or("remove a node".to_owned(), |free| format!("use a free node-ID, such as {free}"));
+                let found = Diagnostic::new(&codes::NODE_ID_TWICE, id.span, message);
+                diagnostics.push(found.note_at(*span, format!("{other} is here")).help(help));
+                repeated.push(node.name.span);
+            }
+            None => {
+                known.insert(id.value, (name, id.span));
+            }
+        }
+    }
+    repeated
+}

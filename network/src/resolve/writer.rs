@@ -1,0 +1,78 @@
+//! Collects the values that configure a node, and checks them against its description.
+
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::facts::encoding;
+use lexibus_codegen::ir::{Bus, Device, Item, Value};
+use lexibus_codegen::source::Span;
+
+use super::described::initial;
+use super::object::{address, find};
+use super::value::{basic_type, broken_limit, convert};
+use crate::declared::{DeclaredParameter, ObjectName};
+use crate::model::Write;
+use crate::syntax::{At, Scalar};
+
+/// Collects the values that are written to a node.
+pub(super) struct Writer<'a> {
+    pub device: &'a Device,
+    pub id: u8,
+    pub writes: Vec<Write>,
+    pub diagnostics: &'a mut Diagnostics,
+}
+
+impl Writer<'_> {
+    /// Writes a number if it differs from the initial value.
+    pub fn change<T: Copy + Into<i128>>(&mut self, object: (u16, u8), value: Option<&At<T>>) {
+        let Some(value) = value else { return };
+        let number: i128 = value.value.into();
+        if initial(self.device, object, self.id) != Some(number) {
+            self.write(object, number, value.span);
+        }
+    }
+
+    /// Writes a number to an object. Reports an object that the device does not have, and a value that the object cannot have.
+    pub fn write(&mut self, object: (u16, u8), number: impl Into<i128>, span: Span) {
+        let name = At::new(ObjectName::Address(object.0, object.1), span);
+        self.parameter(&DeclaredParameter { object: name, value: At::new(Scalar::Integer(number.into()), span) });
+    }
+
+    /// Writes a declared value.
+    pub fn parameter(&mut self, parameter: &DeclaredParameter) {
+        let Some((item, object)) = find(self.device, &parameter.object, self.diagnostics) else { return };
+        let span = parameter.value.span;
+        match convert(self.device, item, &parameter.value.value, self.id) {
+            Err(wrong) => {
+                let message = format!("{}: {}", title(item, object), wrong.message);
+                let found = Diagnostic::new(&codes::PARAMETER_TYPE, span, message);
+                self.diagnostics.push(wrong.help.into_iter().fold(found, Diagnostic::help));
+            }
+            Ok(value) => {
+                self.check(item, object, &value, parameter);
+                let Some(bytes) = encoding::bytes(&value, basic_type(self.device, item)) else { return };
+                self.writes.push(Write { object, value: Some(value), bytes, span });
+            }
+        }
+    }
+
+    /// Reports a value outside of the limits, and an object that cannot be written.
+    fn check(&mut self, item: &Item, object: (u16, u8), value: &Value, parameter: &DeclaredParameter) {
+        let limits = item.limits_on(Bus::CanOpen).unwrap_or(&item.limits);
+        if let Some(rule) = broken_limit(limits, value, self.id) {
+            let message = format!("{}: the value {value} is {rule}", title(item, object));
+            self.diagnostics.push(Diagnostic::new(&codes::PARAMETER_RANGE, parameter.value.span, message));
+        }
+        if !item.access_on(Bus::CanOpen).writable() {
+            let message = format!("{} cannot be written", title(item, object));
+            let found = Diagnostic::new(&codes::READ_ONLY_PARAMETER, parameter.object.span, message);
+            let access = item.access_on(Bus::CanOpen).name();
+            self.diagnostics.push(
+                found.label(format!("the description states the access rights `{access}`")).help("remove the value"),
+            );
+        }
+    }
+}
+
+/// Returns name and address of an item for diagnostics: ``object 0x6081 `Profile velocity` ``.
+pub(super) fn title(item: &Item, object: (u16, u8)) -> String {
+    format!("object {} `{}`", address(object), item.name)
+}
