@@ -938,7 +938,7 @@ pub mod types {
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
-    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point, … |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point. … |
     /// | 10 | reserved | A write to an item sets the value 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -1113,7 +1113,7 @@ pub mod types {
         pub const fn with_relative(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
-        /// Bit 9: change on set-point. 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point, if bit 5 is 0.
+        /// Bit 9: change on set-point. 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point. The bit has this effect only while bit 5 is 0.
         pub const fn change_on_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
@@ -3793,7 +3793,7 @@ pub mod objects {
         /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
         /// Accessor: [`Rpdo1CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
         ///
-        /// Transmission type: when the device applies the received data.
+        /// Transmission type: selects when the device applies the received data.
         ///
         /// Values from CiA 301, 7.5.2.35.
         ///
@@ -3833,7 +3833,7 @@ pub mod objects {
             > {
                 COB_ID.at(self.client)
             }
-            /// Transmission type: when the device applies the received data.
+            /// Transmission type: selects when the device applies the received data.
             ///
             /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
@@ -3878,7 +3878,7 @@ pub mod objects {
         /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
         /// Accessor: [`Rpdo2CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
         ///
-        /// Transmission type: when the device applies the received data.
+        /// Transmission type: selects when the device applies the received data.
         ///
         /// Values from CiA 301, 7.5.2.35.
         ///
@@ -3918,7 +3918,7 @@ pub mod objects {
             > {
                 COB_ID.at(self.client)
             }
-            /// Transmission type: when the device applies the received data.
+            /// Transmission type: selects when the device applies the received data.
             ///
             /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
@@ -4088,7 +4088,7 @@ pub mod objects {
         /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
         /// Accessor: [`Tpdo1CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
         ///
-        /// Transmission type: when the TPDO is transmitted.
+        /// Transmission type: selects when the TPDO is transmitted.
         ///
         /// Values from CiA 301, 7.5.2.37.
         ///
@@ -4128,7 +4128,7 @@ pub mod objects {
             > {
                 COB_ID.at(self.client)
             }
-            /// Transmission type: when the TPDO is transmitted.
+            /// Transmission type: selects when the TPDO is transmitted.
             ///
             /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::super::types::TransmitType).
@@ -4173,7 +4173,7 @@ pub mod objects {
         /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
         /// Accessor: [`Tpdo2CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
         ///
-        /// Transmission type: when the TPDO is transmitted.
+        /// Transmission type: selects when the TPDO is transmitted.
         ///
         /// Values from CiA 301, 7.5.2.37.
         ///
@@ -4213,7 +4213,7 @@ pub mod objects {
             > {
                 COB_ID.at(self.client)
             }
-            /// Transmission type: when the TPDO is transmitted.
+            /// Transmission type: selects when the TPDO is transmitted.
             ///
             /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
             /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::super::types::TransmitType).

@@ -540,7 +540,7 @@ pub mod types {
     /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
     /// | 7 | [`fault_reset`](Self::fault_reset) | The device reacts to the rising edge. |
     /// | 8 | [`halt`](Self::halt) | 1 stops the axis with the reaction that the halt option code (0x605D) selects. |
-    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point, … |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point. … |
     /// | 10 | reserved | A write to an item sets the value 0. |
     /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -715,7 +715,7 @@ pub mod types {
         pub const fn with_relative(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
-        /// Bit 9: change on set-point. 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point, if bit 5 is 0.
+        /// Bit 9: change on set-point. 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point. The bit has this effect only while bit 5 is 0.
         pub const fn change_on_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
