@@ -1,4 +1,4 @@
-//! Errors of reads and writes of items.
+//! Error of an access to an item.
 
 use core::error;
 use core::fmt;
@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::raw_value::RawValue;
 use crate::value_error::OutOfRange;
 
-/// Error of a read or a write of an item. It contains the reason, the name of the item, its address on the bus, and the
-/// value of a write. `E` is the error type of the client.
+/// Error of an access that reads or writes an item. The error contains the reason, the name of the item and its address
+/// on the bus. If the access writes a number, the error also contains this number. `E` is the error type of the client.
 ///
 /// The `?` operator converts an access error to [`Error`], which contains only the reason.
 ///
@@ -47,8 +47,8 @@ pub struct AccessError<E> {
     address: Option<BusAddress>,
     access: Access,
     form: Form,
-    /// Value, minimum and maximum; 0 if the access has no such number. Floating-point numbers are stored as the bits of
-    /// an `f64`.
+    /// Value, minimum and maximum; 0 if the access has no such number. If the access has no value, the first number is
+    /// the number of [other items](Self::others). Floating-point numbers are stored as the bits of an `f64`.
     numbers: [u64; 3],
 }
 
@@ -56,12 +56,12 @@ pub struct AccessError<E> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Access {
     Read,
-    /// A write of a value that isn't a number.
+    /// A write whose value isn't stored, for example because it isn't a number.
     Write,
     WriteNumber,
     /// A write of a number outside the range of the item.
     OutOfRange,
-    /// A write of a physical value that has no raw value in the range of the item.
+    /// A write of a physical value whose raw value doesn't fit the type of the item or has a special meaning.
     Unscalable,
 }
 
@@ -82,7 +82,7 @@ fn bits(value: RawValue) -> (Form, u64) {
     }
 }
 
-/// Name and address of the item of a failed access.
+/// Name and address of the item that the failed access reads or writes.
 pub(crate) type Place = (&'static str, Option<BusAddress>);
 
 // The constructors are always inlined, so that the compiler removes the parts of an error that the program doesn't use,
@@ -113,7 +113,7 @@ impl<E> AccessError<E> {
         Self { numbers: [count as u64, 0, 0], ..self }
     }
 
-    /// Creates the error of a write of a value outside the range of the item.
+    /// Creates the error of a write whose value is outside the range of the item.
     #[inline(always)]
     pub(crate) fn out_of_range(place: Place, value: Option<RawValue>, limits: Option<[RawValue; 2]>) -> Self {
         let error = OutOfRange.into();
@@ -122,7 +122,7 @@ impl<E> AccessError<E> {
         Self::new(error, place, Access::OutOfRange, form, [value, bits(limits[0]).1, bits(limits[1]).1])
     }
 
-    /// Creates the error of a write of a physical value that has no raw value.
+    /// Creates the error of a write whose physical value has no raw value.
     #[inline(always)]
     pub(crate) fn unscalable(place: Place, physical: f64, limits: Option<[RawValue; 2]>) -> Self {
         let error = OutOfRange.into();
@@ -163,8 +163,8 @@ impl<E> AccessError<E> {
         !matches!(self.access, Access::Read)
     }
 
-    /// Returns the raw value of a write. Returns `None` for a read, for values that aren't numbers, and for a physical
-    /// value without a raw value.
+    /// Returns the raw value of a write. Returns `None` for a read, for a value that isn't a number, for a physical
+    /// value without a raw value, and for a request that writes several items.
     #[must_use]
     pub fn value(&self) -> Option<RawValue> {
         match self.access {
@@ -173,8 +173,8 @@ impl<E> AccessError<E> {
         }
     }
 
-    /// Returns the physical value of a write that failed because the physical value has no raw value in the range of the
-    /// item.
+    /// Returns the physical value of a write that failed because the raw value doesn't fit the type of the item or has
+    /// a special meaning.
     #[must_use]
     pub fn physical(&self) -> Option<f64> {
         match self.access {
@@ -183,8 +183,9 @@ impl<E> AccessError<E> {
         }
     }
 
-    /// Returns the minimum and the maximum of the item as raw values, if the written value is outside the range of the
-    /// item. If the range has gaps, the value can also be in a gap between the minimum and the maximum.
+    /// Returns the minimum and the maximum of the item as raw values, if the access failed because of the written
+    /// value. The value is outside the range of the item, is in a gap of the range, or is a [physical
+    /// value](Self::physical) without a raw value.
     #[must_use]
     pub fn range(&self) -> Option<(RawValue, RawValue)> {
         match self.access {

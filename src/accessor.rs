@@ -1,4 +1,4 @@
-//! Reads and writes of an item through a client.
+//! Accessors, which read and write an item through a client.
 
 mod fixed;
 mod octets;

@@ -58,8 +58,8 @@ impl Axes {
     /// Returns the address on axis `axis` of `object`, which is an object of the first axis. Axis numbers start at 1.
     /// Shared objects and objects outside all ranges have the same address on every axis.
     ///
-    /// Returns `None` if the axis doesn't exist or doesn't have the object. With [`AxisStep::SubIndex`], further axes
-    /// have only those objects that the first axis has at sub-index 1.
+    /// Returns `None` if the axis doesn't exist or doesn't have the object. In a range with [`AxisStep::SubIndex`],
+    /// further axes have only those objects that the first axis has at sub-index 1, and the shared objects.
     #[must_use]
     pub fn object(&self, axis: u8, object: Object) -> Option<Object> {
         if axis == 0 || axis > self.count {
@@ -102,7 +102,8 @@ pub struct Axis<C> {
 
 impl<C> Axis<C> {
     /// Creates the client for axis `number`; the first axis is 1. If the device doesn't have this axis, every access
-    /// returns [`Error::NoSuchAxis`].
+    /// returns [`Error::NoSuchAxis`]. If the axis lacks an object of the first axis, an access to this object returns
+    /// the same error.
     pub const fn new(client: C, axes: &'static Axes, number: u8) -> Self {
         Self { client, axes, number }
     }

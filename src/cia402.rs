@@ -6,8 +6,8 @@
 //! exist only if the device has the objects that they need: see [`Positioning`], [`Velocity`] and [`Homing`]. For a
 //! device with several axes, call `axis` first: `device.axis(2).cia402()`.
 //!
-//! - No operation enables a drive. Before an operation other than `quick_stop` and `set_mode`, bring the drive to
-//!   "Operation enabled" with the generated method `walk`. In any other state, these operations return
+//! - No operation enables a drive. Before an operation other than `quick_stop`, `set_mode` and `mode`, bring the drive
+//!   to "Operation enabled" with the generated method `walk`. In any other state, these operations return
 //!   [`MotionError::NotEnabled`] or [`MotionError::Fault`], and write nothing. If the drive leaves "Operation enabled"
 //!   during an operation, the operation returns the same errors. The operation then clears at most bit 4 of the
 //!   controlword, and only if the write cannot change the state.

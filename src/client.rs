@@ -120,9 +120,8 @@ pub trait Client {
         DefaultClock.now()
     }
 
-    /// Returns whether another attempt may succeed after this error of the bus library.
-    /// [`Retrying`](crate::Retrying) doesn't repeat an access after any other error. The default implementation returns
-    /// true.
+    /// Returns whether another attempt may succeed after this error of the bus library. If this method returns false,
+    /// [`Retrying`](crate::Retrying) doesn't repeat the access. The default implementation returns true.
     fn is_transient(&self, error: &Self::Error) -> bool {
         let _ = error;
         true

@@ -98,7 +98,8 @@ pub trait CodeTable: Copy {
     }
 }
 
-/// Returns the row that contains a code. If several ranges contain the code, the narrowest range applies.
+/// Returns the row that contains a code, or `None` if no row contains the code. If several ranges contain the code, the
+/// narrowest range applies.
 ///
 /// ```
 /// use lexibus::codes::{self, Code};

@@ -23,8 +23,8 @@ use crate::pdo::SdoWrite;
 /// - [`concise_dcf`](Self::concise_dcf) encodes the values for the object 0x1F22 of a CANopen manager (CiA 302-3).
 /// - [`writes`](Self::writes) returns the writes for any other purpose. [`of`](Self::of) returns the write of one object.
 ///
-/// The writes are grouped in [phases](Phase). While a PDO is disabled, the device accepts changes of its mapping and its
-/// communication parameters (CiA 301 7.5.2.36 and 7.5.2.38).
+/// The writes are grouped in [phases](Phase). While a PDO is disabled, the device accepts changes to the mapping and
+/// the communication parameters of the PDO (CiA 301 7.5.2.36 and 7.5.2.38).
 ///
 /// ```
 /// use lexibus::{Configuration, NodeId, SdoWrite, Setting};
@@ -45,7 +45,7 @@ use crate::pdo::SdoWrite;
 pub struct Configuration {
     /// COB-IDs of the PDOs that the configuration changes, with bit 31 set (PDO disabled).
     pub disable_pdos: &'static [Setting],
-    /// Objects 0x1000 to 0x1FFF, without PDOs.
+    /// Values of objects 0x1000 to 0x1FFF, except those of PDOs.
     pub communication: &'static [Setting],
     /// All other objects.
     pub parameters: &'static [Setting],
@@ -94,7 +94,7 @@ impl Setting {
         Self { is_default: true, ..Self::from_node(write) }
     }
 
-    /// Returns the setting of an object that cannot be read. [`Configuration::verify`] skips the object.
+    /// Returns the setting, marked as that of a write-only object. [`Configuration::verify`] skips this object.
     #[must_use]
     pub const fn write_only(self) -> Self {
         Self { is_write_only: true, ..self }

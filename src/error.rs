@@ -30,8 +30,9 @@ pub enum Error<E> {
     NoMessage,
     /// The device didn't reply in time, or the bus was busy.
     Timeout,
-    /// The device needs time before it has the value, and the client cannot wait
-    /// ([`Client::wait`](crate::Client::wait)). Use [`Timed`](crate::Timed) to add a clock to the client.
+    /// The access needs a clock or a pause, for example because the device needs time before it has the value, but the
+    /// client has no clock or cannot wait ([`Client::wait`](crate::Client::wait)). Use [`Timed`](crate::Timed) to add a
+    /// clock to the client.
     NoClock,
     /// The device marks its cyclic data as invalid (PROFINET provider status "bad").
     InvalidData,

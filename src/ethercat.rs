@@ -55,21 +55,22 @@ impl Device {
         due.map(move |command| StartupCommand::of_init(command, transition, depends_on::Growth::default()))
     }
 
-    /// Returns the PDO whose mapping object has this index.
+    /// Returns the PDO whose mapping object has this index, or `None` if the device itself has no such PDO.
     #[must_use]
     pub fn pdo(&self, index: u16) -> Option<&'static PdoInfo> {
         self.pdos.iter().find(|pdo| pdo.index == index)
     }
 
-    /// Returns the sync manager with this number.
+    /// Returns the sync manager with this number, or `None` if the description doesn't list it.
     #[must_use]
     pub fn sync_manager(&self, number: u8) -> Option<&'static SyncManager> {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// Returns the number of the sync manager for a PDO. This is the default sync manager of the PDO, if it has one.
-    /// Otherwise, this is the first sync manager for the PDO's direction that the PDO doesn't exclude. If the
-    /// description lists no sync managers, this is the default sync manager of another PDO with the same direction.
+    /// Returns the number of the sync manager for a PDO, or `None` if the device has no sync manager for the PDO. This
+    /// is the default sync manager of the PDO, if it has one. Otherwise, this is the first sync manager for the PDO's
+    /// direction that the PDO doesn't exclude. If the description lists no sync managers, this is the default sync
+    /// manager of another PDO with the same direction.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {

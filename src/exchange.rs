@@ -45,8 +45,8 @@ pub trait Exchange {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::Client`] if the transport fails or no reply arrives. Returns [`Error::Length`] if `request` is
-    /// too long for the protocol or the reply is longer than `reply`.
+    /// Returns [`Error::Client`] if the transport fails, or [`Error::Timeout`] if no reply arrives in time. Returns
+    /// [`Error::Length`] if `request` is too long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
     /// Notifies the transport that the last reply doesn't belong to its request. The correct reply may still arrive,

@@ -102,8 +102,8 @@ impl ImageField {
         }
     }
 
-    /// Reads the field from `image` and writes the value to the start of `buffer`. The least significant byte comes
-    /// first. Returns the length of the value in bytes.
+    /// Reads the field from `image` and writes the value to the start of `buffer`. In `buffer`, the least significant
+    /// byte of a number comes first. Returns the length of the value in bytes.
     ///
     /// # Errors
     ///
@@ -125,8 +125,8 @@ impl ImageField {
         Ok(self.byte_len())
     }
 
-    /// Writes the value in `data` to the field. The least significant byte of `data` comes first. All other bits of the
-    /// image keep their values. A text that is shorter than its field is padded with zeros.
+    /// Writes the value in `data` to the field. In `data`, the least significant byte of a number comes first. All
+    /// other bits of the image keep their values. A text that is shorter than its field is padded with zeros.
     ///
     /// # Errors
     ///

@@ -33,7 +33,7 @@ pub enum Step<C> {
     Command(C),
     /// Wait until the device changes its state automatically.
     Wait,
-    /// No sequence of transitions leads to the target state.
+    /// No allowed path leads to the target state; see [`toward`](Self::toward).
     Unreachable,
 }
 
@@ -44,9 +44,8 @@ const MAX_TRANSITIONS: usize = 128;
 impl<C: Copy> Step<C> {
     /// Returns the first step of the shortest path from `state` to `target`.
     ///
-    /// The path passes through no energized state, and enters no fault state from a state without a fault. Only
-    /// `target` itself may be such a state. If several paths have the same length, a path that starts with a command is
-    /// preferred.
+    /// The path enters no energized state, and no fault state from a state without a fault, unless this state is
+    /// `target`. If several paths have the same length, a path that starts with a command is preferred.
     #[must_use]
     pub fn toward<S: MachineState<Command = C>>(state: S, target: S) -> Self
     where
@@ -99,7 +98,7 @@ impl<C: Copy> Step<C> {
 mod tests {
     use super::*;
 
-    /// State 0 changes to state 1 automatically. The commands `u` and `d` change between the states 1, 2 and 3. The
+    /// State 0 changes to state 1 automatically. The commands `u`, `U`, `d` and `D` change between the states 1 to 3. The
     /// command `r` changes state 4 to state 0. No transition leads to state 4.
     const TRANSITIONS: &[Transition<char>] = &[
         Transition::new(0, 1, None),

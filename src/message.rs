@@ -95,7 +95,8 @@ pub trait Message {
     ///
     /// # Errors
     ///
-    /// Returns an error if a field is outside its limits, or if the data don't fit into the buffer.
+    /// Returns an error if a field is outside its limits, if a parameter doesn't exist, or if the data don't fit into
+    /// the buffer.
     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
@@ -112,8 +113,8 @@ pub trait Reply<'r>: Sized {
     ///
     /// # Errors
     ///
-    /// Returns an error if a field is outside its limits, if the data don't fit into the buffer, or if the request is
-    /// too short for a reply that repeats a part of it.
+    /// Returns an error if a field is outside its limits, if a parameter doesn't exist, if the data don't fit into the
+    /// buffer, or if a part that the reply repeats is missing or different in the request.
     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 

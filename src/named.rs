@@ -71,8 +71,9 @@ where
     }
 }
 
-/// Returns the value with this name, or the first of several values. The comparison ignores case and treats underscores
-/// as spaces. Generated states and commands call this function.
+/// Returns the value with this name. If several values have the name, the function returns the first. The comparison
+/// ignores the case of ASCII letters and treats underscores as spaces. Generated states and commands call this
+/// function.
 ///
 /// # Errors
 ///

@@ -109,7 +109,8 @@ pub trait Quantity: Fixed {
     ///
     /// # Errors
     ///
-    /// Returns [`OutOfRange`] if the raw value doesn't fit the type or has a special meaning.
+    /// Returns [`OutOfRange`] if the raw value doesn't fit the type or has a special meaning, or if `other` cannot
+    /// determine a scale, for example a divisor of 0.
     fn raw(physical: f64, other: Self::Other) -> Result<Self::Native, OutOfRange>;
 }
 
@@ -301,8 +302,8 @@ fn scaled_by_power(number: f64, base: u32, exponent: f64) -> f64 {
     }
 }
 
-/// Returns `base`^`exponent` without `powi`, which needs the standard library. The exponent is limited because 2^1100
-/// exceeds the range of `f64`.
+/// Returns `base`^`exponent` without `powi`, which needs the standard library. The exponent is limited to 1100, so that
+/// the loop is short: 2^1100 already exceeds the range of `f64`.
 fn power(base: u32, exponent: f64) -> f64 {
     (0..exponent.min(1100.0) as u32).fold(1.0, |power, _| power * f64::from(base))
 }

@@ -7,7 +7,7 @@ use crate::value_error::LengthError;
 /// The four address tables of Modbus.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RegisterTable {
-    /// Holding registers (4x), accessed by the functions 3, 6, 16 and 22.
+    /// Holding registers (4x), accessed by the functions 3, 6, 16, 22 and 23.
     #[default]
     Holding,
     /// Input registers (3x), accessed by function 4.

@@ -7,7 +7,8 @@ use crate::clock::elapsed;
 /// Maximum pause between two polls of a device.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The remaining time until a deadline. Without a clock, the elapsed time is the sum of the pauses.
+/// The remaining time until a deadline. The elapsed time is measured with the client's clock, but is at least the sum
+/// of the pauses.
 pub(crate) struct Remaining {
     start: Option<Duration>,
     waited: Duration,

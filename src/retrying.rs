@@ -131,7 +131,7 @@ macro_rules! retrying {
             }
         }
 
-        /// A request that writes and reads is repeated as often as a write.
+        /// A request that changes bits, or that writes and reads, is repeated as often as a write.
         impl<C: $RegisterClient<Bus = Modbus>> $RegisterClient for Retrying<C> {
             fn limits(&self) -> &Limits {
                 self.client.limits()

@@ -1,4 +1,4 @@
-//! Routes: transfers of an item's value on one bus, directly to an address or indirectly.
+//! Routes: how the value of an item is transferred on one bus, through its address or indirectly.
 
 use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
 use crate::bus_address::BusAddress;
@@ -14,7 +14,7 @@ pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 /// Methods that return the address of a route, for tools such as the simulator. A route through a window has no
 /// address.
 pub trait Route {
-    /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT.
+    /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT; `None` for all other routes.
     fn object(&self) -> Option<Object> {
         None
     }

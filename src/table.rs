@@ -6,12 +6,13 @@ use crate::data_type::DataType;
 use crate::flags::Flags;
 use crate::register::Register;
 
-/// One item: an entry of the object dictionary, a Modbus register, or both.
+/// One item: an entry of the object dictionary, a Modbus register, or both. An item whose object and register have
+/// different widths has two entries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// Address in the object dictionary; `None` if the item exists only as a register.
+    /// Address in the object dictionary; `None` if the entry is only a register.
     pub object: Option<Object>,
-    /// Modbus register; `None` if the item exists only as an object.
+    /// Modbus register; `None` if the entry is only an object.
     pub register: Option<Register>,
     /// Name in the device description.
     pub name: &'static str,

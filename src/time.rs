@@ -36,8 +36,8 @@ const MILLISECONDS: u32 = 0x0FFF_FFFF;
 macro_rules! time {
     ($($time:ident)*) => {$(
         impl $time {
-            /// Creates a value. A PDO contains only the low 28 bits of `milliseconds`. A write of a larger number
-            /// returns [`OutOfRange`].
+            /// Creates a value. A write returns [`OutOfRange`] if `milliseconds` has more than 28 bits. A PDO contains
+            /// only the low 28 bits.
             #[must_use]
             pub const fn new(milliseconds: u32, days: u16) -> Self {
                 Self { milliseconds, days }

@@ -6,7 +6,7 @@ use core::fmt;
 /// The number of bytes differs from the expected number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LengthError {
-    /// Expected length in bytes: the length of the value, or the maximum length of the buffer.
+    /// Expected length in bytes, or the minimum or maximum length.
     pub expected: usize,
     /// Actual length in bytes.
     pub actual: usize,

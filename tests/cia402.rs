@@ -21,7 +21,7 @@ const fn ms(time: u64) -> Duration {
     Duration::from_millis(time)
 }
 
-/// Returns the reason of a failed access.
+/// Returns the reason for a failed access.
 #[track_caller]
 fn reason<T: std::fmt::Debug, E: std::fmt::Debug>(result: Result<T, MotionError<E>>) -> Error<E> {
     match result {
@@ -115,7 +115,7 @@ struct Rig {
     time: u64,
     /// Events with their times, in order.
     events: Vec<(u64, Event)>,
-    /// Bits of the statusword that are always 1 and always 0.
+    /// Bits of the statusword that are always 1, and bits that are always 0.
     set: u16,
     cleared: u16,
     /// Number of upcoming reads of the statusword that will fail.
@@ -427,7 +427,7 @@ fn moves() {
 fn set_points_wait_or_replace() {
     let mut rig = Rig::enabled(1);
     rig.motion().move_to(Target::absolute(300), DEADLINE).unwrap();
-    // The drive stores one set-point. The next one is accepted when the first move ends.
+    // The drive stores one set-point. The drive accepts the next set-point when the first move ends.
     let begin = rig.time;
     rig.motion().move_to(Target::absolute(200), DEADLINE).unwrap();
     assert_eq!(rig.time, begin + 5, "the pause before the edge of the start bit");
@@ -583,7 +583,7 @@ fn a_quick_stop_of_a_drive_with_a_fault() {
 
 #[test]
 fn an_old_bit_10_does_not_end_a_quick_stop() {
-    // The bit still shows that the axis has reached its target velocity. With option 5, the axis needs 70 ms to stop.
+    // Bit 10 still shows that the axis has reached its target velocity. With option 5, the axis needs 70 ms to stop.
     let mut rig = moving();
     rig.drive.device().set(QUICK_STOP_OPTION, 5).unwrap();
     rig.set = 1 << 10;

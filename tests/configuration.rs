@@ -1,4 +1,4 @@
-//! Tests the configuration of a DCF with a simulated device that accepts changes of PDOs only in the order of CiA 301.
+//! Tests the configuration of a DCF with a simulated device that accepts changes to PDOs only in the order of CiA 301.
 
 use lexibus::clients::canopen::Node;
 use lexibus::configuration::{Phase, Progress};
@@ -17,8 +17,8 @@ const NODE: NodeId = match conveyor::NODE_ID {
     None => unreachable!(),
 };
 
-/// Returns a device that refuses a new SYNC counter overflow value while the SYNC period is not 0 (CiA 301 7.5.2.22).
-/// Simulated devices also refuse changes of enabled PDOs (CiA 301 7.5.2.35 to 7.5.2.38).
+/// Returns a device that refuses a new SYNC counter overflow value while the SYNC period is not 0 (CiA 301 7.5.2.22). Simulated
+/// devices also refuse changes to enabled PDOs (CiA 301 7.5.2.35 to 7.5.2.38).
 fn conveyor() -> Device {
     let mut device = Device::new(conveyor::ENTRIES).with_node_id(NODE);
     device

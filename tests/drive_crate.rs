@@ -188,7 +188,7 @@ fn traits_of_other_crates_reach_every_generated_type() {
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
-/// A crate with ten descriptions: a change of one description rewrites only its bindings, and an unchanged build runs nothing.
+/// A crate with ten descriptions: a change to one description rewrites only its bindings, and an unchanged build runs nothing.
 #[test]
 fn a_change_rewrites_only_its_bindings() {
     const COUNT: usize = 10;

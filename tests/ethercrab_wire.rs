@@ -1,4 +1,4 @@
-//! Tests the wire traits of `ethercrab` of a handwritten PDO struct, a struct of `pdo!` and a generated struct.
+//! Tests the wire traits of `ethercrab` on a handwritten PDO struct, a struct of `pdo!` and a generated struct.
 
 use lexibus::LengthError;
 
@@ -35,7 +35,7 @@ lexibus::ethercrab_wire!(Outputs, Outputs::LEN);
 const OUTPUTS: Outputs = Outputs { controlword: 0x000F, target_position: -2 };
 const BYTES: [u8; 6] = [0x0F, 0, 0xFE, 0xFF, 0xFF, 0xFF];
 
-/// The methods `pack` and `unpack` are still those of the struct.
+/// The methods `pack` and `unpack` are still those of the struct, and not those of the traits.
 #[test]
 fn own_methods() {
     assert_eq!(OUTPUTS.pack(), BYTES);

@@ -19,7 +19,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds the programs. Returns the folder of their binaries, or `None` if the programs cannot be linked.
+/// Builds the programs. Returns the folder of their binaries, or `None` if the system is not Linux on x86-64.
 fn build() -> Option<PathBuf> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         println!("skipped: the programs of examples/no_std are for Linux on x86-64");

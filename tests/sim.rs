@@ -237,8 +237,8 @@ fn a_frame_has_64_bits_on_can_only() {
     assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));
 }
 
-/// Returns a value to write to the entry: its maximum or, if there is none, its minimum or 1. An entry without a fixed
-/// length gets a text.
+/// Returns a value to write to the entry: its maximum, its minimum if it has no maximum, or 1 if it has neither. An entry without a
+/// fixed length gets a text.
 fn another(entry: &Entry) -> Vec<u8> {
     let Some(bits) = entry.data_type.bits() else { return b"ab".to_vec() };
     let bytes = match (entry.high, entry.low) {
@@ -249,7 +249,7 @@ fn another(entry: &Entry) -> Vec<u8> {
     bytes[..bits.div_ceil(8) as usize].to_vec()
 }
 
-/// Returns whether writing the object executes a command, or is only possible at certain times.
+/// Returns whether writing the object executes a command, or is possible only at certain times.
 fn is_special(object: Object) -> bool {
     matches!(object.index, 0x1003 | 0x1010 | 0x1011 | 0x1400..=0x1BFF)
 }

@@ -440,7 +440,7 @@ fn cyclic_velocity_and_torque() {
     device.step(ms(10));
     let (velocity, torque) = (number(&device, 0x606C), number(&device, 0x6077));
     assert!((45..=50).contains(&velocity) && (495..=505).contains(&torque), "{velocity} {torque}");
-    // At half of the rated torque, friction limits the velocity to half of ten times the profile velocity.
+    // At half of the rated torque, friction limits the velocity to five times the profile velocity.
     device.step(Duration::from_secs(60));
     assert_eq!((number(&device, 0x606C), number(&device, 0x6077)), (5000, 500));
 }
@@ -606,7 +606,7 @@ fn the_mode_follows_in_the_next_step() {
     assert_eq!(number(&device, 0x6061), 1);
     device.step(ms(1));
     assert_eq!(number(&device, 0x6061), 3);
-    // The drive supports neither the reserved mode 5, nor modes that 0x6502 excludes, nor modes of the manufacturer.
+    // The drive supports neither the reserved mode 5, nor modes that 0x6502 excludes, nor manufacturer-specific modes.
     write(&mut device, 0x6502, 0b1_0101);
     for mode in [5, 8, -5] {
         write(&mut device, 0x6060, mode);

@@ -275,7 +275,8 @@ fn bits_that_depend_on_the_mode() {
     assert_eq!(press.mode().read(), Ok(Mode::Unknown(12)));
 }
 
-/// The table declares the fault state. The transition to it starts in "running", so without the declaration it would be no fault state.
+/// The table declares the fault state. The transition to this state starts in "running", so without the declaration the state would
+/// not be a fault state.
 #[test]
 fn a_fault_state_of_the_table_stops_the_walker() {
     let mut walker = Walker::new(State::Running);

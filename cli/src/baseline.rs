@@ -94,7 +94,7 @@ impl Baseline {
     }
 
     /// Returns the diagnostics of a compilation that the baseline does not contain. If a diagnostic occurs more often
-    /// in this run than in the baseline, returns the last occurrences.
+    /// in this run than in the baseline, returns only the additional occurrences, which are the last ones.
     pub(super) fn without_known<'c>(&mut self, compilation: &'c Compilation) -> Vec<Cow<'c, Diagnostic>> {
         let names: Vec<String> = compilation.sources.iter().map(|source| self.name(source)).collect();
         let mut found: BTreeMap<Key, usize> = BTreeMap::new();

@@ -115,8 +115,8 @@ impl Names {
 /// Files that exist only in the main folder of a site.
 const FILES_OF_SITES: [&str; 2] = ["site.js", "SUMMARY.md"];
 
-/// Returns the pages in `folder` that an earlier run wrote and this run did not write. Hidden folders, and folders with
-/// another site, are left out.
+/// Returns the pages in `folder` and its subfolders that an earlier run wrote and this run did not write, sorted by
+/// path. Links, hidden folders, and folders with another site are left out.
 fn stale(folder: &Path, written: &HashSet<PathBuf>) -> Vec<PathBuf> {
     let mut stale = Vec::new();
     let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
@@ -143,7 +143,7 @@ fn was_written(path: &Path) -> bool {
     std::fs::read(path).is_ok_and(|bytes| page.replaces(&String::from_utf8_lossy(&bytes)))
 }
 
-/// Removes a page, and then its folders if they are empty.
+/// Removes a page, and then each folder between the page and `root` that has become empty.
 fn remove(root: &Path, path: &Path) -> Result<(), String> {
     std::fs::remove_file(path).map_err(|error| format!("cannot remove {}: {error}", path.display()))?;
     for folder in path.ancestors().skip(1).take_while(|folder| *folder != root) {

@@ -127,7 +127,8 @@ fn write(
 
 /// Returns the exported files of an input: one EDS per device, or one file for all devices.
 ///
-/// Returns `None` if nothing can be exported. An input that contains nothing to export is an error only if it is the only input.
+/// Returns `None` if the input contains nothing to export, which is an error only if it is the only input. Also reports
+/// an error and returns `None` if facts that the format requires are missing.
 fn files<'c>(
     format: &Format,
     input: &Path,

@@ -53,7 +53,7 @@ pub(super) fn run(fix: &Fix) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Removes files that are named several times, for example through a link.
+/// Returns the list without repetitions of a file, such as a link to another file of the list.
 fn distinct(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     let mut seen = HashSet::new();
     files.retain(|path| seen.insert(fs::canonicalize(path).unwrap_or_else(|_| path.clone())));
@@ -127,7 +127,7 @@ fn replacements(compilation: &Compilation) -> Vec<(Range<usize>, &str)> {
     all
 }
 
-/// Prints the changes of a file to standard output.
+/// Prints the changes to a file on standard output.
 fn show(old: &Source, fixed: &Fixed) -> io::Result<()> {
     let new = &fixed.compilation.sources[0];
     let mut out = io::stdout().lock();

@@ -41,7 +41,7 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
 }
 
 /// Returns the name of the output file: the input's file name in snake case or, if it gives no valid name, the name of
-/// the first device.
+/// the first device. Without a device, the name is `device`.
 fn file_name(input: &Path, compilation: &Compilation) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let name = rust::file_name(&stem).or_else(|| {

@@ -114,7 +114,8 @@ pub(super) fn compile_file(path: &Path, options: &Options) -> Compilation {
     }
 }
 
-/// Returns a progress bar. The bar is hidden if the output is a pipe or there is only one file.
+/// Returns a progress bar. The bar is hidden if standard output or standard error is not a terminal, or if there are
+/// fewer than two files.
 fn progress(files: usize) -> ProgressBar {
     if files < 2 || !std::io::stderr().is_terminal() || !std::io::stdout().is_terminal() {
         return ProgressBar::hidden();
@@ -126,7 +127,8 @@ fn progress(files: usize) -> ProgressBar {
     bar
 }
 
-/// Returns the input files. Each folder is replaced with the device descriptions that it contains, sorted by name.
+/// Returns the input files. Each folder is replaced with the device descriptions in it and in its subfolders, sorted by
+/// path.
 fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
@@ -195,7 +197,8 @@ fn is_xml_description(path: &Path) -> bool {
     head(path).is_none_or(|head| frontend::format(&head, FileId(0)).is_ok())
 }
 
-/// Returns whether a TOML file is a register table with a device, and not an overlay or a profile.
+/// Returns whether a TOML file is a register table with a device, and not an overlay or a profile. Also returns `true`
+/// for an unreadable file, so that its error is reported.
 fn is_table_of_device(path: &Path) -> bool {
     head(path).is_none_or(|head| {
         let mut lines = head.text().lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));

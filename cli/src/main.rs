@@ -7,8 +7,8 @@
 //! $ lexibus explain EDS020
 //! ```
 //!
-//! Exit codes: 0 on success; 1 for errors in the input, stale output or breaking changes; 2 for invalid arguments; 130 after
-//! Ctrl-C.
+//! Exit codes: 0 on success; 1 for errors in the input, output that cannot be written, stale output or breaking
+//! changes; 2 for invalid arguments; 130 after Ctrl-C.
 //!
 //! `args` declares the arguments of all subcommands. Most subcommands have a module with the same name; the others are
 //! implemented in this file. `inputs` reads files in parallel, `output` writes or compares files, and `report` prints
@@ -48,7 +48,7 @@ use lexibus_export::json;
 use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
 use report::Reporter;
 
-/// Exit code for errors in the input, stale output or breaking changes.
+/// Exit code for errors in the input, output that cannot be written, stale output or breaking changes.
 const FAILED: u8 = 1;
 /// Exit code for invalid arguments.
 const USAGE: u8 = 2;

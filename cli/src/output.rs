@@ -50,8 +50,8 @@ impl<'g> Target<'g> {
         self.is_folder
     }
 
-    /// Writes an output, or compares it with the existing file. In a folder, the file name is `name` with the extension `ending`. A number makes
-    /// repeated names unique.
+    /// Writes an output, or compares it with the existing file. In a folder, the file name is `name` with the extension
+    /// `ending`. A number makes repeated names unique.
     pub(super) fn put(
         &mut self,
         name: impl FnOnce() -> String,
@@ -90,7 +90,7 @@ impl<'g> Target<'g> {
         }
     }
 
-    /// Returns an unused path in a folder.
+    /// Returns a path in a folder that no earlier output of this run has.
     fn file_in(&mut self, folder: &Path, name: &str, ending: &str) -> PathBuf {
         let mut path = folder.join(format!("{name}.{ending}"));
         let mut number = 2;

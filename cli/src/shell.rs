@@ -1,6 +1,6 @@
-//! Arguments of commands that the program prints, for a shell.
+//! Quotes the arguments of the commands that the program prints, so that a user can run these commands in a shell.
 
-/// Returns `text` as one argument of a command. Puts everything that isn't a plain word in single quotes.
+/// Returns `text` as one argument of a command, in single quotes unless `text` is a plain word.
 pub(crate) fn argument(text: &str) -> String {
     let is_word = |letter: char| letter.is_alphanumeric() || "-_.,:/@+=".contains(letter);
     if !text.is_empty() && text.chars().all(is_word) {

@@ -1,4 +1,4 @@
-//! Unified diffs of texts for people: control characters, except tabs, are shown as spaces.
+//! Unified diffs for display: spaces replace all control characters except tabs.
 
 use std::time::Duration;
 
@@ -38,7 +38,8 @@ pub(super) fn lines(old: (&str, &str), new: (&str, &str)) -> Vec<String> {
     lines
 }
 
-/// Returns the first lines of the unified diff of two texts.
+/// Returns the first lines of the unified diff of two texts, shortened to [`SHORT_LINE`] characters, and the number of
+/// lines that are left out.
 pub(super) fn short(old: (&str, &str), new: (&str, &str)) -> Vec<String> {
     let mut lines = lines(old, new);
     let left = lines.len().saturating_sub(SHORT);

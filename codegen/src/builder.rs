@@ -52,18 +52,18 @@ impl Builder {
         self
     }
 
-    /// Suppresses the diagnostics with a code, named by identifier (`EDS020`) or name (`octal-number`). The name
-    /// `warnings` means all codes that are warnings by default.
+    /// Suppresses the diagnostics with a code, which is given by its identifier (`EDS020`) or name (`octal-number`).
+    /// The name `warnings` means all codes that are warnings by default. Errors cannot be suppressed.
     pub fn allow(self, code: impl Into<String>) -> Self {
         self.level(code, Level::Allow)
     }
 
-    /// Reports a diagnostic code as a warning. The code is named as in [`allow`](Self::allow).
+    /// Reports the diagnostics with a code as warnings. The code is given as in [`allow`](Self::allow).
     pub fn warn(self, code: impl Into<String>) -> Self {
         self.level(code, Level::Warn)
     }
 
-    /// Reports a diagnostic code as an error. The code is named as in [`allow`](Self::allow).
+    /// Reports the diagnostics with a code as errors. The code is given as in [`allow`](Self::allow).
     pub fn deny(self, code: impl Into<String>) -> Self {
         self.level(code, Level::Deny)
     }
@@ -181,7 +181,8 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails if the input cannot be read or has errors, a level is set for an unknown code, or the output cannot be written.
+    /// Fails if the input or an overlay cannot be read, the input has errors or nothing to generate, a level is set for an
+    /// unknown code, a filter is invalid, `OUT_DIR` is missing, or the output cannot be written.
     pub fn compile(&self, input: impl AsRef<Path>) -> Result<(), BuildError> {
         self.compile_to(input, None)
     }
@@ -212,7 +213,8 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails if the input cannot be read or has errors, or a level is set for an unknown code.
+    /// Fails if the input or an overlay cannot be read, the input has errors or nothing to generate, a level is set for
+    /// an unknown code, or a filter is invalid.
     pub fn generate(&self, input: impl AsRef<Path>) -> Result<String, BuildError> {
         let input = input.as_ref();
         self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
@@ -278,9 +280,9 @@ fn errors(compilation: &Compilation) -> String {
 /// `Debug` prints the same text as `Display`, because Rust shows the `Debug` text if the `main` function of a build
 /// script returns the error.
 pub enum BuildError {
-    /// The input cannot be read.
+    /// The input or an overlay cannot be read.
     Read {
-        /// Path of the input.
+        /// Path of the input or overlay.
         path: PathBuf,
         /// Error of the operating system.
         error: std::io::Error,
@@ -292,7 +294,7 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input file has errors. The text contains the rendered diagnostics.
+    /// The input has errors, and the text contains the rendered diagnostics; or there is nothing to generate.
     Input(String),
     /// A level is set for an unknown code.
     UnknownCode(UnknownCode),

@@ -78,7 +78,7 @@ impl Compilation {
         text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
     }
 
-    /// Returns the generated Rust module, or `None` if there are errors.
+    /// Returns the generated Rust module, or `None` if there are errors or nothing to generate.
     pub fn rust(&self, options: &RustOptions) -> Option<String> {
         if !self.is_usable() {
             return None;

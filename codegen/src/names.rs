@@ -4,9 +4,9 @@
 //! share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not contain the
 //! object.
 //!
-//! Identifiers are the names of the description, converted to the case that Rust uses. If several elements have the same name,
-//! each gets its address as a suffix. The order of elements therefore does not affect identifiers, and a new element does not
-//! change the identifiers of others unless it shares their name.
+//! Identifiers are the names of the description, converted to the case that Rust uses. If several elements have the same name, each
+//! gets a suffix: its address, or its position if it has no address. With addresses, the order of elements does not affect
+//! identifiers, and a new element does not change the identifiers of others unless it shares their name.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -49,7 +49,7 @@ pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec
 }
 
 /// Returns the identifiers for `name_requests`, in the same order. None of the identifiers is in `reserved`. Names with more than
-/// [`MAX_IDENTIFIER`] characters are cut at the end of a word.
+/// [`MAX_IDENTIFIER`] characters are cut, if possible at the end of a word.
 pub fn unique(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case) -> Vec<String> {
     unique_up_to(name_requests, reserved, case, MAX_IDENTIFIER)
 }
@@ -65,15 +65,16 @@ pub fn identifier(name_request: &NameRequest<'_>, case: Case) -> String {
     plain(name_request, case, MAX_IDENTIFIER)
 }
 
-/// Returns the identifier of an element outside of its owner: the owner's name followed by the element's name. A long identifier
-/// is cut at the end of a word.
+/// Returns the identifier of an element outside of its owner: the owner's name followed by the element's name. A long identifier is
+/// cut, if possible at the end of a word.
 pub fn joined(owner: &str, name: &str) -> String {
     let mut joined = prefixed(&format!("{owner}_"), name);
     cut(&mut joined, MAX_IDENTIFIER);
     joined
 }
 
-/// Makes equal identifiers unique by appending their suffixes. None of the resulting identifiers is in `reserved`.
+/// Makes equal and reserved identifiers unique by appending their suffixes and, if necessary, a number. None of the resulting
+/// identifiers is in `reserved`.
 pub fn distinct<'s>(
     plain: &[String],
     suffixes: impl Iterator<Item = &'s str>,
@@ -197,8 +198,8 @@ fn write(words: &[String], case: Case) -> String {
     name
 }
 
-/// Returns the words of a name in lower-case ASCII. A word ends at each character that is neither letter nor digit, and where the
-/// case changes.
+/// Returns the words of a name in lower-case ASCII. A word ends at each character that is neither letter nor digit, and before each
+/// capital that starts a new word.
 fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();
@@ -319,7 +320,8 @@ pub fn prefixed(prefix: &str, name: &str) -> String {
     format!("{prefix}{}", name.trim_start_matches("r#").trim_start_matches('_'))
 }
 
-/// Returns `name` as a valid identifier. A keyword of any Rust edition becomes a raw identifier.
+/// Returns `name` as a valid identifier. A keyword of any Rust edition becomes a raw identifier, except `self`, `Self`, `super` and
+/// `crate`. These keywords and `_` get an underscore as a suffix.
 pub fn escaped(name: &str) -> String {
     const KEYWORDS: [&str; 48] = [
         "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",

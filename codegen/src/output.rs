@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-/// Each write of a file holds a read lock. A program that ends on a signal takes the write lock first.
+/// Each write to a regular file holds a read lock. A program that ends on a signal takes the write lock first.
 static WRITING: RwLock<()> = RwLock::new(());
 
 /// Announces a write to a file. [`settled`] waits until the guard is dropped.
@@ -28,8 +28,8 @@ pub fn is_no_regular_file(path: &Path) -> bool {
 /// Writes `content` to `path`, unless the file already has this content. Skipping the write avoids rebuilds of everything that
 /// depends on the file.
 ///
-/// Replaces a regular file atomically: if writing fails, the old file remains. If `path` is a symbolic link, replaces the target
-/// of the link. If `path` is a pipe or device, writes to it directly.
+/// Replaces a regular file atomically: if writing fails, the old file remains. If `path` is a symbolic link, replaces or creates
+/// the target of the link. If `path` is a pipe or device, writes to it directly.
 ///
 /// # Errors
 ///
@@ -70,7 +70,7 @@ fn has_content(path: &Path, mut content: &[u8]) -> Result<bool> {
     }
 }
 
-/// Writes a temporary file next to `path`, and renames it.
+/// Writes a temporary file next to `path`, and renames it to `path`.
 fn replace(path: &Path, content: &[u8]) -> Result<()> {
     let (file, temporary) = temporary(path)?;
     let written = fill(file, path, content).and_then(|()| fs::rename(&temporary, path));

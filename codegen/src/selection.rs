@@ -1,7 +1,7 @@
 //! Selection of devices, modules and objects.
 //!
-//! A vendor file can describe hundreds of devices. The compiler reads all devices and modules, but it checks and generates code
-//! for selected devices and modules only.
+//! A vendor file can describe hundreds of devices. The compiler reads all devices and modules, but checks only the selected devices
+//! and modules, and generates code only for them.
 
 pub mod arguments;
 
@@ -28,8 +28,8 @@ pub struct Selection {
 
 /// A filter that selects elements by name or number.
 ///
-/// `0x2521` and `9505` are numbers (a product code, an ident number). Any text that is not a number is a name, an order code or
-/// an identifier. Case is ignored, and `*` matches any characters.
+/// The numbers `0x2521` and `9505` match a product code or an ident number. Any text, including a number, can match a name, an
+/// order code or an identifier. Case is ignored, and `*` matches any characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Filter {
     /// Text of the filter as the user typed it.
@@ -206,7 +206,7 @@ fn keep_reached<T>(list: &mut Vec<T>, reached: HashSet<u32>) -> Vec<u32> {
 }
 
 impl Selection {
-    /// Removes devices and modules that are not selected.
+    /// Removes devices, modules and submodules that are not selected.
     pub(crate) fn devices_and_modules(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         if !self.devices.is_empty() {
             self.keep_devices(catalog, diagnostics);
@@ -299,7 +299,7 @@ impl Selection {
     }
 }
 
-/// Returns the indices of all objects, registers with an object address, and PDO mappings.
+/// Returns the indices of all objects, registers with an object address, and mapping objects of PDOs.
 fn indices(catalog: &Catalog) -> BTreeSet<u16> {
     let Catalog { devices, modules, .. } = catalog;
     let parts = devices.iter().map(|device| (&device.groups, &device.process_data));

@@ -78,7 +78,7 @@ pub(crate) fn more(count: usize, text: impl FnOnce(usize) -> String) -> String {
     }
 }
 
-/// Returns a standard with its clause: `CiA 402, 17.3.7`.
+/// Returns a standard with its clause, if any: `CiA 402, 17.3.7`.
 #[cfg(feature = "table")]
 pub(crate) fn standard_and_clause(standard: &str, clause: &str) -> String {
     match clause {

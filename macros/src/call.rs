@@ -119,7 +119,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut V
     Ok(())
 }
 
-/// Returns the error for an unknown option.
+/// Returns the error message for an unknown option.
 fn unknown(option: &str) -> String {
     match similar(option, OPTIONS.into_iter()) {
         Some(known) => format!("unknown option `{option}`; did you mean `{known}`?"),

@@ -1,4 +1,4 @@
-//! Reads and writes of values with a fixed size.
+//! Methods that read and write values with a fixed size.
 
 use super::{filled, Accessor};
 use crate::access::{Readable, Writable};

@@ -1,4 +1,4 @@
-//! Reads and writes of byte strings.
+//! Methods that read and write byte strings.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};

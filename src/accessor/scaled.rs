@@ -1,4 +1,4 @@
-//! Reads and writes of physical values.
+//! Methods that read and write physical values.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};

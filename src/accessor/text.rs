@@ -1,4 +1,4 @@
-//! Reads and writes of texts.
+//! Methods that read and write texts.
 
 use super::Accessor;
 use crate::access::{Readable, Writable};
@@ -19,8 +19,8 @@ macro_rules! texts {
             ///
             /// # Errors
             ///
-            /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text is neither
-            /// ASCII nor UTF-8.
+            /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text isn't
+            /// valid UTF-8.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, AccessError<C::Error>>
             where
                 C: $Client,

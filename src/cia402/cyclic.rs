@@ -12,11 +12,11 @@ use crate::machine::StateWord;
 /// process data, and the outputs to the process data.
 ///
 /// - The drive follows the command values if bit 12 of the statusword is 1 in "Operation enabled" and in this mode.
-///   Otherwise, the set-point is the actual position, or 0 for a velocity and a torque. The set-point is the same in
-///   the first cycle in which the drive follows, so that the axis doesn't jump: start the trajectory at this set-point.
+///   Otherwise, the set-point is the actual position, or 0 for a velocity and a torque. The first cycle in which the
+///   drive follows still has this set-point, so that the axis doesn't jump: start the trajectory at this set-point.
 /// - If the drive has followed and then leaves "Operation enabled" or the mode, the cycle returns an error.
-/// - A following error also returns an error: bit 13 of the statusword in CSP, or an actual following error (0x60F4)
-///   above the limit of the program.
+/// - The cycle also returns an error if the drive reports a following error (bit 13 of the statusword in CSP), or if
+///   the absolute value of the actual following error (0x60F4) is above the limit of the program.
 /// - Bits 4, 5, 6 and 9 of the controlword become 0, as these modes require. The other bits don't change: a
 ///   [`Walker`](crate::Walker) enables the drive.
 ///
@@ -128,8 +128,8 @@ impl Cyclic {
     }
 
     /// Returns the monitor with a limit for the absolute value of the actual following error (0x60F4, raw value). The
-    /// limit applies while the operation is enabled, and only in cycles whose inputs contain the following error. The
-    /// limit applies in addition to the following error window of the drive (0x6065).
+    /// limit applies while the operation is enabled and the mode is active, and only in cycles whose inputs contain the
+    /// following error. The limit applies in addition to the following error window of the drive (0x6065).
     #[must_use]
     pub const fn with_limit(self, limit: u32) -> Self {
         Self { limit: Some(limit), ..self }
@@ -157,7 +157,8 @@ impl Cyclic {
     /// # Errors
     ///
     /// Returns an error once if the drive has followed the command values and then leaves "Operation enabled" or the
-    /// mode. Returns an error in each cycle in which the operation is enabled and the following error is too large.
+    /// mode. Returns an error in each cycle in which the operation is enabled, the mode is active, and the drive
+    /// reports a following error or the following error is above the limit.
     pub fn cycle<S: StateWord, W: StateWord>(
         &mut self,
         inputs: Inputs<S>,

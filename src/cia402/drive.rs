@@ -21,9 +21,9 @@ use crate::remaining::Remaining;
 /// determines the [`Objects`] of the device.
 ///
 /// Methods without a suffix need a [`Client`]. Methods with the suffix `_async` need an [`AsyncClient`] and don't
-/// block. Each method that waits has a deadline, and polls the statusword every 5 ms through
-/// [`Client::wait`](crate::Client::wait). If a future is dropped before it completes, bit 4 of the controlword can
-/// remain set.
+/// block. Each method that waits has a deadline, and polls the drive every 5 ms. It pauses with
+/// [`Client::wait`](crate::Client::wait), and returns [`MotionError::Wait`] if the client fails to wait. If a future is
+/// dropped before it completes, bit 4 of the controlword can remain set.
 ///
 /// The [module](super) describes the conditions that apply to all operations.
 pub struct Drive<'c, C, O> {
@@ -79,6 +79,8 @@ macro_rules! operations {
             ///
             /// Returns [`MotionError::ModeNotConfirmed`] if the drive hasn't activated the mode before the deadline.
             /// Returns [`MotionError::Access`] if an access fails, for example because the drive refuses the mode.
+            /// Returns [`MotionError::OtherSource`] if the mode would change while the operation is enabled and another
+            /// source controls the drive.
             pub $($async)? fn $set_mode(
                 &mut self,
                 mode: impl StateWord,
@@ -217,9 +219,9 @@ macro_rules! operations {
             ///
             /// The method activates mode 6 (homing) and sets bit 4 of the controlword ("homing operation start"). Then
             /// the method waits until bits 12 ("homing attained") and 10 ("target reached") of the statusword are 1,
-            /// and clears bit 4 (CiA 402-2 13). After each error, the method also tries to clear bit 4. The drive then
-            /// aborts homing, and doesn't restart homing when it is enabled again. For 100 ms, the method ignores a
-            /// statusword that may show the result of an earlier homing procedure.
+            /// and clears bit 4 (CiA 402-2 13). If an error occurs after the start, the method also tries to clear bit
+            /// 4. The drive then aborts homing, and doesn't restart homing when it is enabled again. For 100 ms, the
+            /// method ignores a statusword that may show the result of an earlier homing procedure.
             ///
             /// # Errors
             ///
@@ -302,8 +304,9 @@ macro_rules! operations {
             ///
             /// The method waits until the drive can accept a set-point, and writes the target position (0x607A). Then
             /// the method sets bit 4 of the controlword ("new set-point") and writes bits 5 and 6. The method waits
-            /// until bit 12 of the statusword ("set-point acknowledge") is 1, and clears bit 4. After each error, the
-            /// method also tries to clear bit 4. Write the profile velocity and the ramps before you call this method.
+            /// until bit 12 of the statusword ("set-point acknowledge") is 1, and clears bit 4. If an error occurs
+            /// after bit 4 was set, the method also tries to clear the bit. Write the profile velocity and the ramps
+            /// before you call this method.
             ///
             /// # Errors
             ///
@@ -370,7 +373,8 @@ macro_rules! operations {
             }
 
             /// Waits until the drive acknowledges a set-point. If bit 12 was already 1 before the start, the method
-            /// waits for 100 ms, within which the drive must have detected the rising edge of bit 4.
+            /// waits for at least 100 ms, because the drive must have detected the rising edge of bit 4 within this
+            /// time.
             $($async)? fn $acknowledged(
                 &mut self,
                 is_confirmed: bool,

@@ -1,4 +1,4 @@
-//! Errors of operations of a drive.
+//! Errors of drive operations.
 
 use core::fmt;
 

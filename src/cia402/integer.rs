@@ -33,7 +33,8 @@ pub trait ReadInteger<B: Bus>: Copy {
     async fn read_async<C: AsyncClient<Bus = B>>(self, client: &mut C) -> Result<i64, AccessError<C::Error>>;
 }
 
-/// An item that a client of bus `B` can write as an integer, under the same conditions as [`ReadInteger`].
+/// An item that a client of bus `B` can write as an integer. [`Item`]s with write access implement this trait for the
+/// same types of values as [`ReadInteger`].
 pub trait WriteInteger<B: Bus>: Copy {
     /// Writes the raw value.
     ///

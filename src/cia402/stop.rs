@@ -21,7 +21,7 @@ macro_rules! stops {
         impl<C: $Client, O: Objects<C::Bus>> Drive<'_, C, O> {
             /// Stops the axis with the "quick stop" command (transition 11), and waits until the axis has stopped. The
             /// quick stop option code (0x605A) selects the ramp and the final state, which the method returns:
-            /// [`State::SwitchOnDisabled`] (1 to 4) or [`State::QuickStopActive`] (5 to 8). To continue, use the
+            /// [`State::SwitchOnDisabled`] (0 to 4) or [`State::QuickStopActive`] (5 to 8). To continue, use the
             /// generated method `walk`.
             ///
             /// The method writes the command at once and in every state, because the drive can change its state at any

@@ -174,7 +174,7 @@ impl<'m, T: Timer> Sdo<'m, T> {
     ///
     /// # Errors
     ///
-    /// Returns the first command that fails, as a write with its error. The remaining commands are not sent.
+    /// Returns the first write that fails, with its error. The remaining commands are not sent.
     pub async fn configure(
         &mut self,
         commands: impl IntoIterator<Item: Into<StartupCommand>>,

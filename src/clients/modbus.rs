@@ -155,21 +155,21 @@ pub enum ModbusError {
     /// Devices don't reply to a broadcast, so a broadcast cannot read. The read was not sent. If
     /// [`RegisterClient::exchange`] doesn't use function 23, its write was sent before.
     Broadcast,
-    /// The device doesn't support the function for this access. Nothing was sent.
+    /// The device doesn't support the function for this access. The request was not sent.
     Function {
         /// Table of the register.
         table: RegisterTable,
         /// Function code.
         function: u8,
     },
-    /// The value is longer than the maximum of one request. Nothing was sent.
+    /// The value is longer than the maximum of one request. The request was not sent.
     TooLong {
         /// Number of registers or bits of the value.
         count: u16,
         /// Maximum number of registers or bits in one request.
         max: u16,
     },
-    /// The value ends after the last address of the table, or has no registers. Nothing was sent.
+    /// The value ends after the last address of the table, or has no registers. The request was not sent.
     NoSuchAddress {
         /// First wire address of the value.
         address: u16,

@@ -53,9 +53,9 @@
 //!
 //! A frame does not identify the request to which it replies. Bytes that arrived before a request cannot belong to its
 //! reply: they are late or repeated replies, noise, or messages that the device sends without a request. Each exchange
-//! first discards all bytes that the stream has already received. It does not wait for further bytes. This step needs
-//! to know whether a read returns at once: `embedded_io::ReadReady`, or the function that you pass to
-//! [`SerialLine::with_ready`]. A line without this information cannot discard bytes before a request unless the last
+//! first discards all bytes that the stream has already received. It does not wait for further bytes. For this step,
+//! the line must know whether a read returns at once: from `embedded_io::ReadReady`, or from the function that you pass
+//! to [`SerialLine::with_ready`]. A line without this information cannot discard bytes before a request unless the last
 //! exchange failed.
 //!
 //! After a timeout, an invalid reply or a dropped exchange, the late reply can still be on its way. The next exchange
@@ -83,7 +83,7 @@ pub const TIMEOUT: Duration = Duration::from_secs(1);
 const MOST_NOISE: usize = 4096;
 
 /// Client for a device on a stream `S` with the framing `F`. `N` is the maximum length of a frame to send, in bytes. If
-/// the framing has escapes, `N` is twice the length of data and checksum, plus start and end byte.
+/// the framing has escapes, `N` must be twice the length of data and checksum, plus start and end byte.
 ///
 /// The client is an [`Exchange`] if the stream implements the traits of `embedded_io`, and an [`AsyncExchange`] if the
 /// stream implements those of `embedded_io_async`. The client reads single bytes, and no bytes after the end of a

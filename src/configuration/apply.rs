@@ -54,8 +54,8 @@ impl Configuration {
     ///
     /// # Errors
     ///
-    /// Returns the first write that failed, with the error of the client. The remaining values are not written, and PDOs
-    /// that were disabled stay disabled.
+    /// Returns the first write that failed, with the error of the client. The remaining values are not written.
+    /// Disabled PDOs that the configuration has not enabled again stay disabled.
     pub fn apply<C: Client>(
         self,
         client: &mut C,

@@ -10,7 +10,7 @@ use crate::node_id::NodeId;
 use crate::pdo::{Hexadecimal, SdoWrite};
 use crate::value_error::LengthError;
 
-/// An object whose value differs from the configuration.
+/// An object whose value differs from the configuration or could not be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference<'d, E> {
     /// The object and its configured value.
@@ -32,15 +32,15 @@ impl<E: fmt::Display> fmt::Display for Difference<'_, E> {
 
 impl Configuration {
     /// Reads the configured objects of the device with this node-ID, and calls `report` for each object whose value
-    /// differs. Returns the number of differences. Write-only objects are skipped.
+    /// differs or cannot be read. Returns the number of these objects. Write-only objects are skipped.
     ///
     /// `buffer` must have at least the length of the [longest value](Self::longest_value). If the value of the device
     /// is longer than the configured value, the difference contains [`Error::Length`].
     ///
     /// # Errors
     ///
-    /// Returns the error of the client if the bus fails or the device doesn't reply in time. If the device refuses an
-    /// access, the error is part of the difference.
+    /// Returns the error of the client if the bus fails or the device doesn't reply in time. Any other error, for
+    /// example if the device refuses an access, is part of the difference.
     pub fn verify<C: Client>(
         self,
         client: &mut C,
@@ -107,7 +107,7 @@ impl Configuration {
     }
 }
 
-/// Returns the first bytes of the buffer, as many as the expected value has.
+/// Returns the first bytes of the buffer, as many as the expected value has, or an error if the buffer is too short.
 fn value_buffer(buffer: &mut [u8], expected: SdoWrite) -> Result<&mut [u8], LengthError> {
     let (length, available) = (expected.data().len(), buffer.len());
     buffer.get_mut(..length).ok_or(LengthError::new(length, available))

@@ -173,8 +173,8 @@ impl<const N: usize> SlotPlan<N> {
         self.modules.get(usize::from(slot)).copied().flatten()
     }
 
-    /// Checks that every slot has its minimum number of modules. Also checks that all data fit into their sync managers
-    /// and list objects.
+    /// Checks that every series of slots has its minimum number of modules. Also checks that all data fit into their
+    /// sync managers and list objects.
     ///
     /// # Errors
     ///
@@ -228,7 +228,8 @@ impl<const N: usize> SlotPlan<N> {
         })
     }
 
-    /// Returns a PDO of the module in a slot. `index` is the PDO's index in slot 0, as in the device description.
+    /// Returns a PDO of the module in a slot, or `None` if the slot is empty or the module has no such PDO. `index` is
+    /// the PDO's index in slot 0, as in the device description.
     #[must_use]
     pub fn pdo(&self, slot: u16, index: u16) -> Option<SlotPdo> {
         let is_it = |placed: &SlotPdo| match placed.content {
@@ -252,7 +253,8 @@ impl<const N: usize> SlotPlan<N> {
     }
 
     /// Returns the commands of a transition in this order: module idents, commands of the device, commands of the
-    /// modules, PDO mappings, and PDO assignment.
+    /// modules, PDO mappings, and PDO assignment. Only the commands of the transition PS contain PDO mappings and PDO
+    /// assignment.
     pub fn commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> + '_ {
         let of_write = move |write| StartupCommand::of_write(transition, write);
         let downloads = self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition));
@@ -293,7 +295,7 @@ impl<const N: usize> SlotPlan<N> {
         self.slots().iter().map(|slot| slot.max).fold(0, u16::saturating_add)
     }
 
-    /// Returns the slot entry that describes the slot with this number.
+    /// Returns the slot entry that describes the slot with this number, or `None` if the device has no such slot.
     fn slot(&self, number: u16) -> Option<&'static Slot> {
         let mut first: u16 = 0;
         self.slots().iter().find(|slot| {
@@ -388,7 +390,7 @@ impl<const N: usize> SlotPlan<N> {
 }
 
 impl SlotPdo {
-    /// Returns the writes of the PDO's mapping, or no writes if the mapping is read-only. The mapping of padding
+    /// Returns the writes of the PDO's mapping, or no writes if the mapping cannot be written. The mapping of padding
     /// depends only on the length of the padding.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
         let (index, bits) = (self.index, self.bits);

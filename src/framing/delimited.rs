@@ -205,7 +205,7 @@ impl Delimited {
         Ok(())
     }
 
-    /// Returns the unescaped byte, or `None` if `byte` is the escape byte.
+    /// Returns the unescaped byte, `None` if `byte` is the escape byte, or an error if the escape sequence is invalid.
     fn unescape(&self, decoder: &mut DelimitedDecoder, byte: u8) -> Result<Option<u8>, FrameError> {
         let Some(escape) = self.escape else { return Ok(Some(byte)) };
         match decoder.state {

@@ -14,7 +14,8 @@ pub trait Host {
     ///
     /// # Errors
     ///
-    /// Returns the answer of the slave: [`Refusal::NOT_SUPPORTED`] if the device doesn't support the bit timing.
+    /// Returns the refusal that the slave sends: [`Refusal::NOT_SUPPORTED`] if the device doesn't support the bit
+    /// timing.
     fn configure_bit_timing(&mut self, table: u8, index: u8) -> Result<(), Refusal>;
 
     /// Activates the bit timing after `delay` milliseconds. After the change, the device must not send for the same
@@ -25,12 +26,12 @@ pub trait Host {
     ///
     /// # Errors
     ///
-    /// Returns the answer of the slave: [`Refusal::NOT_SUPPORTED`] if the device cannot store them, or
+    /// Returns the refusal that the slave sends: [`Refusal::NOT_SUPPORTED`] if the device cannot store the settings, or
     /// [`Refusal::STORAGE`] if access to the memory failed.
     fn store(&mut self, node: Option<NodeId>) -> Result<(), Refusal>;
 }
 
-/// A [`Host`] that supports neither changes of the bit timing nor storing.
+/// A [`Host`] that can neither change the bit timing nor store settings.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoHost;
 
@@ -80,9 +81,9 @@ impl Slave {
 
     /// Returns the node-ID that the device uses. A device without a node-ID takes part only in LSS.
     ///
-    /// A new node-ID takes effect at the next [`restart`](Self::restart). In a device without a node-ID, the new
-    /// node-ID takes effect as soon as the master switches the slave to Waiting. The device then sends its boot-up
-    /// message.
+    /// In a device with a node-ID, a new node-ID takes effect at the next [`restart`](Self::restart). In a device
+    /// without a node-ID, the new node-ID takes effect as soon as the master switches the slave to Waiting. The device
+    /// then sends its boot-up message.
     #[must_use]
     pub const fn node_id(&self) -> Option<NodeId> {
         self.active

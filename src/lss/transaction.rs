@@ -6,8 +6,9 @@ use super::service::{Message, Service};
 /// Master side of one LSS service, as a state machine that performs no I/O.
 ///
 /// Send all messages that [`next`](Self::next) returns. Then wait for an answer, and pass it to
-/// [`handle`](Self::handle). After the first answer, wait for a short time, because a second answer shows that
-/// several slaves execute the service. Call [`time_out`](Self::time_out) when the time has passed.
+/// [`handle`](Self::handle). After the first answer, wait for a short time, because a second answer shows that several
+/// slaves execute the service. Call [`time_out`](Self::time_out) when this time, or the timeout for the first answer,
+/// has passed.
 #[derive(Clone, Debug)]
 pub struct Transaction {
     service: Service,
@@ -24,7 +25,8 @@ impl Transaction {
         Self { service, step: 0, answer: None, result: None }
     }
 
-    /// Returns the next message to send, or `None` if there is no further message.
+    /// Returns the next message to send, or `None` if there is no further message. If slaves don't answer the service,
+    /// the call that returns `None` ends the transaction.
     #[allow(clippy::should_implement_trait)]
     pub fn next(&mut self) -> Option<Message> {
         let message = self.service.message(self.step);

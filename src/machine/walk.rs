@@ -34,17 +34,17 @@ pub enum WalkError<S, E> {
     Fault {
         /// State of the device.
         state: S,
-        /// Error code of the device, if the device has one: the value of 0x603F, or of 0x1003:01 without the additional
-        /// information.
+        /// Error code of the device: the value of 0x603F, or of 0x1003:01 without the additional information. `None` if
+        /// the device has no error code, or if the code could not be read.
         code: Option<u16>,
     },
-    /// No sequence of commands leads from this state to the target state.
+    /// No path that a [`Walker`] may use leads from this state to the target state.
     Unreachable {
         /// State of the device.
         state: S,
     },
-    /// The device was not in the target state at the deadline. The control word still contains the last command, which
-    /// the device can execute later.
+    /// The device was not in the target state at the deadline. The control word may still contain the last command,
+    /// which the device can execute later.
     Deadline {
         /// State of the device, or `None` if its status word matches no state.
         state: Option<S>,
@@ -54,7 +54,7 @@ pub enum WalkError<S, E> {
 }
 
 impl<S, E> WalkError<S, E> {
-    /// Returns whether the device has a fault.
+    /// Returns whether the reason is a [`Fault`](Self::Fault).
     pub const fn is_fault(&self) -> bool {
         matches!(self, Self::Fault { .. })
     }
@@ -138,8 +138,8 @@ macro_rules! walks {
             ///
             /// # Errors
             ///
-            /// Returns a [`WalkError`] if an access fails, a fault occurs, no command leads to the state, or the device
-            /// is not in the state at the deadline.
+            /// Returns a [`WalkError`] if an access fails, the client cannot wait, a fault occurs, no allowed path
+            /// leads to the state, or the device is not in the state at the deadline.
             pub $($async)? fn $walk<S: MachineState, C: $Client>(
                 self,
                 client: &mut C,

@@ -42,8 +42,8 @@ pub trait MachineState: Copy + 'static {
 /// Moves a state machine to a target state through cyclic process data. In each cycle, the walker computes the next
 /// control word from the status word of the device.
 ///
-/// - A command that needs a rising edge, such as a fault reset, works even if its bit is already set. The walker then
-///   clears the bit for one cycle first.
+/// - A command that needs a rising edge, such as a fault reset, works even if its bit is already set. In this case, the
+///   walker clears the bit for one cycle before it sends the command.
 /// - The walker waits for automatic transitions of the device.
 /// - The walker resets a fault that is active at the start. A fault that occurs later stops the walker.
 /// - The walker chooses no transition from a state without a fault to a fault state, unless the state is its target.
@@ -100,7 +100,7 @@ struct Deadline {
 }
 
 impl Deadline {
-    /// Returns whether more time than the limit has passed since the first call.
+    /// Returns whether the limit has passed since the first call.
     fn is_over(&mut self) -> bool {
         let now = (self.clock)();
         now.saturating_sub(*self.start.get_or_insert(now)) >= self.limit
@@ -128,7 +128,7 @@ pub enum Stopped<S> {
         /// Error code of the device, from [`with_code`](Stopped::with_code).
         code: Option<u16>,
     },
-    /// No sequence of commands leads from this state to the target state.
+    /// No path that a [`Walker`] may use leads from this state to the target state.
     Unreachable(S),
     /// The device left the target state without a command. Contains the state of the device.
     Left(S),
@@ -142,8 +142,8 @@ pub enum Stopped<S> {
 }
 
 impl<S> Stopped<S> {
-    /// Adds the error code of the device to a fault. The code is the value of 0x603F, or of 0x1003:01, of which only the
-    /// low 16 bits are the error code. Read it from process data, or with an access to the object.
+    /// Adds the error code of the device to a fault. `code` is the value of 0x603F or of 0x1003:01; its low 16 bits are
+    /// the error code. Read the value from process data, or with an access to the object.
     ///
     /// ```
     /// # use lexibus::{MachineState, Stopped, Walker};
@@ -160,7 +160,7 @@ impl<S> Stopped<S> {
         }
     }
 
-    /// Returns whether the device has a fault.
+    /// Returns whether the reason is a [`Fault`](Self::Fault).
     pub const fn is_fault(&self) -> bool {
         matches!(self, Self::Fault { .. })
     }
@@ -206,7 +206,7 @@ impl<S: MachineState> Walker<S> {
     }
 
     /// Returns the walker with a deadline, measured from the first cycle with `clock`: a function that returns the time
-    /// since any fixed moment.
+    /// since a fixed moment.
     #[must_use]
     pub const fn with_clock(self, clock: fn() -> Duration, deadline: Duration) -> Self {
         Self { deadline: Some(Deadline { clock, limit: deadline, start: None }), ..self }
@@ -221,8 +221,8 @@ impl<S: MachineState> Walker<S> {
     ///
     /// # Errors
     ///
-    /// Returns [`Stopped`] if a new fault occurred, if no command leads to the target state, or if the device left the
-    /// target state.
+    /// Returns [`Stopped`] if a new fault occurred, if no allowed path leads to the target state, if the device left
+    /// the target state, or if the deadline has passed.
     pub fn cycle<W: StateWord>(&mut self, status: impl StateWord, control: W) -> Result<Walked<W>, Stopped<S>> {
         let status = status.bits();
         let walked = self.bits(status, control.bits())?;
@@ -293,7 +293,7 @@ fn used<S: MachineState>() -> u32 {
 }
 
 /// Returns the control word for a device that is in the target state. Replaces a command that leads to another state
-/// with a command that leads to the target state.
+/// with a command that leads to the target state, if there is one.
 fn hold<S: MachineState>(state: S, control: u32) -> u32 {
     let number = state.number();
     let leads_away = |control: u32| {
@@ -463,7 +463,7 @@ mod tests {
     }
 
     /// The command `t` leads to the fault state 4, which the device also enters without a command. The commands `h`,
-    /// `r` and `s` lead to the state 3. The shortest path to the state 2 leads through the fault.
+    /// `r`, `R` and `Q` lead from the state 0 to the state 2. A shorter path leads through the fault.
     #[test]
     fn fault_states_are_no_path() {
         let all = [

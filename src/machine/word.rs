@@ -3,8 +3,8 @@
 use crate::enumeration::Enumeration;
 use crate::value::Value;
 
-/// The value of a status item or control item, as an integer. Integers of up to 32 bits and generated bit fields implement
-/// this trait.
+/// The value of a status item or control item, as an integer. Integers of 8, 16 and 32 bits, and generated enumerations
+/// and bit fields implement this trait.
 pub trait StateWord: Copy {
     /// Returns all bits of the value, including reserved bits.
     fn bits(self) -> u32;

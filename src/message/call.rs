@@ -138,8 +138,8 @@ macro_rules! calls {
                 self.client.call(&self.message)$(.$await)?
             }
 
-            /// Sends this selector and returns a device with the methods for the requests that depend on it. The
-            /// returned device borrows the client, so the program cannot send another selector while it uses this
+            /// Sends this selector and returns a device with the methods for the requests that depend on the selector.
+            /// The returned device borrows the client, so the program cannot send another selector while it uses this
             /// device.
             ///
             /// # Errors

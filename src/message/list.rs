@@ -224,7 +224,7 @@ impl SettingsRule {
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
 
-    /// Reads a parameter number and a value. The value extends to the last `tail` bytes of the data, which are not
+    /// Reads a parameter number and a value. The value ends before the last `tail` bytes of the data, which are not
     /// read.
     pub fn read_to(&self, from: &mut Reader<'_>, tail: usize) -> Option<Setting> {
         let parameter = self.read_code(from)?;

@@ -19,7 +19,7 @@ pub struct StateOutcomes<S: 'static> {
 }
 
 impl<S> StateOutcomes<S> {
-    /// Creates the reactions for `state`. The list is empty if the device description doesn't state the reactions.
+    /// Creates the reactions for `state`. `outcomes` is empty if the device description doesn't state the reactions.
     #[must_use]
     pub const fn new(state: S, outcomes: &'static [Outcome<S>]) -> Self {
         Self { state, outcomes }
@@ -53,7 +53,7 @@ impl<S> StateOutcomes<S> {
 pub struct Outcomes<S: 'static>(&'static [StateOutcomes<S>]);
 
 impl<S> Outcomes<S> {
-    /// Creates the reactions of one message, with one element per state.
+    /// Creates the table of the reactions to one message, with one element per state.
     #[must_use]
     pub const fn new(states: &'static [StateOutcomes<S>]) -> Self {
         Self(states)

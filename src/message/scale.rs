@@ -47,7 +47,7 @@ impl<Q: Quantity> Scale<Q> {
     ///
     /// # Errors
     ///
-    /// Returns [`OutOfRange`] if the type cannot represent the raw value.
+    /// Returns [`OutOfRange`] if the raw value doesn't fit the type or has a special meaning.
     pub fn raw(self, physical: f64) -> Result<Q::Native, OutOfRange>
     where
         Q: Quantity<Other = ()>,
@@ -68,7 +68,7 @@ impl<Q: Quantity> Scale<Q> {
     ///
     /// # Errors
     ///
-    /// Returns [`OutOfRange`] if the type cannot represent the raw value.
+    /// Returns [`OutOfRange`] if the raw value doesn't fit the type or has a special meaning.
     pub fn raw_by(self, physical: f64, other: f64) -> Result<Q::Native, OutOfRange>
     where
         Q: Quantity<Other = f64>,

@@ -25,7 +25,8 @@ pub struct Writer<'b> {
 pub enum WriteError {
     /// A field is out of range.
     OutOfRange(OutOfRange),
-    /// The data are longer than the buffer, or longer than the protocol allows.
+    /// A length is wrong: the data are longer than the buffer or than the protocol allows, a value doesn't have the
+    /// length of its type, or the request is too short for the reply.
     Length(LengthError),
     /// The protocol has no message that reads or writes the parameter.
     NoMessage,

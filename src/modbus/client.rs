@@ -143,8 +143,8 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`mask_register`](Self::mask_register). Returns [`Error::Length`] if the item doesn't
-    /// have exactly one holding register.
+    /// Returns the errors of [`mask_register`](Self::mask_register). Returns [`Error::Length`] if the item doesn't have
+    /// exactly one holding register, or [`Error::OutOfRange`] if `value` or `mask` doesn't fit the item's type.
     fn write_masked<I: WriteItem>(
         &mut self,
         item: I,
@@ -158,13 +158,13 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         self.mask_register(address, and, or).map_err(|error| mask_failed(&item, value, error))
     }
 
-    /// Writes items. If the items are adjacent holding registers without gaps, and the device allows it, one request
-    /// writes all items. Otherwise, each item is written with a separate request, in the order of the block.
+    /// Writes items. If the items are whole holding registers at consecutive addresses, and the device allows it, one
+    /// request writes all items. Otherwise, each item is written with a separate request, in the order of the block.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`Client::write`]; after such an error, some items may have been written. Returns
-    /// [`Error::OutOfRange`] if a value is outside the range of its item; nothing is sent then.
+    /// Returns the errors of [`Client::write`]; after such an error, some items may have been written. If a value is
+    /// outside the range of its item, returns [`Error::OutOfRange`] and sends nothing.
     fn write_block<const N: usize, B: WriteBlock<N>>(
         &mut self,
         block: B,
@@ -182,13 +182,12 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         Ok(())
     }
 
-    /// Writes items, then reads items, with as few requests as the device allows. If the limits of the holding
-    /// registers include function 23, [`ModbusClient`](crate::clients) writes and reads with one request. The device
-    /// writes before it reads.
+    /// Writes items, then reads items. If the limits of the holding registers include function 23,
+    /// [`ModbusClient`](crate::clients) writes and reads with one request. The device writes before it reads.
     ///
-    /// The combined request contains the last write and the first read. The write must be for whole holding registers,
-    /// and the read for holding registers. The other requests are sent as in [`write_block`](Self::write_block) and
-    /// [`read_block`](Self::read_block).
+    /// The combined request contains the last write and the first read. They are combined only if the write is for
+    /// whole holding registers and the read is for holding registers. The other requests are sent as in
+    /// [`write_block`](Self::write_block) and [`read_block`](Self::read_block).
     ///
     /// # Errors
     ///
@@ -276,8 +275,8 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`mask_register`](Self::mask_register). Returns [`Error::Length`] if the item doesn't
-    /// have exactly one holding register.
+    /// Returns the errors of [`mask_register`](Self::mask_register). Returns [`Error::Length`] if the item doesn't have
+    /// exactly one holding register, or [`Error::OutOfRange`] if `value` or `mask` doesn't fit the item's type.
     async fn write_masked_async<I: WriteItem>(
         &mut self,
         item: I,
@@ -291,13 +290,13 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         self.mask_register(address, and, or).await.map_err(|error| mask_failed(&item, value, error))
     }
 
-    /// Writes items. If the items are adjacent holding registers without gaps, and the device allows it, one request
-    /// writes all items. Otherwise, each item is written with a separate request, in the order of the block.
+    /// Writes items. If the items are whole holding registers at consecutive addresses, and the device allows it, one
+    /// request writes all items. Otherwise, each item is written with a separate request, in the order of the block.
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`AsyncClient::write`]; after such an error, some items may have been written. Returns
-    /// [`Error::OutOfRange`] if a value is outside the range of its item; nothing is sent then.
+    /// Returns the errors of [`AsyncClient::write`]; after such an error, some items may have been written. If a value
+    /// is outside the range of its item, returns [`Error::OutOfRange`] and sends nothing.
     async fn write_block_async<const N: usize, B: WriteBlock<N>>(
         &mut self,
         block: B,
@@ -315,12 +314,11 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         Ok(())
     }
 
-    /// Writes items, then reads items, with as few requests as the device allows. If the limits of the holding
-    /// registers include function 23, [`ModbusClient`](crate::clients) writes and reads with one request. The device
-    /// writes before it reads.
+    /// Writes items, then reads items. If the limits of the holding registers include function 23,
+    /// [`ModbusClient`](crate::clients) writes and reads with one request. The device writes before it reads.
     ///
-    /// The combined request contains the last write and the first read. The write must be for whole holding registers,
-    /// and the read for holding registers. The other requests are sent as in
+    /// The combined request contains the last write and the first read. They are combined only if the write is for
+    /// whole holding registers and the read is for holding registers. The other requests are sent as in
     /// [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async).
     ///
     /// # Errors

@@ -48,11 +48,11 @@
 //! values if the [`Limits`] of the device allow it. Generated bindings contain the limits as the constant `MODBUS`. A
 //! request never exceeds the device's limit, and never includes an address that isn't in the device description. The
 //! values of one request are consistent if the device updates its registers together. The values of different requests
-//! are not consistent. [`Plan`] can compute the requests at compile time.
+//! may be inconsistent. [`Plan`] can compute the requests at compile time.
 //!
-//! [`RegisterClient::write_block`] writes adjacent holding registers with one request. [`RegisterClient::exchange`]
-//! writes and reads with one request if the device supports function 23. [`RegisterClient::write_masked`] changes some
-//! bits of a register with one request if the device supports function 22.
+//! [`RegisterClient::write_block`] writes adjacent holding registers with one request if the device allows it.
+//! [`RegisterClient::exchange`] writes and reads with one request if the device supports function 23. If the device
+//! supports function 22, [`RegisterClient::write_masked`] changes some bits of a register with one request.
 
 mod block;
 mod client;

@@ -92,8 +92,8 @@ impl<const N: usize> Plan<N> {
         &self.request_of
     }
 
-    /// Returns the index of the item at which the next request begins. This item has the lowest address among the items
-    /// that are compatible with the first unassigned item.
+    /// Returns the index of the item at which the next request begins. This item has the lowest address among the
+    /// unassigned items with the same table and the same number of registers per address as the first unassigned item.
     #[expect(clippy::indexing_slicing, reason = "`at` and `found` are below `N`")]
     const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
         let (mut at, mut found) = (0, N);

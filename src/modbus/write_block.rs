@@ -136,7 +136,7 @@ pub trait WriteBlock<const N: usize> {
     ///
     /// # Errors
     ///
-    /// Returns an error with [`Error::OutOfRange`] if a value is outside the range of its item.
+    /// Returns an error with [`Error::OutOfRange`] if a value is outside the range of its item or of the item's type.
     fn encode<E>(&self, values: Self::Values) -> Result<[Encoded; N], AccessError<E>>;
 }
 

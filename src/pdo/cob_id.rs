@@ -64,8 +64,8 @@ pub(crate) const fn can_id(cob_id: u32) -> Option<u32> {
     }
 }
 
-/// Returns whether PDOs must not use a CAN-ID (CiA 301 7.3.5). Restricted CAN-IDs are the CAN-IDs of NMT, SDO and
-/// heartbeat, and reserved CAN-IDs.
+/// Returns whether a CAN-ID is restricted: PDOs and further SDO channels must not use it (CiA 301 7.3.5). Restricted
+/// CAN-IDs are the CAN-IDs of NMT, SDO and heartbeat, and reserved CAN-IDs.
 #[cfg(any(feature = "canopen", feature = "std"))]
 pub(crate) const fn is_restricted(can_id: u32) -> bool {
     // CAN-IDs of 29 bits are a separate range, of which none is restricted.

@@ -23,7 +23,7 @@ impl PdoParameters {
     ///
     /// # Errors
     ///
-    /// - [`PdoParameterError::NoCobId`] if `configuration` doesn't write the COB-ID.
+    /// - [`PdoParameterError::NoCobId`] if `configuration` doesn't start with a write to the COB-ID.
     /// - The other variants of [`PdoParameterError`] if a parameter is out of range, or conflicts with the direction of
     ///   the PDO or with another parameter.
     pub const fn configure<const N: usize>(
@@ -151,7 +151,7 @@ impl<const N: usize> PdoConfiguration<N> {
     }
 
     /// Returns the write of a communication parameter, or `None` if neither the parameters nor the configuration set
-    /// it.
+    /// this parameter.
     fn parameter(&self, sub_index: u8) -> Option<SdoWrite> {
         let index = self.communication;
         let new = match sub_index {

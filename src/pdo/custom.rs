@@ -76,7 +76,7 @@ pub enum OnEtherCat {}
 /// The generated module `mappable` has a type alias for each object.
 pub struct Mappable<F, D, const WORD: u32>(PhantomData<fn() -> (F, D)>);
 
-/// An object that cannot be mapped. [`pdo!`](crate::pdo!) reports it as an error.
+/// An object that cannot be mapped. [`pdo!`](crate::pdo!) reports such an object as an error.
 pub type NotMappable = Mappable<u8, NoPdo, 8>;
 
 /// The field and the mapping entry of a [`Mappable`].
@@ -117,8 +117,8 @@ impl IsMappable for Rpdo {}
 impl IsMappable for Tpdo {}
 impl IsMappable for AnyPdo {}
 
-/// Marks the directions of objects that can be mapped into PDOs of direction `D`. [`NoPdo`] also has this trait, so
-/// that only [`IsMappable`] reports an unmappable object.
+/// Marks the directions of objects that can be mapped into PDOs of direction `D`. [`NoPdo`] also implements this trait,
+/// so that only [`IsMappable`] reports an unmappable object.
 #[diagnostic::on_unimplemented(
     message = "this object is mappable only into a `{Self}`, and the PDO is an `{D}`",
     label = "the device allows it only in the other direction",

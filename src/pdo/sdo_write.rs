@@ -116,7 +116,7 @@ impl SdoWrite {
     }
 }
 
-/// An [`SdoWrite`] that failed. The operator `?` converts it to [`Error`], which contains only the reason.
+/// An [`SdoWrite`] that failed. The operator `?` converts this error to [`Error`], which contains only the reason.
 ///
 /// ```
 /// use lexibus::{AbortCode, Error, SdoWrite, SdoWriteError};

@@ -1,8 +1,8 @@
 //! Big-endian fields in a byte string.
 //!
 //! A bit field is a part of a big-endian number. This number consists of all bytes that contain bits of the field. Bit
-//! 0 is the least significant bit of the last byte. A read beyond the end of the data returns 0. A write beyond the end
-//! has no effect.
+//! 0 is the least significant bit of the last byte. If a number exceeds the end of the data, its missing bytes are read
+//! as 0. A write beyond the end has no effect.
 
 use crate::pdo::{mask, sign_extend};
 use crate::time::{TimeDifference, TimeOfDay};

@@ -1,4 +1,4 @@
-//! Reads and writes of items in the process image of a submodule.
+//! Access to the items in the process image of a submodule.
 
 use core::time::Duration;
 

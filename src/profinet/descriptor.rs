@@ -135,7 +135,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// Creates the value from its three lists of slots or subslots.
+    /// Creates the `Places` of a module or submodule from three lists of slots or subslots.
     #[must_use]
     pub const fn new(
         allowed: &'static [(u16, u16)],
@@ -145,13 +145,13 @@ impl Places {
         Self { allowed, fixed, used }
     }
 
-    /// Creates the value for a module or submodule that is built into these slots or subslots.
+    /// Creates the `Places` of a module or submodule that is built into these slots or subslots.
     #[must_use]
     pub const fn fixed(fixed: &'static [(u16, u16)]) -> Self {
         Self::new(&[], fixed, &[])
     }
 
-    /// Creates the value for a module or submodule that can be plugged into these slots or subslots.
+    /// Creates the `Places` of a module or submodule that can be plugged into these slots or subslots.
     #[must_use]
     pub const fn allowed(allowed: &'static [(u16, u16)]) -> Self {
         Self::new(allowed, &[], &[])

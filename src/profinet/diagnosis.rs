@@ -193,7 +193,7 @@ pub struct ChannelProperties(pub u16);
 
 impl ChannelProperties {
     /// Returns the width of the channel in bits (bits 0 to 7): 1 to 64. Returns `None` if the width is unspecified or
-    /// the diagnosis is for the whole submodule.
+    /// reserved, or if the diagnosis is for the whole submodule.
     #[must_use]
     pub const fn bits(self) -> Option<u8> {
         match self.0 & 0xFF {

@@ -10,8 +10,9 @@ use crate::value_error::LengthError;
 
 /// A client that exchanges the process image of one device. The client blocks during a cycle.
 ///
-/// A frame is the content of an IOCR. A frame contains the data of submodules with their provider status, and the
-/// consumer status of the opposite direction. [`Plan::layout`] returns the offsets of the data.
+/// A frame is the content of an input/output communication relation (IOCR). A frame contains the data of submodules
+/// with their provider status, and the consumer status of the opposite direction. [`Plan::layout`] returns the offsets
+/// of the data.
 ///
 /// ```
 /// use lexibus::profinet::ImageClient;
@@ -100,7 +101,7 @@ pub trait AsyncImageClient {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::NoClock`] in the default implementation.
+    /// The default implementation returns [`Error::NoClock`].
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         let _ = time;
         Err(Error::NoClock)

@@ -4,7 +4,7 @@
 //!
 //! - [`Dap`], [`Module`] and [`Submodule`] describe a device as constants.
 //! - A [`Plan`] assigns modules to slots. The plan returns the expected configuration and the start-up records.
-//! - The inputs, outputs and records of a submodule are generated structs. These structs implement [`IoData`] and
+//! - The inputs, outputs and records of a submodule are generated structs. These structs implement [`IoData`] or
 //!   [`RecordData`].
 //!
 //! All numbers are big-endian. The device sends inputs to the controller. The controller sends outputs to the device.

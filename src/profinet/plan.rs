@@ -11,7 +11,7 @@ use super::descriptor::{contains, numbers, Dap, Module, Submodule, SubmoduleUse}
 
 /// A plan of the submodules of a device: at most `N` submodules, including those of the device access point.
 ///
-/// The plan checks each step against the device description. [`Plan::expected`] returns the configuration that the
+/// The plan checks each change against the device description. [`Plan::expected`] returns the configuration that the
 /// controller expects. [`Plan::records`] returns the start-up records.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan<const N: usize> {
@@ -54,7 +54,7 @@ pub struct Expected {
     pub consumer_len: u8,
 }
 
-/// Reasons why the plan refuses a step.
+/// Reasons why an operation on a plan fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlanError {

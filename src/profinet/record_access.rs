@@ -27,8 +27,8 @@ use crate::value_error::LengthError;
 ///
 /// `RecordAccess` implements [`Client`] if `C` is a [`RecordClient`], and [`AsyncClient`] if `C` is an
 /// [`AsyncRecordClient`]. To write an item, `RecordAccess` reads the record, changes the item, and writes the whole
-/// record. No other program may write the record between the read and the write. A text is truncated to the length of
-/// the caller's buffer.
+/// record. No other program may write the record between the read and the write. A read truncates a text to the length
+/// of the caller's buffer.
 ///
 /// A record that is longer than the buffer causes a compile-time error:
 ///
@@ -133,7 +133,7 @@ macro_rules! access {
             /// # Errors
             ///
             /// Returns the errors of [`RecordClient::read_record`], or [`Error::Length`] if the device's record is
-            /// shorter than `T`.
+            /// shorter than `T` or longer than the buffer.
             pub $($async)? fn $read<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
                 let () = Fits::<T, N>::CHECKED;
                 let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer)$(.$await)??;

@@ -102,7 +102,7 @@ pub(super) const fn block(command: u8, first: u8, second: u8) -> Message {
     [command, first, second, 0, 0, 0, 0, 0]
 }
 
-/// Copies at most seven bytes to bytes 1 to 7 of a message.
+/// Creates a message from its first byte and at most seven bytes of data.
 pub(super) fn with_data(command: u8, data: &[u8]) -> Message {
     let [a, b, c, d, e, f, g] = to_bytes(from_bytes(data));
     [command, a, b, c, d, e, f, g]

@@ -1,4 +1,4 @@
-//! SDO transfers (CiA 301 7.2.4) as state machines, without input and output.
+//! SDO transfers (CiA 301 7.2.4) as state machines that perform no I/O.
 //!
 //! [`Transfer`] is the client side of one transfer, and [`Server`] is the server of a node. Both support expedited,
 //! segmented and block transfers. Neither allocates memory: a transfer uses the caller's buffer, and a server has a

@@ -37,7 +37,7 @@ pub trait Objects {
     }
 }
 
-/// SDO server of one channel (CiA 301 7.2.4.3), without input and output. Values have at most `N` bytes.
+/// SDO server of one channel (CiA 301 7.2.4.3), as a state machine that performs no I/O. Values have at most `N` bytes.
 ///
 /// Pass each request to [`handle`](Self::handle), then send all messages that [`next`](Self::next) returns. Call
 /// [`time_out`](Self::time_out) at the [`deadline`](Self::deadline).
@@ -125,7 +125,7 @@ impl<const N: usize> Server<N> {
         }
     }
 
-    /// Returns the time at which an unfinished transfer times out.
+    /// Returns the time at which an unfinished transfer times out, or `None` if no transfer is unfinished.
     #[must_use]
     pub const fn deadline(&self) -> Option<Duration> {
         self.deadline
@@ -185,7 +185,7 @@ impl<const N: usize> Server<N> {
         }
     }
 
-    /// Refuses a segment that doesn't belong to a transfer.
+    /// Refuses a message that doesn't belong to a transfer.
     fn unexpected(&mut self) -> Reply {
         if let State::Idle = self.state {
             self.object = Object::new(0, 0);

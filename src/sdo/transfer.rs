@@ -62,7 +62,7 @@ impl<E> From<TransferError> for Error<E> {
     }
 }
 
-/// Client side of an SDO transfer (CiA 301 7.2.4.3), without input and output.
+/// Client side of an SDO transfer (CiA 301 7.2.4.3), as a state machine that performs no I/O.
 ///
 /// Repeat these steps until [`result`](Self::result) returns the result:
 ///
@@ -152,7 +152,7 @@ impl<'a> Transfer<'a> {
     ///
     /// # Errors
     ///
-    /// Returns an error if `data` is empty, because an SDO transfer cannot have the length 0.
+    /// Returns an error if `data` is empty, because an SDO download has at least one byte.
     pub fn download(object: Object, data: &'a [u8], threshold: usize) -> Result<Self, LengthError> {
         if data.is_empty() {
             return Err(LengthError::new(1, 0));

@@ -70,8 +70,8 @@ const MOST_FRAMES: usize = 1024;
 /// bus with several nodes.
 ///
 /// The node answers node guarding if its heartbeat producer time (0x1017) is 0. The node sends the emergency message
-/// 0x8130 if no guarding request arrives within the node life time (0x100C and 0x100D). The node consumes TIME if bit
-/// 31 of object 0x1012 is set. The node doesn't send PDOs in response to remote frames.
+/// 0x8130 if no further guarding request arrives within the node life time (0x100C × 0x100D). The node consumes TIME if
+/// bit 31 of object 0x1012 is set. The node doesn't send PDOs in response to remote frames.
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
@@ -186,8 +186,9 @@ impl CanNode {
         self.servers.allow_blocks(has_blocks);
     }
 
-    /// Returns and removes the errors of received PDOs. Each error consists of the index of the PDO's mapping
-    /// object and the abort code of the refused value. A real device doesn't report refused values on the bus.
+    /// Returns and removes the errors of received PDOs. Each error consists of the index of the PDO's mapping object
+    /// and an abort code: [`AbortCode::TOO_SHORT`] if bytes are missing, otherwise the code of the first refused value.
+    /// A real device doesn't report refused values on the bus.
     pub fn take_refused(&mut self) -> Vec<(u16, AbortCode)> {
         core::mem::take(&mut self.refused)
     }
@@ -219,7 +220,7 @@ impl CanNode {
         self.outgoing.pop_front()
     }
 
-    /// Moves the clock forward. The node sends the heartbeats and PDOs that become due.
+    /// Moves the clock forward. The node sends the frames that become due, for example heartbeats and PDOs.
     pub fn advance(&mut self, time: Duration) {
         let end = self.now.saturating_add(time);
         self.settle();

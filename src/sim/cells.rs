@@ -22,7 +22,7 @@ struct Cell {
     items: Vec<usize>,
 }
 
-/// All registers and bits. A change of a register updates its items, and a change of an item updates its registers.
+/// All registers and bits. A change to a register updates its items, and a change to an item updates its registers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells(BTreeMap<Address, Cell>);
 
@@ -122,8 +122,8 @@ impl Cells {
         }
     }
 
-    /// Updates the value of an item from its registers. The value doesn't change if it has the same encoding as the
-    /// registers, for example a text with fewer bytes.
+    /// Updates the value of an item from its registers. The value doesn't change if its encoding equals the registers,
+    /// for example if a text is shorter than its registers.
     pub fn refresh(&self, slot: &mut Slot) {
         let Some(register) = slot.entry.register else { return };
         let words = self.words(register);

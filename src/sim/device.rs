@@ -143,8 +143,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table, and the common errors of
-    /// the methods for tests (see [`Device`]).
+    /// Returns [`AbortCode::LENGTH`] if the length of the item's type differs from the table, [`AbortCode::TOO_HIGH`]
+    /// if the value doesn't fit the item's type, and the common errors of the methods for tests (see [`Device`]).
     pub fn get<V: Fixed, A, L: Location>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
         self.axis_value(&item, 1)
     }
@@ -391,8 +391,9 @@ impl fmt::Debug for Device {
 /// One axis of a simulated device. Tests access the items of the axis through this type. [`Device::axis`] returns an
 /// axis.
 ///
-/// The methods are the same as those of [`Device`], and take the handles of the first axis. The methods return
-/// [`AbortCode::NO_OBJECT`] if the axis doesn't exist or doesn't have the item.
+/// The methods correspond to those of [`Device`], and take the handles of the first axis. The methods return
+/// [`AbortCode::NO_OBJECT`] if the axis doesn't exist, and [`AbortCode::NO_OBJECT`] or [`AbortCode::NO_SUB_INDEX`] if
+/// the axis doesn't have the item.
 #[derive(Debug)]
 pub struct DeviceAxis<'d> {
     device: &'d mut Device,

@@ -23,7 +23,7 @@ const LRW: u8 = 12;
 const AL_STATUS: u16 = 0x0130;
 const MEMORY: u16 = 0x1000;
 
-/// A fault of a datagram on its way back to the master. [`FaultyFrames`] injects it.
+/// A fault of a datagram on its way back to the master. [`FaultyFrames`] injects the fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum EtherCatFault {
@@ -111,7 +111,7 @@ impl Datagram {
     }
 }
 
-/// Faults of the frames of an EtherCAT segment. It tests masters and the drivers that use them.
+/// Faults that are injected into the frames of an EtherCAT segment, for tests of masters and of drivers that use them.
 ///
 /// The faults apply to Ethernet frames that return to the master, in a simulated segment, or between a master and a real
 /// segment. Pass each frame to [`apply`](Self::apply). A clone is a handle to the same faults, so that a test can inject
@@ -157,9 +157,9 @@ impl FaultyFrames {
     }
 
     /// Injects a fault into the `n`th datagram from now on that the fault can affect: 1 is the next one.
-    /// [`LostReply`](EtherCatFault::LostReply) affects reads of a mailbox, [`State`](EtherCatFault::State) reads of AL
-    /// status, [`WorkingCounter`](EtherCatFault::WorkingCounter) process data, and
-    /// [`LostFrame`](EtherCatFault::LostFrame) any datagram.
+    /// [`LostReply`](EtherCatFault::LostReply) affects mailbox reads, [`State`](EtherCatFault::State) affects reads of
+    /// AL status, [`WorkingCounter`](EtherCatFault::WorkingCounter) affects process data, and
+    /// [`LostFrame`](EtherCatFault::LostFrame) affects any datagram.
     pub fn inject_nth(&self, fault: EtherCatFault, n: u64) {
         self.lock().add_nth_of(fault, n, EtherCatFault::concerns);
     }
@@ -175,8 +175,8 @@ impl FaultyFrames {
         self.lock().clear();
     }
 
-    /// Changes a frame that returns from the segment. Returns false if the frame is lost. Other frames than those of
-    /// EtherCAT stay unchanged.
+    /// Changes a frame that returns from the segment. Returns false if the frame is lost. Frames of other protocols
+    /// stay unchanged.
     pub fn apply(&self, frame: &mut [u8]) -> bool {
         let is_ethercat = frame.get(12..14) == Some(&[0x88, 0xA4]);
         let mut rest = frame.get_mut(HEADERS..).filter(|_| is_ethercat).unwrap_or_default();

@@ -35,9 +35,9 @@
 //! ```
 //!
 //! - Values: [`Device::get`] and [`Device::set`] access numbers, [`Device::bytes`] and [`Device::set_bytes`] access all
-//!   types. [`Device::set_initial`] sets initial values after power-on.
-//! - Behavior: [`Device::on_write`] reacts to writes. A reaction can also refuse values that the table allows, such as
-//!   undefined values of an enumeration. [`Device::fail_next`] simulates faults.
+//!   types. [`Device::set_initial`] sets the value that an item has after power-on.
+//! - Behavior: [`Device::on_write`] calls a reaction after each write of an item. A reaction can also refuse values
+//!   that the table allows, such as undefined values of an enumeration. [`Device::fail_next`] simulates faults.
 //! - CANopen process data: [`Device::receive_pdo`] and [`Device::transmit_pdo`] use the current mapping. A master can
 //!   change the mapping as on a real device.
 //! - EtherCAT process data: [`Device::receive_image`] and [`Device::transmit_image`] exchange process images.

@@ -34,6 +34,7 @@ impl Device {
     /// - [`Exception::IllegalDataAddress`] if a register doesn't belong to a readable item.
     /// - [`Exception::IllegalDataValue`] if `count` is 0 or too high.
     /// - [`Exception::IllegalFunction`] if the table contains coils or discrete inputs.
+    /// - The exception for an injected fault ([`fail_next`](Self::fail_next)).
     pub fn read_words(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Exception> {
         if is_bits(table) {
             return Err(Exception::IllegalFunction);
@@ -50,7 +51,7 @@ impl Device {
     /// - [`Exception::IllegalDataValue`] if the number of registers is 0 or too high, or if an item would be outside
     ///   its limits.
     /// - [`Exception::IllegalFunction`] if the table isn't [`Holding`](RegisterTable::Holding).
-    /// - The exception for the abort code of a reaction.
+    /// - The exception for the abort code of a reaction, or for an injected fault ([`fail_next`](Self::fail_next)).
     ///
     /// After any of these errors, nothing is written.
     pub fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Exception> {

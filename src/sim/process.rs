@@ -29,7 +29,8 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::NO_OBJECT`] if the mapping doesn't exist.
+    /// Returns [`AbortCode::NO_OBJECT`] if the mapping object doesn't exist, or [`AbortCode::NO_SUB_INDEX`] if one of
+    /// its entries doesn't exist.
     pub fn mapping(&self, index: u16) -> Result<Vec<MappedEntry>, AbortCode> {
         let words = self.listed(index)?;
         Ok(words.into_iter().map(|word| MappedEntry::from_word(word as u32)).collect())
@@ -49,8 +50,9 @@ impl Device {
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::TOO_SHORT`] if bytes are missing. In this case, nothing is written. If the device refuses
-    /// values, the method returns the abort code of the first refused value, and writes the other values.
+    /// Returns the errors of [`mapping`](Self::mapping), and [`AbortCode::TOO_SHORT`] if bytes are missing. In these
+    /// cases, nothing is written. If the device refuses values, the method returns the abort code of the first refused
+    /// value, and writes the other values.
     pub fn receive_pdo(&mut self, index: u16, data: &[u8]) -> Result<(), AbortCode> {
         let mapping = self.mapping(index)?;
         self.receive_mapped(&mapping, data)
@@ -65,8 +67,8 @@ impl Device {
         self.transmit_mapped(&self.mapping(index)?)
     }
 
-    /// Processes a received process image of an EtherCAT sync manager. The image consists of the PDOs that the object
-    /// `assignment` lists (0x1C12).
+    /// Processes a received process image of an EtherCAT sync manager. The image consists of the PDOs in the assignment
+    /// object `assignment`, for example 0x1C12.
     ///
     /// # Errors
     ///
@@ -76,8 +78,8 @@ impl Device {
         self.receive_mapped(&mapping, data)
     }
 
-    /// Returns the current process image of an EtherCAT sync manager. The image consists of the PDOs that the object
-    /// `assignment` lists (0x1C13).
+    /// Returns the current process image of an EtherCAT sync manager. The image consists of the PDOs in the assignment
+    /// object `assignment`, for example 0x1C13.
     ///
     /// # Errors
     ///

@@ -25,7 +25,7 @@ pub enum StreamFault {
         bytes: Vec<u8>,
         /// Number of times that the bytes are sent.
         count: u32,
-        /// Time before the bytes are sent.
+        /// Pause before each transmission of the bytes.
         period: Duration,
     },
     /// These bytes are sent before the message.
@@ -49,8 +49,8 @@ impl StreamFault {
 
 /// The device's end of a byte stream, with injected faults, for tests of clients of Modbus and serial protocols.
 ///
-/// Bytes that the device reads are unchanged. Each call of `write` is a message, such as one reply. A [`StreamFault`]
-/// affects one of the messages, or all messages that a function selects.
+/// Bytes that the device reads are unchanged. Each call to `write` sends one message, such as a reply. A
+/// [`StreamFault`] affects one of the messages, or all messages that a function selects.
 ///
 /// ```
 /// use std::collections::VecDeque;
@@ -131,12 +131,12 @@ impl<S, W> FaultyStream<S, W> {
         self.faults.clear();
     }
 
-    /// Returns the stream without faults.
+    /// Returns the wrapped stream.
     pub fn inner(&mut self) -> &mut S {
         &mut self.inner
     }
 
-    /// Returns the stream without faults. Late messages are lost.
+    /// Returns the wrapped stream. Late messages are lost.
     pub fn into_inner(self) -> S {
         self.inner
     }

@@ -103,8 +103,8 @@ fn real(bound: Bound) -> Option<f64> {
     }
 }
 
-/// Returns the initial value after power-on. If the device description declares no value, the initial value is empty or
-/// the number within the limits that is nearest to 0.
+/// Returns the initial value after power-on. If the device description declares no value, a text or byte string is
+/// empty, and a number is the number within the limits that is nearest to 0.
 pub(super) fn initial(entry: &Entry, node: NodeId) -> Vec<u8> {
     let bytes = match entry.initial {
         RawInitial::Bytes(bytes) => bytes.to_vec(),

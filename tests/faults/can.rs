@@ -297,7 +297,7 @@ fn further_rows() -> Vec<Row> {
     let mut rows = Vec::new();
     for (client, access) in accesses {
         for (fault_name, fault) in faults(frame) {
-            // The queue of the simulated interface can hold the segments of a block with less noise.
+            // With less noise, the queue of the simulated interface can hold the segments of a block.
             let fault = if let CanFault::Noise(_) = fault { CanFault::Noise(100) } else { fault };
             for is_async in [false, true] {
                 let bus = AsyncBus { bus: FaultyCan::new(Bus::new()), pending_after: None };

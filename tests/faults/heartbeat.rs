@@ -42,7 +42,7 @@ fn node() -> Node<Faulty> {
 
 type Watched = Result<Option<NmtState>, HeartbeatError<CanError>>;
 
-/// Waits for `pause` in simulated time, and checks the node. A state must be the one that the node has.
+/// Waits for `pause` in simulated time, and checks the node. A reported state must be that of the node, or `BootUp`.
 fn watch(node: &mut Node<Faulty>, consumer: &mut HeartbeatConsumer, is_async: bool, pause: Duration) -> Watched {
     node.port().bus().advance(pause);
     let result = match is_async {

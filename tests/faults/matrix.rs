@@ -107,13 +107,12 @@ fn matrix() {
         assert!(row.next <= 4 * row.timeout + soon, "{} {}: {:?}", row.client, row.fault, row.next);
     }
     let in_book = rows.iter().filter(|row| check_book(row)).count();
-    // The table has rows for each client with each fault, both blocking and asynchronous. LSS, boot, SDO writes, block
-    // reads, block writes, PDO and heartbeat have nine faults, SDO reads and node guarding also have the wrong toggle bit, and serial
-    // has six faults. The client for EtherCAT is only asynchronous, and
-    // has seven faults.
+    // The table has rows for each client with each fault, both blocking and asynchronous. LSS, boot, SDO writes, block reads, block
+    // writes, PDO and heartbeat have nine faults. SDO reads and node guarding have a tenth fault, the wrong toggle bit. Serial has
+    // six faults. The client for EtherCAT is only asynchronous, and has seven faults.
     let ethercat = if cfg!(all(feature = "ethercat", feature = "macros")) { 7 } else { 0 };
     assert_eq!(rows.len(), (7 * 9 + 2 * 10 + 6) * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
-    // SDO has ten faults in the tables of the book, SDO writes, block reads, block writes, PDO and heartbeat have nine, Modbus
-    // RTU, Modbus TCP and serial have six, LSS and boot three, and node guarding four.
+    // In the tables of the book, SDO reads have ten faults. SDO writes, block reads, block writes, PDO and heartbeat have nine;
+    // Modbus RTU, Modbus TCP and serial have six; LSS and boot have three; node guarding has four.
     assert_eq!(in_book, (10 + 5 * 9 + 3 * 6 + 2 * 3 + 4) * 2 + ethercat);
 }

@@ -1,4 +1,4 @@
-//! Soak test: an hour of simulated time with random faults, over the clients for SDO, Modbus and serial lines and the state
+//! Soak test: an hour of simulated time with random faults, for the clients of SDO, Modbus and serial lines, and for the state
 //! machine walker. No value may be wrong, and neither a buffer nor the memory of the process may grow.
 
 use std::process::Command;

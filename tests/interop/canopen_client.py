@@ -46,7 +46,7 @@ class Client:
 
     def fast_scan(self):
         """Finds a node without node-ID and returns its LSS address, or null. The node is in Configuration after that."""
-        # The library waits this long for each bit of the LSS address that is 1.
+        # The library waits for the response timeout at each bit of the LSS address that is 1.
         self.network.lss.RESPONSE_TIMEOUT = 0.4
         is_found, address = self.network.lss.fast_scan()
         self.network.lss.RESPONSE_TIMEOUT = TIMEOUT

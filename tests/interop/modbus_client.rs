@@ -75,7 +75,8 @@ impl Script {
     }
 }
 
-/// Checks both directions: the client writes a value that the device gets, and reads a value that the device has.
+/// Checks both directions: the device must get the value that the client writes, and the client must read the value that the device
+/// has.
 macro_rules! exchange {
     ($script:ident, $device:ident, $($place:ident $item:ident: [$written:expr, $read:expr];)*) => {$(
         let answer = $script.ask(json!({ "do": "set", "name": stringify!($place), "value": $written }));

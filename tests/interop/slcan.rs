@@ -48,7 +48,7 @@ impl Received {
     }
 }
 
-/// Parses a line as a frame. Returns `None` if the line is a setup command of the adapter.
+/// Parses a line as a frame. Returns `None` if the line is empty or a setup command of the adapter.
 fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     let wrong = || io::Error::new(io::ErrorKind::InvalidData, format!("no frame: {}", line.escape_ascii()));
     // `t` and `T` are data frames with CAN-IDs of 11 and 29 bits, `r` and `R` are remote frames.

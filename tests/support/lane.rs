@@ -1,5 +1,5 @@
-//! The fast lane and the full lane of the tests. The fast lane runs for each change and only runs a sample of slow
-//! tests. The full lane (`tests/full.sh`) runs all tests.
+//! The fast lane and the full lane of the tests. The fast lane runs for each change, and runs only a sample of the slow tests. The
+//! full lane (`tests/full.sh`) runs all tests.
 
 // Each test program uses only a part of this module.
 #![allow(dead_code)]

@@ -5,12 +5,12 @@ use std::process::Command;
 
 /// Returns the path of a Python that can import `modules`. If there is no such Python, prints a message and returns `None`.
 ///
-/// The first Python that exists is used: the one that `LEXIBUS_PYTHON` names, the one that `tests/interop/setup.sh`
-/// installs, or `python3`.
+/// Uses the Python that `LEXIBUS_PYTHON` names. If this variable is not set, uses the Python that `tests/interop/setup.sh`
+/// installs, or otherwise `python3`.
 ///
 /// # Panics
 ///
-/// Panics if the Python that `LEXIBUS_PYTHON` names lacks a module.
+/// Panics if the Python that `LEXIBUS_PYTHON` names does not exist or lacks a module.
 pub fn with(modules: &[&str]) -> Option<PathBuf> {
     let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
     let installed = || {

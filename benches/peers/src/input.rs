@@ -43,7 +43,8 @@ impl Input {
         Input { title: title.to_owned(), kind, bytes, path }
     }
 
-    /// Reads an input from a file. Returns `None` if the format of the file is not part of the comparison.
+    /// Reads an input from a file. Returns `None` if the file is unreadable or its format is not part of the
+    /// comparison.
     pub fn of_file(path: &Path) -> Option<Self> {
         let bytes = std::fs::read(path).ok()?;
         let name = path.file_name()?.to_string_lossy().into_owned();
@@ -61,8 +62,8 @@ impl Input {
     }
 }
 
-/// Returns a small, a typical and a very large input: about 36 entries, 1,000 entries, and 15 MB (EDS) or 30 MB (ESI
-/// and GSDML).
+/// Returns a small, a typical and a very large input for each format except register tables: about 36 entries, 1,000
+/// entries, and 15 MB (EDS) or 30 MB (ESI and GSDML).
 pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     let eds = |title: &str, records| Input::new(folder, title, InputFormat::Eds, eds::eds(records).into_bytes());
     let esi = |title: &str, devices, shape| {

@@ -34,7 +34,7 @@ pub fn catalog() -> String {
     CODES.iter().map(line).collect()
 }
 
-/// Returns a sentence that states under which conditions codes of a class are errors.
+/// Returns a phrase that states when diagnostics of a class are errors.
 pub(super) fn strictness(class: Class) -> &'static str {
     match class {
         Class::Error => "always an error",

@@ -45,7 +45,7 @@ pub(super) fn chain(at: At<'_>, root: &str, calls: &[&str], end: &str) -> String
     {
         return format!("{}{one}{end}", at.1);
     }
-    // The first field or call stays on the line of a root that is not longer than the indentation.
+    // The first field or call stays on the line of a root that is not longer than one level of indentation.
     let separator = |position: usize| if position == 0 && width(root) <= 4 { String::new() } else { at.newline(1) };
     let lines: String = calls.iter().enumerate().map(|(at, call)| format!("{}.{call}", separator(at))).collect();
     format!("{}{root}{lines}{end}", at.1)

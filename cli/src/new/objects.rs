@@ -11,7 +11,7 @@ use super::text::{doc, printed};
 use crate::args::Bus;
 use crate::Failure;
 
-/// Names of the functions of every driver.
+/// Names of the functions that a driver can have in addition to the functions for its items.
 const METHODS: [&str; 5] = ["new", "bindings", "enable", "move_to", "set_mode"];
 
 #[derive(Template)]

@@ -127,7 +127,8 @@ pub(super) fn render(template: &impl Template) -> Result<String, Failure> {
     template.render().map_err(|error| Failure::Usage(format!("cannot write a file of the crate: {error}")))
 }
 
-/// Returns an error if Cargo does not accept the crate name, or if a dependency of the crate has the same name.
+/// Returns an error unless the crate name begins with an ASCII letter, consists of letters, digits, `-` and `_`, and is
+/// neither one of [`RESERVED`] nor a Rust keyword.
 fn check_name(name: &str) -> Result<(), Failure> {
     let is_word = name.starts_with(|first: char| first.is_ascii_alphabetic())
         && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_');
@@ -166,8 +167,8 @@ fn title(device: &Device, name: &str) -> String {
     }
 }
 
-/// Adds copies of all description files, at the same paths relative to the main file. Returns the literal with the name of the main
-/// file.
+/// Adds copies of all description files, at the same paths relative to the main file. Returns the literal with the name
+/// of the main file, or an error if a file is not in the folder of the main file.
 fn copy_sources(compilation: &Compilation, files: &mut Files) -> Result<String, Failure> {
     let Some(main) = compilation.sources.first() else { return Ok(literal("")) };
     let folder = main.folder().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();

@@ -69,7 +69,7 @@ pub(super) fn write(package: &Package, files: &mut Files) -> Result<(), Failure>
     Ok(())
 }
 
-/// Returns the statements that plug a module and a submodule.
+/// Returns the statements that plug the module and the submodule that the program uses, if they must be plugged.
 fn plugged(program: &ProfinetProgram) -> Vec<String> {
     let statement = |head, arguments: &[&str]| layout::call(At(4, ""), head, arguments, "?;");
     let module = program.plugged.as_ref().map(|(slot, module)| {

@@ -138,7 +138,7 @@ fn columns<const N: usize>(text: &mut String, title: [&str; N], rows: impl Itera
     }
 }
 
-/// Returns the name of a device, preceded by the order code with which the user can select it.
+/// Returns the order code and the name of a device, or only the name if it contains the order code.
 fn device_title(device: &DeviceInfo) -> String {
     match (device.order_code.is_empty(), device.name.is_empty()) {
         (true, true) => "(no name)".to_owned(),

@@ -18,7 +18,7 @@ pub(super) enum Shown<'d> {
     More(String),
 }
 
-/// Number of diagnostics of a code in a file.
+/// Numbers of diagnostics of a code in a file.
 #[derive(Default)]
 struct Count {
     total: usize,

@@ -45,7 +45,7 @@ pub(in super::super) struct Reporter {
     statistics: Option<Statistics>,
     /// Diagnostics that are not reported.
     baseline: Option<Baseline>,
-    /// Diagnostics of all inputs. SARIF output needs all diagnostics because it is a single document.
+    /// Diagnostics of all inputs, which are collected only for SARIF output, because it is a single document.
     kept: Vec<Diagnostic>,
     sources: Vec<Source>,
 }
@@ -206,8 +206,8 @@ impl Reporter {
         Ok(self.errors == 0)
     }
 
-    /// Prints machine-readable diagnostics. The destination is standard output for `check`, and standard error for
-    /// other commands.
+    /// Prints machine-readable diagnostics. The destination is standard output if diagnostics are the main output of
+    /// the command, and standard error otherwise.
     fn print(&self, text: &str) -> Result<(), Failure> {
         if self.is_result {
             std::io::stdout().lock().write_all(text.as_bytes())?;

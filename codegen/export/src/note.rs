@@ -21,7 +21,7 @@ pub struct Note {
     pub kind: NoteKind,
     /// Number of facts of this kind.
     pub count: usize,
-    /// The location of the first fact: an object, an entry or the device.
+    /// The location of the first fact: an object, an entry, a named element or the device.
     pub first: String,
 }
 
@@ -102,8 +102,8 @@ kinds! {
     Behavior = "behavior", "storage, conditions or side effects left out";
     /// The models, versions or options in which an item exists.
     Availability = "availability", "models, versions or options of an item left out";
-    /// A reference from an item to another item that contains the same value or a part of it, or the property of an
-    /// item to be reserved or optional.
+    /// A reference from an item to another item that contains the same value or a part of it, or the fact that an item
+    /// is reserved or optional.
     Relation = "relation", "relation to other items, or property reserved or optional, left out";
     /// A description of an element.
     Documentation = "documentation", "description left out";
@@ -133,7 +133,7 @@ kinds! {
     Slot = "slot", "slot, or class or name of a module that a slot accepts, left out";
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
-    /// An additional axis. The objects of an additional axis are derived from the objects of the first axis.
+    /// An additional axis. An additional axis, whose objects are derived from the objects of the first axis.
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
     /// A PROFINET submodule, message, code table, state machine, procedure or variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
@@ -217,7 +217,7 @@ pub(super) fn parts_of_tables(device: &Device) -> usize {
     parts.iter().sum()
 }
 
-/// The object, entry or device to which a note applies.
+/// The object, entry, named element or device to which a note applies.
 #[derive(Clone, Copy)]
 pub(super) enum Subject<'a> {
     Device,

@@ -100,7 +100,7 @@ pub(super) fn decimal_mark(text: &str) -> Option<bool> {
     (is_number(whole) && is_number(fraction) && is_clear).then(|| digits.contains(','))
 }
 
-/// Parses a number. The unit of the row may follow the number.
+/// Parses a number. The unit of the row, or other letters, may follow the number.
 pub(super) fn quantity(text: &str, unit: &str, comma: bool) -> Option<Number> {
     let text = text.trim();
     number(text, comma).or_else(|| {

@@ -307,7 +307,7 @@ fn plain(record: &Record) -> Vec<Column> {
     for (at, cell) in record.filled() {
         let title = normal(&cell.text);
         let Some(field) = field_of(&title) else { continue };
-        // A second address column contains wire addresses. Several columns may contain documentation.
+        // A second address column contains wire addresses or object indices. Several columns may contain documentation.
         let before = list.iter().filter(|column| column.field == field).count();
         let many = match field {
             Field::Doc => usize::MAX,

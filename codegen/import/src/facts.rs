@@ -226,7 +226,8 @@ impl Reader<'_, '_> {
         number.int().filter(|&value| ty.fits(value, is_hex)).map(|value| int(value, is_hex))
     }
 
-    /// Returns the name of a row. The name comes from the name cell, the description or the address.
+    /// Returns the name of a row. The name comes from the name cell, the description or the address. Without any of
+    /// these, the name is `row`.
     pub fn name(&mut self, record: &Record, address: Option<&RowAddress>) -> String {
         let written = row_name(self.text(record, Field::Name));
         let is_list = |text: &str| values::read(text).is_some_and(|list| list.entries.len() > 1);
@@ -298,7 +299,8 @@ impl Reader<'_, '_> {
         (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// Returns the first list of values or bits in the documentation, with its cell.
+    /// Returns the first list of at least two values or bits in the documentation, with its cell. Returns `None` if the
+    /// type is not an integer.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));

@@ -76,8 +76,8 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     Listing { spaces, chapters: chapters(rows), definitions, no_access }
 }
 
-/// Converts a row with a repetition count to a comment if the repetitions of all rows up to this row exceed
-/// `MAX_DERIVED_ITEMS`.
+/// Converts a row with a repetition count to a comment if the repeated rows up to this one describe more than
+/// `MAX_DERIVED_ITEMS` items. Items with long names count several times.
 fn within_budget(rows: &mut [Row], diagnostics: &mut Diagnostics) {
     let mut left = MAX_DERIVED_ITEMS;
     for row in rows.iter_mut().filter(|row| row.address.is_ok()) {
@@ -136,9 +136,9 @@ fn table_of(row: &Row) -> Option<Table> {
     }
 }
 
-/// Returns whether the first digit of each printed address identifies a Modbus table. At least one address must be in
-/// the range of the holding or input registers. Each other address must be in the range of the coils or discrete inputs
-/// and belong to a Boolean row.
+/// Returns whether the first digit of each printed address identifies a Modbus table. Only rows without a stated Modbus
+/// table count. Each address must be in the range of a Modbus table, and at least one address in that of the holding or
+/// input registers. Addresses in the ranges of the coils and discrete inputs must belong to Boolean rows.
 fn is_classic(rows: &[Row]) -> bool {
     let mut any = false;
     for row in rows {

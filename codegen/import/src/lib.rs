@@ -62,14 +62,14 @@ pub struct Options {
     /// Delimiter between cells. By default, the delimiter comes from a first line such as `sep=;`. Without such a line,
     /// the delimiter with the most recognized titles is used.
     pub delimiter: Option<u8>,
-    /// Name of the device. The default name is the file name.
+    /// Name of the device. The default name is the file name without extension.
     pub name: Option<String>,
 }
 
 /// Result of an import.
 #[derive(Debug)]
 pub struct Import {
-    /// The list and its diagnostics. The catalog of the compilation is empty.
+    /// The list and its diagnostics. The compilation has no catalog.
     pub compilation: Compilation,
     /// The register table. `None` if there are errors.
     pub table: Option<String>,

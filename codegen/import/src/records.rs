@@ -33,7 +33,7 @@ impl Record {
 #[derive(Debug, Default)]
 pub(super) struct Records {
     pub list: Vec<Record>,
-    /// Span of the first quotation mark without a closing quotation mark.
+    /// Span of the cell at the end of the file, if its opening quotation mark is not closed.
     pub unclosed: Option<Span>,
     /// Spans of quotation marks that were read as ordinary characters.
     pub letters: Vec<Span>,

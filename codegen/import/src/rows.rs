@@ -459,7 +459,7 @@ impl Reader<'_, '_> {
     }
 
     /// Compares the size of a type with the size of its row. The type becomes an array if the row size is a multiple of
-    /// the type size.
+    /// the type size. Any other difference is reported.
     fn compare(&mut self, record: &Record, ty: &mut Type, size: u32) {
         let of_type = ty.size().unwrap_or(size);
         // A value that is smaller than a register occupies a whole register. A length column may contain bytes or bits

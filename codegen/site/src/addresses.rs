@@ -55,7 +55,7 @@ impl Addresses {
         if keys.len() < 2 {
             return folder;
         }
-        // Further devices of the same description do not move the first one.
+        // Further devices of the same description do not change the folder of the first one.
         if keys[0] == *key && keys.iter().all(|other| other.0 == key.0) {
             return folder;
         }
@@ -142,8 +142,8 @@ fn folder_of_number(number: u32) -> String {
     hex32(number).to_lowercase()
 }
 
-/// Returns a folder name for a text: lowercase letters, digits and `-`. If the name does not contain all letters of the text, it
-/// ends with a checksum, so that different texts have different names.
+/// Returns a folder name for a text: lowercase letters, digits and `-`. If the name does not contain all letters of the
+/// text, it ends with a checksum, so that texts with different letters have different names.
 pub(super) fn folder_name(text: &str) -> String {
     let mut name = slug(text);
     let is_complete =

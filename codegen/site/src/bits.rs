@@ -81,8 +81,8 @@ impl Label {
     }
 }
 
-/// Returns the drawing of a type's bits and the list of its named values. Their anchors begin with `owner`, the anchor of the element
-/// with this type.
+/// Returns the drawing of a type's bits and the list of its named values. Their anchors begin with `owner`, the anchor
+/// of the element with this type.
 pub(super) fn of_type(types: &[TypeDef], ty: Type, owner: &str) -> (Option<Bits>, Vec<Label>) {
     match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {

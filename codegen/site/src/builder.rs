@@ -67,7 +67,8 @@ fn on_canopen(device: &Device, pdo: &Pdo) -> Option<Json> {
     }))
 }
 
-/// Returns the data that only a PDO on EtherCAT has. Its assignment has the PDOs that are assigned to the same sync manager by default.
+/// Returns the data that only a PDO on EtherCAT has. Its assignment has the PDOs that are assigned to the same sync
+/// manager by default.
 fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
     if device.ethercat.is_none() || device.dictionary_only {
         return None;
@@ -87,8 +88,8 @@ fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
 }
 
 /// Returns the data of an object that can be mapped: index, sub-index, length in bits, address and name as one text,
-/// two flags (mappable into RPDOs, mappable into TPDOs), path in Rust, and the letters of its buses (`c` for CANopen, `e` for EtherCAT).
-/// Returns `None` if no PDO can map the object.
+/// two flags (mappable into RPDOs, mappable into TPDOs), path in Rust, and the letters of its buses (`c` for CANopen,
+/// `e` for EtherCAT). Returns `None` if no PDO can map the object.
 fn object(
     device: &Device,
     id: ItemId,

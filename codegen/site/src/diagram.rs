@@ -1,6 +1,7 @@
-//! Draws state machines. The states are in one column, and arrows between neighbors are straight. Each other arrow has a separate lane
-//! next to the column. The lane is on the left if the arrow leads down, and on the right if it leads up. So no two arrows overlap.
-//! The label of a lane is on its outer side, at a height where no arrow of an outer lane crosses it.
+//! Draws state machines. The states are in one column, and arrows between neighbors are straight. Each other arrow has
+//! a separate lane next to the column. The lane is on the left if the arrow leads down, and on the right if it leads
+//! up. So no two arrows overlap. The label of a lane is on its outer side, at a height where no arrow of an outer lane
+//! crosses it.
 
 mod lanes;
 
@@ -299,8 +300,8 @@ fn rows(any: usize, first: usize, edges: &[Edge]) -> Vec<Option<usize>> {
     rows
 }
 
-/// Returns the rank of each state: the number of transitions from the first state. Unreachable states have higher ranks, starting
-/// with states that no transition leads to.
+/// Returns the rank of each state: the minimum number of transitions from the first state. Unreachable states have
+/// higher ranks, starting with states that no transition leads to.
 fn ranks(count: usize, first: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     let mut ranks = vec![None; count];
     let mut last = follow(first, 0, edges, &mut ranks);

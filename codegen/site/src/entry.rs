@@ -123,7 +123,7 @@ impl Row {
     }
 }
 
-/// Facts about the description that do not belong to an item.
+/// Data about the description that the rows of all items use.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
     pub manual: &'d Manual,

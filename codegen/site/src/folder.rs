@@ -1,4 +1,5 @@
-//! Writes the pages of a catalog. Each device has a folder, and each description file has a folder for the pages that its devices share.
+//! Writes the pages of a catalog. Each device has a folder, and each description file has a folder for the pages that
+//! its devices share.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;

@@ -1,5 +1,5 @@
-//! Byte grids of cyclic data: rows of up to four bytes. A byte with single bits has two rows of four bits, so that each name has space on
-//! a phone, too. The script of the PDO builder makes the same rows.
+//! Byte grids of cyclic data: rows of up to four bytes. A byte with single bits has two rows of four bits, so that each
+//! name has space on a phone, too. The script of the PDO builder makes the same rows.
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{PdoEntry, PdoEntryKind};
@@ -111,7 +111,8 @@ fn splits_byte(pieces: &[Piece], start: u32) -> bool {
     at(pieces, start).is_some_and(|piece| piece.end < start + 8)
 }
 
-/// Returns the end of a row of whole bytes. Rows end at multiples of four bytes, except if one piece fills several such rows.
+/// Returns the end of a row of whole bytes. Rows end at multiples of four bytes, or before a byte in which a piece
+/// ends. A piece that fills several whole rows has only one row.
 fn end_of_bytes(pieces: &[Piece], start: u32) -> u32 {
     let piece_end = at(pieces, start).map_or(start + 8, |piece| piece.end);
     if start.is_multiple_of(ROW) && piece_end >= start + ROW {

@@ -143,13 +143,14 @@ impl Site {
         }
     }
 
-    /// Returns the pages of a catalog with this name, such as the name of its file. Each device has a folder for its vendor, its
-    /// product and its revision.
+    /// Adds a catalog with a name, such as the name of its file, and returns its pages. Each device has a folder for
+    /// its vendor, its product and its revision.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
         self.folder(name, catalog, ShownDiagnostics::default())
     }
 
-    /// Returns the pages of a compilation, including its diagnostics. Returns no pages if the compilation has errors.
+    /// Adds the catalog of a compilation and returns its pages, including its diagnostics. Returns no pages if the
+    /// compilation has errors.
     pub fn add_compilation(&mut self, name: &str, compilation: &Compilation) -> Vec<Page> {
         compilation
             .usable()

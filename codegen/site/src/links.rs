@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use lexibus_codegen::limits::{MAX_LINKED_PAGES, NEAR_LINKED_PAGES};
 
-/// File names and titles of pages in page order. `many` is the range of those pages of which a device can have very many.
+/// File names and titles of pages in page order. `many` is the range of the pages whose number can be very large.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     list: Vec<(String, String)>,

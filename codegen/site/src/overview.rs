@@ -123,7 +123,8 @@ fn addresses(device: &Device) -> &'static str {
     }
 }
 
-/// Returns the functions of a Modbus table, with the name of the table if there are several.
+/// Returns the functions and the maximum request lengths of a Modbus table, with the name of the table if there are
+/// several.
 fn modbus(table: &ModbusTable, is_one_of_several: bool) -> String {
     let functions: Vec<String> = table.functions.iter().map(u8::to_string).collect();
     let space = if is_one_of_several { format!("{}: ", table.space.title()) } else { String::new() };

@@ -88,8 +88,8 @@ impl Frameset {
 #[derive(Debug, Default)]
 pub(super) struct ListedCatalog {
     pub title: String,
-    /// Folder of the pages that all devices share, relative to the site's folder. If there are several devices, its first page lists
-    /// them.
+    /// Folder of the pages that all devices share, relative to the site's folder. If there are several devices, its
+    /// first page lists them.
     pub folder: String,
     pub devices: Vec<Listed>,
     /// Paths and titles of the pages that all devices share.
@@ -187,7 +187,7 @@ impl Listed {
     }
 }
 
-/// Sorts devices by vendor, family and title, newest revision first.
+/// Sorts devices by vendor, family, title and order code, newest revision first.
 pub(super) fn sort(devices: &mut [Listed]) {
     devices.sort_by_cached_key(|device| {
         let texts = [&device.vendor, &device.family, &device.title, &device.order_code].map(|text| text.to_lowercase());
@@ -230,7 +230,7 @@ pub(super) trait Pages {
 
     /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, index: &Index) -> Vec<Page>;
-    /// Returns the files that all pages share. `comparisons` are the paths and titles of comparisons. `index` is the search index of
-    /// all catalogs if there are several catalogs.
+    /// Returns the files that all pages share. `comparisons` are the paths and titles of comparisons. `index` is the
+    /// search index of all catalogs if there are several catalogs.
     fn of_site(&self, catalogs: &[ListedCatalog], comparisons: &[PageLink], index: Option<&Index>) -> Vec<Page>;
 }

@@ -98,7 +98,8 @@ impl<'d> Targets<'d> {
         self.items.get(&id?)
     }
 
-    /// Returns the link to a bit or value of an item. Returns the link to the item if its row refers to another row with the same type.
+    /// Returns the link to a bit or value of an item. If the row of the item does not show the bit or value, because it
+    /// refers to another row with the same type, returns the link to the item.
     pub fn part(&self, id: ItemId, part: Part) -> Option<&Link> {
         self.parts.get(&(id, part)).or_else(|| self.item(Some(id)))
     }

@@ -1,5 +1,5 @@
-//! Requests that read and write an item: bytes on each bus and lines of Python, for pages without a script. The script `requests.js`
-//! shows the same requests for a value, a node-ID and a unit that the reader chooses.
+//! Requests that read and write an item: bytes on each bus and lines of Python, for pages without a script. The script
+//! `requests.js` shows the same requests for a value, a node-ID and a unit that the reader chooses.
 
 mod object;
 
@@ -26,8 +26,8 @@ pub(super) fn is_of_record((title, _): &Request) -> bool {
     RECORD.contains(title)
 }
 
-/// Returns the requests of an item. The node-ID or the unit is 1. Write requests have the default value, or `xx` for its bytes if the
-/// item has no default value.
+/// Returns the requests of an item. The node-ID or the unit is 1. Write requests have the default value, or `xx` for
+/// its bytes if the item has no default value.
 ///
 /// `of_records` is the address of the submodule that has the records of the item.
 pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> Vec<Request> {

@@ -67,7 +67,7 @@ pub(super) struct Entry<'e> {
     pub words: &'e str,
 }
 
-/// A list without duplicates, in the order of their first occurrence.
+/// A list of values without duplicates, in the order of first occurrence.
 #[derive(Debug)]
 struct Distinct<T> {
     all: Vec<T>,
@@ -137,8 +137,9 @@ impl Index {
         }));
     }
 
-    /// Returns the first part of the index: all devices, and for each first character of a name or number the entries that most
-    /// pages have. Each entry is listed only on the first of its pages.
+    /// Returns the first part of the index: all devices, and for each first character of a name or number up to
+    /// [`FIRST`] entries, namely those that occur on the most pages. Each entry is listed only on the first of its
+    /// pages.
     fn first(&self) -> Index {
         let mut chosen = self.chosen();
         let mut first = Index::default();

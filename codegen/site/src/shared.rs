@@ -21,14 +21,14 @@ impl SharedDoubt {
     }
 }
 
-/// Removes ambiguities from the rows of an object if several rows have them, and returns them.
+/// Removes from the rows of an object each ambiguity that several rows have, and returns these ambiguities.
 pub(super) fn doubts(rows: &mut [Row]) -> Vec<SharedDoubt> {
     let shared = take(rows, |row| &mut row.doubts, Doubt::clone);
     shared.into_iter().map(|(doubt, entries)| SharedDoubt { doubt, entries }).collect()
 }
 
-/// Moves diagnostics from the rows of an object to the object if several rows have them. Diagnostics that the object already shows are
-/// removed from the rows.
+/// Moves diagnostics from the rows of an object to the object if several rows have them. Diagnostics that the object
+/// already shows are removed from the rows.
 pub(super) fn diagnostics(rows: &mut [Row], of_object: &mut Vec<ShownDiagnostic>) {
     let key = |shown: &ShownDiagnostic| (shown.position.clone(), shown.text.clone());
     let known: HashSet<_> = of_object.iter().map(key).collect();
@@ -36,8 +36,9 @@ pub(super) fn diagnostics(rows: &mut [Row], of_object: &mut Vec<ShownDiagnostic>
     of_object.extend(take(rows, |row| &mut row.diagnostics, key).into_iter().map(|(shown, _)| shown));
 }
 
-/// Removes the notes that several rows have from the rows, and returns them with the positions of the rows. The notes are in the order
-/// of their first occurrence. `list` returns the notes of a row. Notes with equal keys are the same.
+/// Removes from the rows each note that several rows have, and returns these notes with the positions of the rows. The
+/// notes are in the order of their first occurrence. `list` returns the notes of a row. Notes with equal keys are the
+/// same.
 fn take<T, K: Eq + Hash>(
     rows: &mut [Row],
     list: impl Fn(&mut Row) -> &mut Vec<T>,

@@ -73,7 +73,7 @@ impl ModuleLinks<'_> {
     }
 }
 
-/// How modules are assigned to slots. The order of the variants is the order of the rows.
+/// How modules are assigned to slots. Rows with the same slots have the order of the variants.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 enum Assignment {
     Fixed,
@@ -94,7 +94,8 @@ impl Assignment {
 /// Groups of modules that have the same slots and the same assignment. Slots are stored as the ranges of [`Numbers`].
 type Assigned = BTreeMap<(Vec<(u16, u16)>, Assignment), Vec<usize>>;
 
-/// Adds a module at this position in the list of all modules.
+/// Adds the module that has the position `at` in the list of all modules. A module without stated slots is possible in
+/// any slot.
 fn assign(assigned: &mut Assigned, at: usize, places: &SlotNumbers) {
     let is_anywhere = places.allowed.is_empty() && places.fixed.is_empty() && places.used.is_empty();
     let all = [
@@ -152,7 +153,7 @@ fn names_of(numbers: &Numbers, names: &BTreeMap<u16, &str>) -> String {
     shown.join(", ")
 }
 
-/// Returns the slots of a device with their modules.
+/// Returns the slots of a device with their modules, its subslots with their submodules, and its records.
 pub(super) fn slots(catalog: &Catalog, device: &Device, links: ModuleLinks<'_>) -> Slots {
     let mut left = MOST_LINKS;
     let mut assigned = Assigned::new();

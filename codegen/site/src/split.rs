@@ -35,7 +35,8 @@ impl Fill {
     }
 }
 
-/// Returns the range of the elements on each page. A page has up to `most` elements, whose size is at most `limit`.
+/// Returns the range of the elements on each page. A page has up to `most` elements, whose total size is at most
+/// `limit`, or a single larger element.
 pub(super) fn ranges(sizes: impl IntoIterator<Item = usize>, most: usize, limit: usize) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     let mut fill = Fill { limit, ..Fill::new(most) };

@@ -13,8 +13,8 @@ pub(super) fn scale(item: &Item) -> String {
     }
 }
 
-/// Returns the raw values that can be written: `1..99`, or several ranges separated by blanks. A missing number means no limit. The text
-/// is empty if all values of the type can be written, or if a limit is not a number.
+/// Returns the raw values that can be written: `1..99`, or several ranges separated by spaces. A missing number means
+/// no limit. The text is empty if all values of the type can be written, or if a limit is not a number.
 pub(super) fn range(item: &Item) -> String {
     let number = |value: Option<&Value>| match value {
         None => Some(String::new()),
@@ -38,8 +38,8 @@ pub(super) fn range(item: &Item) -> String {
 ///   no requests on EtherCAT.
 /// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
 ///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
-/// - `r 1 8 16 4 API 0, slot 1, subslot 1`: record, bit offset and number of bits of the item, number of bytes from the start of the
-///   record to the end of the item, and `of_records`, the address of the submodule that has the record.
+/// - `r 1 8 16 4 API 0, slot 1, subslot 1`: record, bit offset and number of bits of the item, number of bytes from the
+///   start of the record to the end of the item, and `of_records`, the address of the submodule that has the record.
 pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> String {
     let address = |binding: &Binding| match binding {
         Binding::Object { buses, index, sub_index } => {

@@ -1,5 +1,5 @@
-//! Devices of a description that look identical in a list of devices. Identical descriptions are merged into one row, and others are
-//! distinguished by a note.
+//! Devices of a description that look identical in a list of devices. Identical descriptions are merged into one row,
+//! and others are distinguished by a note.
 
 use std::collections::HashMap;
 

@@ -3,8 +3,8 @@
 pub(super) use lexibus_codegen::facts::words::{one_line, PLAIN};
 use lexibus_codegen::ir::{Documentation, Texts};
 
-/// Returns the name of a state or command in words: `switch on disabled` for the identifier `switch_on_disabled`. Other names than
-/// lowercase identifiers stay unchanged.
+/// Returns the name of a state or command in words: `switch on disabled` for the identifier `switch_on_disabled`. Names
+/// that are not lowercase identifiers stay unchanged.
 pub(super) fn readable(name: &str) -> String {
     let is_identifier = name.chars().all(|letter| letter.is_lowercase() || letter.is_ascii_digit() || letter == '_');
     if is_identifier {
@@ -17,9 +17,8 @@ pub(super) fn readable(name: &str) -> String {
 /// Separator of the languages that share a translation.
 const SEPARATOR: &str = ", ";
 
-/// Returns the translations of a name, each with its languages: `("de, fr", "Position")`. Translations that equal `name`, apart from capitals,
-/// underscores and hyphens, are left out.
-/// Languages with the same text share one entry.
+/// Returns the translations of a name, each with its languages: `("de, fr", "Position")`. Translations that equal
+/// `name`, apart from capitals, underscores and hyphens, are left out. Languages with the same text share one entry.
 pub(super) fn names(name: &str, translations: &Texts) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = Vec::new();
     let original = compared(name);
@@ -35,8 +34,8 @@ pub(super) fn names(name: &str, translations: &Texts) -> Vec<(String, String)> {
     all
 }
 
-/// Returns a text in the form in which a name and its translation are compared: `switch on disabled` for `switch_on_disabled` and for
-/// `Switch ON disabled`.
+/// Returns a text in the form in which a name and its translation are compared: `switch on disabled` for
+/// `switch_on_disabled` and for `Switch ON disabled`.
 fn compared(text: &str) -> String {
     one_line(&text.replace(['_', '-'], " ")).to_lowercase()
 }

@@ -25,8 +25,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the location of the first reference, type or limit that comes from an overlay, or the location of the row if
-/// none does.
+/// Returns the location of the first fact that comes from an overlay: the reference, the type, the minimum or the
+/// maximum. Returns the location of the row if none of these facts comes from an overlay.
 fn difference_span(item: &Item, alias: &ItemRef) -> Span {
     let row = item.origin.span;
     let facts = [alias.span, item.at.ty, item.at.others.low, item.at.others.high];
@@ -102,7 +102,8 @@ fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     found
 }
 
-/// Returns a text about the first value or bit whose names differ between the two types.
+/// Returns a text about the first values or bits whose names differ between the two types, with the number of further
+/// differences.
 fn names(one: &Shape, other: &Shape) -> Option<String> {
     let what = match one {
         Shape::BitField { .. } => "bit",

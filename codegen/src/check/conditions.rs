@@ -60,7 +60,7 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
 }
 
 /// Reports modes without bits: values of an enumeration for which a bit field defines no bits, although other values of
-/// the enumeration select bits.
+/// the enumeration select bits. The value 0 is not reported.
 fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Condition], diagnostics: &mut Diagnostics) {
     if !diagnostics.wants(&codes::MODE_WITHOUT_BITS) {
         return;

@@ -45,8 +45,7 @@ pub(super) fn code_tables(context: &Context<'_>, diagnostics: &mut Diagnostics) 
     }
 }
 
-/// Returns the first two elements of a sorted list whose ranges overlap, unless `are_distinct` is true for these two
-/// elements.
+/// Returns the first two elements of a sorted list whose ranges overlap and for which `are_distinct` is false.
 fn overlap<'v, V>(
     sorted: &[&'v V],
     range: impl Fn(&V) -> (i128, i128),

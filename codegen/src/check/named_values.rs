@@ -148,7 +148,8 @@ impl Check<'_, '_> {
         }
     }
 
-    /// Reports a value that sets reserved bits, or clears reserved bits that must be 1.
+    /// Reports a value that sets reserved bits, or that clears reserved bits that must be 1. A limit may clear these
+    /// bits.
     fn meaningless(&mut self, fields: &[BitFieldEntry], number: Number, bits: u64) {
         let Number { what, span, .. } = number;
         let is_limit = matches!(what, "minimum" | "maximum");

@@ -10,7 +10,7 @@ use crate::resolve::{
 use crate::source::Span;
 use crate::text::count_of;
 
-/// Reports invalid PDO mappings of a CANopen device.
+/// Reports invalid PDO mappings and wrong numbers of PDOs of a CANopen device.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Some(canopen) = &context.device.canopen else { return };
     let items = MappableItems::new(context.device, context.modules);

@@ -13,7 +13,8 @@ use crate::text::brief;
 /// Objects that assign PDOs to sync managers 2 and 3.
 const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
 
-/// Reports steps that contradict the facts of their items.
+/// Reports steps that contradict the facts of their items, and contradictions between the PDO mappings, PDO assignments
+/// and COB-IDs that a procedure writes.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     for procedure in &device.procedures {
@@ -155,7 +156,8 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
     }
 }
 
-/// Returns the PDO that has this COB-ID by default, for any node-ID, unless the PDO at `index` can have this COB-ID too.
+/// Returns the index of the communication parameters of the PDO that has this COB-ID by default, for any node-ID.
+/// Returns `None` if there is no such PDO, or if the PDO at `index` can have this COB-ID by default.
 fn owner_of_cob_id(device: &Device, index: u16, value: i128) -> Option<u16> {
     let is_of_some_node = |item: &Item| match item.default {
         Some(Value::NodeId(base)) => value.checked_sub(base).is_some_and(|node| (1..=127).contains(&node)),

@@ -9,7 +9,8 @@ use super::Level;
 pub enum Class {
     /// The input cannot be used. These codes are always errors.
     Error,
-    /// The input breaks a rule, and was repaired or kept as text. These codes are errors in strict mode.
+    /// The input breaks a rule, and was repaired or kept as text. These codes are errors in strict mode, unless the
+    /// user sets their level.
     Repair,
     /// The input is suspicious, but was read unchanged.
     Lint,

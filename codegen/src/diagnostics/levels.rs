@@ -9,18 +9,18 @@ use super::Severity;
 /// The level of a diagnostic code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
-    /// The code is not reported.
+    /// Diagnostics with the code are not reported.
     Allow,
-    /// The code is reported as a warning.
+    /// Diagnostics with the code are reported as warnings.
     Warn,
-    /// The code is reported as an error.
+    /// Diagnostics with the code are reported as errors.
     Deny,
 }
 
 /// Levels of all codes in one compilation.
 ///
 /// The level of a code takes precedence over the mode. If a level is set twice, the last setting applies. The name `warnings`
-/// means all codes that are warnings by default.
+/// means all codes that are warnings by default, except codes with a level of their own and, in strict mode, repairs.
 #[derive(Clone, Debug, Default)]
 pub struct Levels {
     strict: bool,
@@ -66,7 +66,7 @@ impl Levels {
     ///
     /// # Errors
     ///
-    /// Fails if no code has that name.
+    /// Fails if `name` is neither `warnings` nor the identifier or name of a code.
     pub fn set(&mut self, name: &str, level: Level) -> Result<(), UnknownCode> {
         if name == "warnings" {
             self.warnings = Some(level);

@@ -158,8 +158,8 @@ fn alias(name: &str) -> Option<Type> {
     })
 }
 
-/// Returns the basic type with this number in ETG.1000.6. Numbers up to 0x1B have the same meaning in CiA 301; numbers
-/// from 0x20 have another meaning.
+/// Returns the basic type with this number in ETG.1000.6. Numbers up to 0x1B have the same meaning in CiA 301; greater
+/// numbers have another meaning or none.
 pub fn by_code(code: u32) -> Option<Basic> {
     Some(match code {
         0x1D => Basic::Type(Type::OctetString(Some(16))),

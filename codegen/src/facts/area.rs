@@ -2,7 +2,8 @@
 
 use crate::ir::{Group, GroupKind};
 
-/// Returns the title of the area to which a group belongs: its chapter, its process image or its range of objects.
+/// Returns the title of the area to which a group belongs: its chapter, its process image, its record or its range of
+/// objects.
 pub fn title(group: &Group) -> String {
     match &group.kind {
         GroupKind::Object { index, .. } => objects(*index).to_owned(),

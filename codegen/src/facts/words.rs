@@ -219,7 +219,8 @@ impl Words<'_> {
             .then(|| format!("The access rights ({assumed}) are an assumption, because the manual states none."))
     }
 
-    /// Returns sentences about the storage of a value, the side effects of writing it, and the conditions for writing it.
+    /// Returns sentences about the storage of a value, the access rights of the slave application, the side effects of
+    /// writing the value, and the conditions for writing it.
     pub fn behavior(&self, behavior: &Behavior) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.extend(self.storage(&behavior.storage).map(|storage| sentence(&capital(&storage))));
@@ -419,8 +420,8 @@ impl Words<'_> {
         list.join(", ")
     }
 
-    /// Returns sentences about the models, firmware versions, buses and options with which an element exists. The text is empty
-    /// if the element always exists.
+    /// Returns sentences about the models, firmware versions, buses and options with which an element exists, and about the
+    /// element that replaces it. The text is empty if the element always exists and is not replaced.
     pub fn availability(&self, availability: &Availability) -> String {
         let mut sentences = Vec::new();
         if !availability.models.is_empty() {

@@ -7,7 +7,7 @@ use crate::ir::Format;
 use crate::source::{FileId, Source, Span};
 use crate::syntax::ini::{Document, Section};
 
-/// Number of bytes, from the start of the file, that are searched for the root element or the first sections.
+/// Number of bytes, from the start of an XML file, in which the root element and its profile are searched.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
 /// Recognizes a register table by its file name or its first key.

@@ -113,8 +113,8 @@ pub enum Binding {
     Record {
         /// Index of the record.
         index: u16,
-        /// Bit offset in the record. Bit 0 is the least significant bit of the first byte. A number of several bytes is
-        /// big-endian and starts at bit 0 of its first byte.
+        /// Bit offset in the record. Bit 0 is the least significant bit of the first byte. A number of several bytes is big-endian,
+        /// and its offset is that of bit 0 of its first byte.
         bit_offset: u32,
         /// Length in bits.
         bits: u32,
@@ -132,7 +132,7 @@ pub enum Binding {
         /// Length in bytes.
         length: u16,
     },
-    /// Indirect access through a window: one item selects the parameter, another item transfers its value.
+    /// Indirect access through a window: one item selects the parameter, and another item transfers the parameter's value.
     Indirect(Box<IndirectBinding>),
 }
 
@@ -186,7 +186,7 @@ pub struct RegisterBinding {
     /// True if the word order is an assumption.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_false"))]
     pub is_order_assumed: bool,
-    /// Number of registers, coils or discrete inputs.
+    /// Number of 16-bit words, coils or discrete inputs. A 32-bit register counts as two words.
     pub count: u16,
     /// True if the least significant word comes first.
     pub low_word_first: bool,
@@ -282,7 +282,8 @@ pub struct ParameterBinding {
     pub code: u32,
 }
 
-/// Indirect access through a window: the number of the parameter is written to one item, and another item transfers its value.
+/// Indirect access through a window: a client writes the number of the parameter to one item, and reads or writes the parameter's
+/// value through another item.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndirectBinding {
@@ -304,17 +305,17 @@ pub struct IndirectBinding {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WindowSide {
-    /// Item that receives the number of the parameter.
+    /// Item to which a client writes the number of the parameter.
     pub number: ItemRef,
-    /// Item that transfers the value of the parameter.
+    /// Item through which a client reads or writes the value of the parameter.
     pub value: ItemRef,
     /// True if a client has to write the number before the value; `None` if the source does not state the order.
     pub number_first: Option<bool>,
     /// True if the device sets the number to 0 after the access; `None` if the source does not state it.
     pub clears: Option<bool>,
-    /// Time in milliseconds that the access takes.
+    /// Time in milliseconds that the access takes, if the device does not set the number to 0.
     pub wait: Option<u32>,
-    /// Timeout in milliseconds until the device sets the number to 0.
+    /// Maximum time in milliseconds until the device sets the number to 0.
     pub timeout: Option<u32>,
     /// Procedure that performs the access, if the source describes one.
     pub procedure: Option<ProcedureRef>,
@@ -457,7 +458,7 @@ pub enum Storage {
     OnCommand(ElementRef),
 }
 
-/// Models, firmware versions, options and buses with which an element exists.
+/// Models, firmware versions, hardware options and buses on which an element exists.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Availability {

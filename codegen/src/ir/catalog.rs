@@ -236,7 +236,7 @@ impl Manual {
     }
 }
 
-/// Description of an element, from the source or a manual.
+/// Description of an element, with its translations, citation and origin.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documentation {

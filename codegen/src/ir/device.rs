@@ -44,7 +44,7 @@ pub struct Device {
     pub commissioning: Option<Box<Commissioning>>,
     /// Types that the device defines.
     pub types: Vec<TypeDef>,
-    /// Chapters of registers, followed by objects sorted by index.
+    /// Groups without an index, such as chapters of registers, followed by objects sorted by index.
     pub groups: Vec<Group>,
     /// Cyclic data of the device.
     pub process_data: ProcessData,
@@ -318,13 +318,13 @@ pub struct Commissioning {
     pub connected_modules: Vec<u16>,
 }
 
-/// A model or firmware version of a device family with a common description.
+/// A model or firmware version of a device family whose members share one description.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Variant {
     /// Name of the variant.
     pub name: CompactString,
-    /// Identity of the variant, if it differs from the identity of the device.
+    /// Identity of the variant, without the facts that all variants share, such as the vendor.
     pub identity: Identity,
     /// Names and values of the variant's constants, such as base values of fractions.
     pub constants: Vec<(CompactString, Value)>,
@@ -352,7 +352,7 @@ pub struct AxisRule {
 pub struct AxisRange {
     /// First and last index of the range.
     pub indices: (u16, u16),
-    /// Difference between the addresses of one axis and of the next axis.
+    /// Difference between the address of an object on one axis and on the next axis.
     pub step: AxisStep,
 }
 

@@ -67,7 +67,7 @@ pub struct SyncUnit {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mailbox {
-    /// True if the device supports the data link layer of the mailbox, which repeats lost requests.
+    /// True if the device supports the data link layer of the mailbox, which repeats lost messages.
     pub data_link_layer: bool,
     /// True if the mailbox runs in real-time mode.
     pub real_time: bool,
@@ -105,7 +105,7 @@ pub struct Coe {
     pub pdo_assign: bool,
     /// True if the PDO mapping can be written (0x1600 …, 0x1A00 …).
     pub pdo_config: bool,
-    /// True if a master reads the PDO assignment from the device.
+    /// True if a master reads the PDO mapping and the PDO assignment from the device.
     pub pdo_upload: bool,
     /// True if complete access is supported: the transfer of all sub-indices at once.
     pub complete_access: bool,

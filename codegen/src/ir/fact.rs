@@ -31,7 +31,7 @@ pub enum Fact {
     Unit,
     /// Storage of the value, side effects of writing it, and conditions for writing it.
     Behavior,
-    /// Models, firmware versions and buses on which the item exists.
+    /// Models, firmware versions, hardware options and buses on which the item exists.
     Availability,
     /// Differences of the item between models or buses.
     Variants,
@@ -59,6 +59,7 @@ impl Fact {
     ];
 
     /// Returns whether this fact differs between two items. Both [`Fact::Type`] and [`Fact::Meaning`] compare the item's type.
+    /// [`Fact::ObjectType`] never differs, because items have no object type.
     #[cfg(feature = "table")]
     pub(crate) fn differs(self, one: &Item, other: &Item) -> bool {
         match self {
@@ -78,7 +79,7 @@ impl Fact {
         }
     }
 
-    /// Returns whether the description of an item states this fact. Addresses, type, access rights and PDO mapping
+    /// Returns whether the description of an item states this fact. Addresses, object type, type, access rights and PDO mapping
     /// always count as stated.
     pub(crate) fn is_stated(self, item: &Item) -> bool {
         match self {
@@ -144,14 +145,15 @@ pub enum Rule {
     ReservedEntry,
     /// Objects of implicit PDOs, which the description counts but does not describe, have the facts of CiA 301.
     AnnouncedPdo,
-    /// An object that only PDO entries describe can be written if an RPDO maps it.
+    /// An object that only PDO entries describe is read-write if an RPDO maps it, and otherwise read-only.
     MappedObject,
     /// Items of an EDS, XDD or ESI without access rights are read-only, except domains of CANopen, which are read-write. Items
     /// without a data type are read-only raw bytes.
     MissingKey,
-    /// Identity numbers that the header of the description lacks are the default values of object 0x1018.
+    /// Identity numbers that are missing or 0 in the header of the description come from the default values of object 0x1018.
     IdentityObject,
-    /// An object has the object type that matches its sub-indices if the stated object type is missing, unknown or contradicts them.
+    /// An object has the object type that matches its sub-indices if the stated object type is missing or unknown, or contradicts
+    /// the sub-indices.
     ObjectContents,
     /// Sub-index 0 of an object with compact sub-indices contains their number (CiA 306, CompactSubObj).
     CompactObject,
@@ -182,12 +184,12 @@ impl FactOrigin {
 pub struct FactOrigins(pub ThinVec<(Fact, FactOrigin)>);
 
 impl FactOrigins {
-    /// Returns whether all facts come from the description itself.
+    /// Returns whether no origin is recorded. If so, all facts come from the description itself.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Returns the recorded origin of a fact.
+    /// Returns the recorded origin of a fact, or `None` if the fact is missing or comes from the description itself.
     pub fn get(&self, fact: Fact) -> Option<&FactOrigin> {
         self.0.iter().find(|(recorded, _)| *recorded == fact).map(|(_, origin)| origin)
     }

@@ -6,7 +6,7 @@ use super::{Availability, CompactString};
 use crate::text::glob;
 
 /// Returns the numbers of a version without trailing zeros: `6.27` is later than `6.3`, and `6` is `6.0`. Returns `None` if the
-/// version is not a sequence of numbers.
+/// version does not consist of numbers separated by points.
 pub(crate) fn version(text: &str) -> Option<Vec<u32>> {
     let mut numbers = text.split('.').map(|part| part.parse().ok()).collect::<Option<Vec<u32>>>()?;
     while numbers.len() > 1 && numbers.last() == Some(&0) {

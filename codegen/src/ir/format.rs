@@ -93,7 +93,7 @@ impl Format {
         matches!(self, Format::Table | Format::Esi | Format::Xdd)
     }
 
-    /// Returns whether files of the format describe devices on PROFINET, whose slots have the values.
+    /// Returns whether files of the format describe devices on PROFINET. The values of such devices belong to slots.
     pub fn is_of_profinet(self) -> bool {
         self == Format::Gsdml
     }

@@ -38,9 +38,9 @@ pub struct Item {
     pub quantity: Option<Box<Quantity>>,
     /// Storage of the value, side effects of writing it, and conditions for writing it.
     pub behavior: Option<Box<Behavior>>,
-    /// Models, firmware versions, options and buses on which the item exists.
+    /// Models, firmware versions, hardware options and buses on which the item exists.
     pub availability: Option<Box<Availability>>,
-    /// Items that contain the same value, a part of the value, or its length.
+    /// Items with the same value or quantity, with the upper half of the value, or with the number of valid elements.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub related: Option<Box<RelatedItems>>,
     /// True if the sub-index is reserved: it exists, but has no meaning.
@@ -99,7 +99,7 @@ impl Item {
         }
     }
 
-    /// Returns the index and sub-index of the item, if it is in an object dictionary.
+    /// Returns the index and sub-index of the item, if it has an object address. If it has several, returns the first one.
     pub fn object(&self) -> Option<(u16, u8)> {
         self.bindings.iter().find_map(|binding| match binding {
             Binding::Object { index, sub_index, .. } => Some((*index, *sub_index)),
@@ -164,13 +164,13 @@ impl Item {
         self.configured_value().or(self.default.as_ref())
     }
 
-    /// Returns the default value of the item, if it is an integer.
+    /// Returns the default value of the item, if it is an integer or a BOOLEAN.
     pub fn default_integer(&self) -> Option<i128> {
         self.default.as_ref().and_then(Value::as_int)
     }
 }
 
-/// References to items that contain the same value, a part of the value, or its length.
+/// References to items with the same value or quantity, with the upper half of the value, or with the number of valid elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RelatedItems {
@@ -254,7 +254,7 @@ pub struct Configured {
     pub value: Option<Value>,
     /// Name of the item in the application (Denotation).
     pub denotation: Option<CompactString>,
-    /// File for the content of a domain that was read (UploadFile).
+    /// File in which the content that was read from a domain is stored (UploadFile).
     pub upload_file: Option<CompactString>,
     /// File whose content is written to a domain (DownloadFile).
     pub download_file: Option<CompactString>,
@@ -293,7 +293,7 @@ pub struct Group {
     pub origin: Origin,
     /// Location of the group's name in the source.
     pub name_at: Span,
-    /// Origins of the group's name and description, if they do not come from the description file itself.
+    /// Origins of the group's name, object type and description, if they do not come from the description file itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "FactOrigins::is_empty"))]
     pub origins: FactOrigins,
 }
@@ -384,7 +384,7 @@ pub struct Record {
     pub length: u32,
     /// Position of the record in the order of transfer at start-up; 0 = any position.
     pub transfer_sequence: u16,
-    /// True if a change of the record during operation disturbs the device (`ChangeableWithBump`); `None` = not given.
+    /// True if a change to the record during operation disturbs the device (`ChangeableWithBump`); `None` = not given.
     pub changeable_with_bump: Option<bool>,
     /// Fixed bytes of the record, with their byte offsets. Bytes of the record that have neither a constant nor an item are 0.
     pub constants: Vec<(u32, Vec<u8>)>,

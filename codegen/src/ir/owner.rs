@@ -49,7 +49,7 @@ impl<'a> Owner<'a> {
         (0..).zip(groups).flat_map(ids)
     }
 
-    /// Returns the definition of a named type, after following aliases.
+    /// Returns the definition of a named type, after following aliases, or `None` for a basic type.
     pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {
@@ -63,7 +63,7 @@ impl<'a> Owner<'a> {
         None
     }
 
-    /// Returns the length of a type in bits, if the type has a fixed length.
+    /// Returns the length of a type in bits, if the type has a fixed length. For a string, returns the maximum length, if known.
     pub fn fixed_bits(self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize)?.bits,
@@ -202,7 +202,7 @@ pub(crate) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
     Some(first && zones.all(|is_reserved| is_reserved))
 }
 
-/// Returns the only value that an item can have, if its minimum and maximum are equal.
+/// Returns the only value that an item can have, if its minimum and maximum are equal integers.
 pub(crate) fn fixed(item: &Item) -> Option<i128> {
     let low = item.limits.low.as_ref().and_then(Value::as_int)?;
     (item.limits.high.as_ref().and_then(Value::as_int) == Some(low)).then_some(low)

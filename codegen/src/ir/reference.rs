@@ -150,7 +150,7 @@ impl Device {
     }
 }
 
-/// A reference to another element of the same device.
+/// A reference to another element, usually of the same device.
 ///
 /// A reference dereferences to its name. Two references with the same name are equal. The serialized form is the name, because
 /// adding or removing an element changes ids.

@@ -163,7 +163,7 @@ pub struct Family {
     pub origin: Origin,
 }
 
-/// Slots of a module, or subslots of a submodule. If all lists are empty, each slot that accepts the module can contain it.
+/// Slots of a module, or subslots of a submodule. If all lists are empty, they exclude no slot or subslot.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlotNumbers {

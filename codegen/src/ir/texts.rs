@@ -11,7 +11,7 @@ pub(crate) struct Text<'a> {
     pub words: &'a str,
 }
 
-/// Returns the texts of the items, objects, types and procedures of a device, without texts from profiles.
+/// Returns the texts of the groups, items, types and procedures of a device, without texts from profiles.
 pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {

@@ -1,9 +1,10 @@
-//! Identity of a device: missing numbers come from object 0x1018 (CiA 301 7.5.2.19).
+//! Identity of a device: numbers that are missing or 0 come from object 0x1018 (CiA 301 7.5.2.19).
 
 use crate::ir::{Device, FactOrigin, Identity, IdentityNumber, Rule, Value};
 use crate::source::Span;
 
-/// Completes the identity of a device. EtherCAT devices are not changed, because a missing number in Type (ETG.2000) matches any number.
+/// Completes the identity of a device. Does not change EtherCAT devices, because a missing number in Type (ETG.2000) matches any
+/// number.
 pub(super) fn run(device: &mut Device) {
     if device.ethercat.is_some() {
         return;
@@ -24,7 +25,7 @@ fn number_mut(identity: &mut Identity, number: IdentityNumber) -> &mut Option<u3
     }
 }
 
-/// Returns the default value of an entry in object 0x1018, with its location.
+/// Returns the default value of an entry in object 0x1018 with its location, if the value is an unsigned 32-bit number.
 pub(crate) fn in_object(device: &Device, number: IdentityNumber) -> Option<(u32, Span)> {
     let item = device.entry(0x1018, number as u8 + 1)?;
     let value = item.default.as_ref().and_then(Value::as_int)?;

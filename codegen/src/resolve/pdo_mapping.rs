@@ -145,7 +145,7 @@ pub(crate) fn is_multiplexed(count: Option<i128>) -> bool {
     matches!(count, Some(254 | 255))
 }
 
-/// Returns the values of a mapping object, up to the number in sub-index 0.
+/// Returns the values of a mapping object, up to the number in sub-index 0. Returns all values if this number is unknown.
 pub(crate) fn mapping_values(mapping: &Group) -> impl Iterator<Item = MappingValue<'_>> {
     let count = announced_count(mapping);
     let subs = mapping.items.iter().filter_map(|item| Some((item.object()?.1, item))).filter(|(sub, _)| *sub > 0);
@@ -189,7 +189,7 @@ fn pdo(device: &Device, items: &MappableItems<'_>, objects: &PdoObjects<'_>) -> 
     Some(pdo)
 }
 
-/// Returns the PDO entry for a mapping value.
+/// Returns the PDO entry for a mapping value, or `None` if the value is empty or unreadable.
 fn entry(items: &MappableItems<'_>, value: &MappingValue<'_>, bit_offset: u32) -> Option<PdoEntry> {
     let MappingWord::Object(index, sub_index, bits) = value.word else { return None };
     let mut entry = PdoEntry { bit_offset, origin: value.item.origin, ..PdoEntry::new(index, sub_index, bits) };

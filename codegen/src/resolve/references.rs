@@ -10,7 +10,7 @@ use crate::ir::{
     SpaceId, StateId, StateMachine, Step, Transition, TypeDef, TypeId, VariantId,
 };
 
-/// Resolves the references of a device. Returns whether the device contains a reference to an item.
+/// Resolves the references of a device. Returns whether the device contains a reference whose target can be an item.
 pub(super) fn device(device: &mut Device) -> bool {
     mapped_items(&mut device.process_data.pdos, &device.groups, 0);
     messages(device);

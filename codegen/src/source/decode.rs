@@ -133,8 +133,8 @@ pub(super) fn charset(label: &str) -> Option<&'static str> {
 /// Returns the decoded text, and whether some bytes are invalid in the encoding.
 fn with(charset: &'static Charset, bytes: &[u8]) -> (String, bool) {
     let mut decoder = charset.new_decoder_without_bom_handling();
-    // Most characters have the same number of bytes in the input and in UTF-8. In the worst case, the text has three
-    // times as many bytes as the input.
+    // Most characters have no more bytes in UTF-8 than in the input. In the worst case, the text has three times as many bytes as
+    // the input.
     let mut text = String::with_capacity(bytes.len() + bytes.len() / 32 + ROOM);
     let (mut rest, mut has_lost) = (bytes, false);
     loop {

@@ -1,4 +1,4 @@
-//! The SHA-256 of a file, computed on first use. The digest is needed only for generated code.
+//! The SHA-256 of a file, computed on first use. Only some outputs, such as generated code, need the digest.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

@@ -16,8 +16,8 @@ impl Source {
     ///
     /// The ranges are byte offsets into [`Source::text`]. They must be in ascending order and must not overlap.
     ///
-    /// Returns `None` if the ranges violate this rule, or if the encoding of the file lacks a character of a
-    /// replacement. Also returns `None` if a reader would not decode the new bytes to the new text.
+    /// Returns `None` if the ranges violate this rule or do not start and end at character boundaries, or if the encoding of the
+    /// file lacks a character of a replacement. Also returns `None` if a reader would not decode the new bytes to the new text.
     pub fn replaced(&self, replacements: &[(Range<usize>, &str)]) -> Option<Source> {
         let bytes = self.bytes();
         let form = Form::of(self, &bytes)?;

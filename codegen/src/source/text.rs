@@ -175,7 +175,7 @@ impl Source {
         before.characters + characters(&self.text().as_bytes()[at..offset])
     }
 
-    /// Returns the text of line `line` (counted from 1) without its line end.
+    /// Returns the text of line `line` (counted from 1) without its line end, or an empty text if there is no such line.
     pub fn line(&self, line: u32) -> &str {
         let Some(start) = self.start_of_line(line.max(1)) else { return "" };
         let length = self.text().len();

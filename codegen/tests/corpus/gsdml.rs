@@ -318,7 +318,7 @@ fn data(catalog: &Catalog) -> impl Iterator<Item = &IoData> {
     catalog.submodules.iter().flat_map(|found| found.input.iter().chain(&found.output)).map(|data| &**data)
 }
 
-/// Returns the number of data items: items that became a single field, and items with several fields.
+/// Returns the number of data items: items that became a single field, and items with several fields or none.
 fn data_items(data: &IoData) -> usize {
     let within: u32 = data.items.iter().map(|item| item.fields).sum();
     data.image.fields.len() - within as usize + data.items.len()

@@ -54,7 +54,7 @@ fn e31_line_ends(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
-/// E32: a Ctrl-Z ends the text if only whitespace and Ctrl-Z characters follow. Returns the text before the Ctrl-Z.
+/// E32: a Ctrl-Z ends the text if only whitespace, Ctrl-Z and NUL characters follow. Returns the text before these characters.
 fn e32_ctrl_z(text: &str) -> &str {
     text.trim_end_matches([' ', '\t', '\r', '\n', '\u{1a}', '\0'])
 }
@@ -223,7 +223,7 @@ fn other_line_ends_marks_and_indents_change_nothing() {
     }
 }
 
-/// E60, E62: removes whitespace around keys, values and headers.
+/// E60, E62: adds whitespace around keys, values and headers.
 fn e60_blanks(text: &str) -> String {
     let line = |line: &str| match corpus_support::entry(line) {
         Some((key, value)) => format!("  {key} =\t{value} \n"),

@@ -103,7 +103,8 @@ fn part_of(name: &str) -> Option<(u16, Part)> {
     Some((index.try_into().ok()?, part))
 }
 
-/// Splits a value that is not free text from the comment after it. The comment includes its mark (E20, E21).
+/// Separates a value from the comment after it. The value must not be free text, which contains no comments. The comment includes
+/// its mark (E20, E21).
 pub fn cut(text: &str) -> (&str, &str) {
     match text.find([';', '#']) {
         Some(at) => (text[..at].trim_end(), &text[at..]),

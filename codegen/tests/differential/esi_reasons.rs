@@ -165,9 +165,9 @@ fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
     }
 }
 
-/// Returns the purpose of a sync manager whose text does not state a purpose. The purpose follows from mode and
-/// direction in the control byte. Without a control byte, it follows from the position: if the device has four sync
-/// managers, the first two belong to the mailbox.
+/// Returns the purpose of a sync manager whose text does not state a purpose. The purpose follows from mode and direction in the
+/// control byte. Without a control byte, it follows from the position: if the device has at least four sync managers, the first two
+/// belong to the mailbox.
 fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, place) = element.split_once(" Sm ")?;
     let control = case.peer.get(element)?.get("control").map_or(Some(0), |control| control.parse::<u8>().ok())?;

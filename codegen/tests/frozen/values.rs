@@ -1,5 +1,5 @@
-//! Writes the resolved values of a catalog as text with one line per address. The text contains no field names of the IR, so
-//! it does not change if the structure of the IR changes.
+//! Writes the resolved values of a catalog as text with one line per element. The text contains no field names of the IR, so it
+//! does not change if the structure of the IR changes.
 
 use std::fmt::Write;
 

@@ -32,8 +32,8 @@ fn worked_examples() {
     let machine = |item: &Item, raw: f64, turn: f64| {
         physical(device, item, "SM137 rev. C", raw, &[("screw pitch", pitch), ("counts per turn", turn)])
     };
-    // Section 3.7 misprints 6780.8465 mm as 6766.8176 mm, and section 3.9 misprints 00 1B 6F 9E as 01 1B 6F 9E. Results in the
-    // sections 3.8 and 3.10 are truncated.
+    // Section 3.6 misprints 6780.8465 mm as 6766.8176 mm. The sections 3.9 and 3.10 misprint 00 1B 6F 9E as 01 1B 6F 9E. Results in
+    // the sections 3.8 and 3.10 are truncated.
     let position = field("CmdMazz", false, "position");
     assert_eq!((6780.8465 / machine(&position, 1.0, turn)) as i64, 0x0102_AB34);
     let target = field("CmdTraj", false, "target");

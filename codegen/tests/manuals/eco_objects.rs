@@ -113,7 +113,7 @@ fn every_object_is_there_at_its_line() {
         }
     }
     assert_eq!(wrong, Vec::<String>::new());
-    // Add the four objects that exist only on EtherCAT to the objects of CANopen.
+    // In addition to the printed objects of CANopen, the register table has only the four objects of EtherCAT.
     let all: BTreeSet<u16> = items(device).filter_map(|item| item.object()).map(|object| object.0).collect();
     assert_eq!(all.difference(&indices).copied().collect::<Vec<_>>(), [0x1C12, 0x1C13, 0x2007, 0x603F]);
     assert!(indices.is_subset(&all));
@@ -229,8 +229,8 @@ struct Slot {
     pdos: Vec<(u16, Vec<Mapped>)>,
 }
 
-/// Returns the printed slots of the ESI, with the mode of operation, one PDO in each direction, and the entries of these
-/// PDOs (section "PDO" of "Parametrizzazione EtherCAT per drive").
+/// Compares the printed slots of the ESI: the mode of operation, one PDO in each direction, and the entries of these PDOs (section
+/// "PDO" of "Parametrizzazione EtherCAT per drive").
 #[test]
 fn slots_of_ethercat_are_the_printed_ones() {
     let Some(manual) = manual() else { return };

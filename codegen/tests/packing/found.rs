@@ -59,7 +59,7 @@ impl Counts {
     }
 }
 
-/// Returns the text without modules that contain no layouts, because compiling handles would take most of the time.
+/// Returns the text without modules that contain no layouts, because compiling these modules would take most of the time.
 pub fn needed(text: &str) -> String {
     let not_needed = ["objects", "mappable", "remappable", "codes", "procedures", "models"];
     let (mut out, mut keep) = (String::new(), true);

@@ -32,7 +32,7 @@ const VERIFY: u16 = 0x1020;
 const CONFIGURATION_DATE: Object = Object::new(VERIFY, 1);
 const CONFIGURATION_TIME: Object = Object::new(VERIFY, 2);
 
-/// Result of the boot of a node. The node is in Operational.
+/// Result of the boot of a node. The node has reported Operational, unless the boot has no error control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Booted {
     /// Device type (0x1000).
@@ -40,7 +40,7 @@ pub struct Booted {
     /// Whether the configuration was written. False if there is no configuration, if the node already has it, or if the
     /// node was kept running.
     pub is_configured: bool,
-    /// Whether the node has stored the configuration and its date.
+    /// Whether the boot stored the configuration in the node, with its date if it has one.
     pub is_stored: bool,
     /// Whether the node was already in Operational, and was [kept running](Boot::keep_running).
     pub was_operational: bool,
@@ -58,7 +58,7 @@ impl Booted {
     }
 }
 
-/// Returns the value of an object as a number, or an error if the value isn't 4 bytes long.
+/// Returns the value of an object as a number, the error of the read, or an error if the value isn't 4 bytes long.
 fn number<E>(object: Object, bytes: [u8; 4], result: Result<usize, Error<E>>) -> Result<u32, BootError<E>> {
     match result {
         Ok(4) => Ok(u32::from_le_bytes(bytes)),
@@ -105,7 +105,8 @@ macro_rules! boot {
             /// 2. Check of the device type, the identity and the versions.
             /// 3. [Configuration](Boot::configuration), unless the node already has it. With [`Boot::store`], the node
             ///    stores the configuration, and then the date of the configuration.
-            /// 4. Start of the node (NMT), and wait for a heartbeat or a node guarding answer that reports Operational.
+            /// 4. Start of the node (NMT). With error control, the master then waits for a heartbeat or a node guarding
+            ///    answer that reports Operational.
             ///
             /// The node must be in Pre-operational, unless it is restarted. A node in Operational would send PDOs
             /// during the configuration, and a node in Stopped has no SDO server.
@@ -223,7 +224,8 @@ macro_rules! boot {
                 Ok(device_type)
             }
 
-            /// Returns the date of the configuration of the node, or `None` if the node refuses to read object 0x1020.
+            /// Returns the date of the configuration of the node, or `None` if the node refuses the read of object
+            /// 0x1020.
             $($async)? fn $date(&mut self) -> Result<Option<[u32; 2]>, BootError<P::Error>> {
                 let mut date = [0; 2];
                 for (part, object) in date.iter_mut().zip([CONFIGURATION_DATE, CONFIGURATION_TIME]) {
@@ -261,7 +263,7 @@ macro_rules! boot {
                 self.$write(STORE, b"save")$(.$await)?
             }
 
-            /// Waits until the node reports Operational.
+            /// Waits until the node reports Operational. Without error control, returns at once.
             $($async)? fn $run(&mut self, error_control: ErrorControl) -> Result<(), BootError<P::Error>> {
                 let (id, mut actual) = (self.id(), None);
                 match error_control {

@@ -241,8 +241,8 @@ macro_rules! master {
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
             /// - [`LssError::Timeout`] if no slave is in Configuration, or the slave needs longer than the timeout.
-            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration. All of them have stored their node-IDs
-            ///   and bit timings.
+            /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration. Each of them may have stored its
+            ///   node-ID and bit timing.
             /// - [`LssError::Refused`] if the slave cannot store.
             pub $($async)? fn $store(&mut self) -> Result<(), LssError<P::Error>> {
                 self.$run(Service::Store)$(.$await)?.map(|_| ())

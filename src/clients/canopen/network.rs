@@ -28,10 +28,10 @@ const MOST_WAKERS: usize = 16;
 ///
 /// A handle receives the frames of its node: those with the default COB-IDs of CiA 301 7.3.5 that a node sends, and
 /// those with the COB-IDs that [`NetworkPort::with_pdo`], [`NetworkPort::with_emergency`] and [`NetworkPort::with_sdo`]
-/// add. If a frame arrives while another handle uses the interface, the network keeps it, provided that the node of the
-/// frame has a handle. The handle [`services`](Self::services) receives LSS answers, SYNC and TIME. All other frames go
-/// to the handle that uses the interface. If this handle doesn't expect them, they are lost, and
-/// [`unclaimed`](Self::unclaimed) counts them. The network keeps up to `N` frames:
+/// add. If a frame arrives while another handle uses the interface, or while its own handle expects a different frame,
+/// the network keeps the frame, provided that its node has a handle. The handle [`services`](Self::services) receives
+/// LSS answers, SYNC and TIME. All other frames go to the handle that uses the interface. If this handle doesn't expect
+/// them, they are lost, and [`unclaimed`](Self::unclaimed) counts them. The network keeps up to `N` frames:
 ///
 /// - Of each PDO, only the newest is kept. Of each node, only the newest heartbeat and the newest boot-up message are kept.
 /// - If there is no room for an emergency message or a reply, the oldest PDO, heartbeat or boot-up message is
@@ -146,13 +146,13 @@ impl<P, const N: usize> Network<P, N> {
         NetworkPort { network: self, owner }
     }
 
-    /// Returns the number of handles of a node.
+    /// Returns the number of handles of a node or of the services.
     fn handles(&self, owner: Owner) -> Option<&Cell<u16>> {
         self.handles.get(usize::from(owner.map_or(0, NodeId::get)))
     }
 
-    /// Returns the number of frames of nodes with a handle that were discarded because more than `N` frames were
-    /// waiting. Frames that a newer frame has replaced don't count.
+    /// Returns the number of frames that the network has discarded because it can keep only `N` frames. Frames that a
+    /// newer frame has replaced don't count.
     pub fn lost(&self) -> usize {
         self.kept.try_borrow().map_or(0, |kept| kept.lost)
     }
@@ -236,10 +236,10 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
     }
 
     /// Adds the COB-ID of the emergency messages of the node (object 0x1014). Bit 29 means that the CAN-ID has 29 bits;
-    /// bits 30 and 31 are ignored. This is not necessary for the default COB-ID. Also call
-    /// [`Node::with_emergency_id`](super::Node::with_emergency_id) with the same COB-ID.
+    /// bits 30 and 31 are ignored. This is not necessary for the default COB-ID. Pass the same COB-ID to
+    /// [`Node::with_emergency_id`](super::Node::with_emergency_id).
     ///
-    /// Returns `None` for the same reasons as [`with_pdo`](Self::with_pdo).
+    /// Returns `None` if the COB-ID is invalid, or for the other reasons that [`with_pdo`](Self::with_pdo) lists.
     #[must_use]
     pub fn with_emergency(self, cob_id: u32) -> Option<Self> {
         let id = can_id(cob_id)?;
@@ -249,7 +249,7 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
     /// Adds the replies of an SDO channel that isn't the default channel. Also call
     /// [`Node::with_channel`](super::Node::with_channel) with the same channel.
     ///
-    /// Returns `None` for the same reasons as [`with_pdo`](Self::with_pdo).
+    /// Returns `None` if the COB-ID is invalid, or for the other reasons that [`with_pdo`](Self::with_pdo) lists.
     #[must_use]
     pub fn with_sdo(self, channel: Channel) -> Option<Self> {
         self.with(channel.reply(), Kind::Reply)

@@ -17,7 +17,7 @@ pub const SYNC: u32 = 0x080;
 pub enum NmtCommand {
     /// The node enters Operational, the state in which nodes exchange PDOs.
     Start,
-    /// The node enters Stopped, a state in which only NMT and heartbeat work.
+    /// The node enters Stopped, a state in which only NMT and error control (heartbeat or node guarding) work.
     Stop,
     /// The node enters Pre-operational, the state for the configuration of nodes.
     EnterPreOperational,
@@ -66,7 +66,7 @@ impl NmtCommand {
 pub enum NmtState {
     /// The node has just started and enters Pre-operational.
     BootUp,
-    /// The node is in Stopped. Only NMT and heartbeat work in this state.
+    /// The node is in Stopped. Only NMT and error control (heartbeat or node guarding) work in this state.
     Stopped,
     /// The node is in Operational. PDOs are exchanged in this state.
     Operational,

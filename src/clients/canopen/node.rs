@@ -43,9 +43,9 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 ///
 /// Values of at least [`BLOCK_THRESHOLD`] bytes are transferred in blocks with CRC (CiA 301 7.2.4.3.9 to 7.2.4.3.16).
 /// For a read, the length of the buffer is used instead, because the length of the value is not known before the
-/// transfer. If the node aborts the first block transfer with code 0x05040001, or doesn't support the CRC, the client
-/// continues with a segmented transfer and doesn't try block transfers again. A segment that is lost within a sub-block
-/// is sent again. If the last segment of a sub-block is lost, the transfer ends with [`Error::Timeout`].
+/// transfer. If the node refuses a block transfer with the abort code 0x05040001, or doesn't support the CRC, the
+/// client continues with a segmented transfer and doesn't try block transfers again. A segment that is lost within a
+/// sub-block is sent again. If the last segment of a sub-block is lost, the transfer ends with [`Error::Timeout`].
 #[derive(Clone, Debug)]
 pub struct Node<P> {
     port: P,
@@ -149,7 +149,8 @@ pub(super) fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
-/// Returns the CAN-ID of a PDO of `node`; bit 29 is set if the CAN-ID has 29 bits.
+/// Returns the CAN-ID of a PDO of `node`, or [`Error::OutOfRange`] if a PDO must not use it. Bit 29 is set if the
+/// CAN-ID has 29 bits.
 ///
 /// Some PDOs have the default COB-ID 0, which would be an NMT command to all nodes. Restricted COB-IDs are therefore
 /// rejected.

@@ -75,8 +75,8 @@ impl Cycle {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`check`](Self::check), or [`CycleError::Bus`] if no frame came back. After any of these
-    /// errors, the inputs are stale.
+    /// Returns the errors of [`check`](Self::check), or [`CycleError::Bus`] if the exchange fails, for example because
+    /// a frame didn't come back. After any of these errors, the inputs are stale.
     pub async fn run<const N: usize, const P: usize, DC>(
         self,
         maindevice: &MainDevice<'_>,
@@ -90,7 +90,7 @@ impl Cycle {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CycleError {
-    /// The frame didn't come back.
+    /// The exchange failed, for example because a frame didn't come back.
     Bus(BusError),
     /// Fewer SubDevices than expected processed the datagram.
     WorkingCounter {

@@ -14,7 +14,7 @@ const COE_HEADER: usize = 2;
 /// or length.
 const INITIATE: usize = 10;
 
-/// Minimum length of a mailbox that fits every request, in bytes.
+/// Minimum length of a mailbox into which every first request of a transfer fits, in bytes.
 pub(super) const SMALLEST: usize = MAILBOX_HEADER + INITIATE;
 
 /// Minimum length of the data in a segment, in bytes.
@@ -46,7 +46,7 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// Creates a request from the command and the fields before the value. `length` is the number of bytes after the
+    /// Creates a request. `rest` contains the bytes of the head after the CoE header. `length` is the number of bytes after the
     /// mailbox header.
     fn new(rest: &[u8], length: usize, command: Command) -> Self {
         // The address is 0, with the lowest priority. The counter stays 0, which disables the detection of repeated

@@ -36,7 +36,8 @@ pub const TURNAROUND: Duration = Duration::from_millis(100);
 /// Modbus RTU has no transaction ID, so a reply cannot be matched to its request. After a timeout, an invalid reply or
 /// a dropped call, the link waits before it sends the next request. The link discards the late reply, or it waits until
 /// the line has been silent for twice the timeout. A call that first waits for a late reply, or for the end of noise,
-/// takes at most four timeouts. Every other call takes at most one timeout.
+/// takes at most four timeouts. Every other call takes at most one timeout; a broadcast also takes the [turnaround
+/// delay](Self::with_turnaround).
 ///
 /// Before each RTU request, the link waits for the silence that separates frames.
 ///

@@ -37,7 +37,8 @@ impl Pieces {
         Ok(Self { register, size })
     }
 
-    /// Returns address and count of the part that starts with register or bit `first` of the value.
+    /// Returns address and count of the part that starts with register or bit `first` of the value, or `None` if the
+    /// value ends before `first`.
     fn at(&self, first: u16) -> Option<(u16, u16)> {
         let left = self.register.count.checked_sub(first).filter(|&left| left > 0)?;
         Some((self.register.address.wrapping_add(first / self.register.step()), left.min(self.size)))
@@ -88,7 +89,7 @@ impl Answer {
         self.pieces.at(u16::try_from(self.words.len() + self.bits.len()).ok()?)
     }
 
-    /// Returns the request for the next part.
+    /// Returns the request for the next part, or `None` after the last part.
     pub(super) fn request(&self) -> Option<Request<'static>> {
         let (address, count) = self.next()?;
         Some(match self.pieces.register.table {
@@ -135,7 +136,7 @@ impl Answer {
 /// A write access.
 pub(super) struct Writes {
     pieces: Pieces,
-    /// True if the function for a single register or bit writes parts of one register or bit.
+    /// True if parts of one register or bit are written with the function for a single register or bit (6 or 5).
     single: bool,
     /// True if function 22 is used to change only some bits of a register.
     masks: bool,

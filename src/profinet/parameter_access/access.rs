@@ -35,7 +35,7 @@ const POLLS: u32 = 200;
 ///
 /// - The errors of the client, including the error for a busy device if the device is still busy at the last attempt.
 /// - [`Error::Timeout`] if the record is still empty after the last attempt.
-/// - [`Error::ParameterAccess`] if the drive refuses the request, or if the response is invalid.
+/// - [`Error::ParameterAccess`] if the drive refuses the request, or if the request or the response is invalid.
 /// - [`Error::Length`] if a request or a response is too short or exceeds the buffer.
 #[derive(Clone, Debug)]
 pub struct ParameterAccess<C> {

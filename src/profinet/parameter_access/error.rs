@@ -44,7 +44,7 @@ pub enum ParameterError {
     },
     /// A value has a format that the requested type cannot read, or a format of unknown length.
     Format(Format),
-    /// The response doesn't contain the requested value.
+    /// The response doesn't contain the requested value, or the refusal that it reports.
     NoValue,
     /// The buffer for a request is too short, or the response is incomplete.
     Length(LengthError),

@@ -90,7 +90,7 @@ pub trait ParameterValue: Sized {
 
     /// Returns whether the type can read values of this format.
     ///
-    /// A type can read its own format, formats of the same length and signedness, and formats that define only a
+    /// A type can read its own format, formats of the same length and signedness, and formats that define only this
     /// length.
     #[must_use]
     fn reads(format: Format) -> bool;

@@ -100,8 +100,8 @@ impl CanBus {
         self.synchronize();
     }
 
-    /// Delivers the frames that the nodes have sent to the other nodes. A limit ends an endless exchange between nodes
-    /// that answer each other.
+    /// Delivers each frame of a node to all other nodes, and keeps the frame for the client. A limit ends an endless
+    /// exchange between nodes that answer each other.
     fn exchange(&mut self) {
         for _ in 0..MOST_FRAMES {
             let frames = self.nodes.iter_mut().enumerate();

@@ -32,14 +32,15 @@ pub enum CanFault {
     /// This number of frames with the CAN-ID 0x123 arrives before the frame. The predefined connection set (CiA 301 7.3.3)
     /// doesn't use this CAN-ID.
     Noise(u32),
-    /// The frame arrives with the wrong toggle bit: bit 7 of an answer of node guarding, and bit 4 of an SDO segment
-    /// from the default SDO server. Other frames have no toggle bit and are not changed. In block transfers, bit 4 of
-    /// sequence numbers up to 63 is inverted.
+    /// The toggle bit of the frame is inverted: bit 7 of an answer to node guarding or of a heartbeat, and bit 4 of an
+    /// SDO segment or its confirmation from the default SDO server. Other frames are not changed. In block transfers,
+    /// bit 4 of sequence numbers up to 63 is inverted.
     WrongToggle,
     /// The frame is lost, because all devices on the bus restart, as after a power failure.
     Restart,
-    /// The interface enters the bus-off state. This frame and all following frames are lost, and each call returns
-    /// [`CanError::BusOff`], until [`recover`](super::FaultyCan::recover) is called.
+    /// The interface enters the bus-off state. This frame, all following frames, and the frames that the client has not
+    /// received are lost, and each call returns [`CanError::BusOff`], until [`recover`](super::FaultyCan::recover) is
+    /// called.
     BusOff,
     /// The interface receives an error frame, and the call returns [`CanError::ErrorFrame`]. The frame arrives after
     /// the error frame, because the sender repeats the frame.
@@ -75,7 +76,7 @@ pub(super) fn truncated(frame: &CanFrame) -> CanFrame {
 
 /// Returns the frame with an inverted toggle bit if it has one.
 pub(super) fn toggled(frame: &CanFrame) -> CanFrame {
-    /// Toggle bits of an answer of node guarding (CiA 301 7.2.8.3.2.1) and of an SDO segment (7.2.4.3.6).
+    /// Toggle bits of an answer to node guarding (CiA 301 7.2.8.3.2.1) and of an SDO segment (7.2.4.3.6).
     const GUARDING: u8 = 1 << 7;
     const SEGMENT: u8 = 1 << 4;
     let mut data: Vec<u8> = frame.data().to_vec();

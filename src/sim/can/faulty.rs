@@ -128,7 +128,7 @@ impl<B: SimulatedCan> FaultyCan<B> {
         self.bus.now().unwrap_or_default()
     }
 
-    /// Takes the frames from the bus that have already arrived.
+    /// Takes the frames that have already arrived from the bus, and applies the injected faults.
     fn collect(&mut self) {
         while let Some(frame) = self.take(Duration::ZERO) {
             self.arrive(frame);

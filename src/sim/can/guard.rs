@@ -43,7 +43,7 @@ impl Guard {
 }
 
 impl CanNode {
-    /// Answers a request of node guarding (CiA 301 7.2.8.3.2.1). A node that produces heartbeats doesn't answer.
+    /// Answers a node guarding request (CiA 301 7.2.8.3.2.1). A node that produces heartbeats doesn't answer.
     pub(super) fn answer_guarding(&mut self, id: u32) {
         let is_request = id == 0x700 + u32::from(self.device.node_id().get());
         if is_request && self.heartbeat.is_none() {

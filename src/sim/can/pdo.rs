@@ -46,7 +46,7 @@ struct Sent {
     at: Option<Duration>,
     /// Number of SYNC messages since the transmission.
     syncs: u64,
-    /// True if the SYNC message with the SYNC start value was received.
+    /// True if SYNC messages count: the message with the SYNC start value was received, or no start value applies.
     is_started: bool,
 }
 
@@ -105,8 +105,8 @@ impl Pdos {
         times.min()
     }
 
-    /// Returns the PDOs to send because their data changed or their event timer expired. After the start of the node,
-    /// returns all asynchronous PDOs.
+    /// Returns the PDOs to send because their data changed or their event timer expired. The first call in Operational
+    /// returns all event-driven PDOs.
     pub fn changed(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
         // A PDO that is enabled again starts like a new PDO.
         self.sent.retain(|index, _| device.is_used(*index));
@@ -150,8 +150,8 @@ impl Pdos {
         frames.collect()
     }
 
-    /// Processes a received PDO. A synchronous PDO is applied at the next SYNC. Returns the mapping object and the
-    /// abort code if the device refused a value.
+    /// Processes a received PDO. A synchronous PDO is applied at the next SYNC. Returns the index of the mapping object
+    /// and the abort code if the PDO is too short or the device refused a value.
     pub fn receive(&mut self, device: &mut Device, id: u32, data: &[u8]) -> Vec<(u16, AbortCode)> {
         let pdos = Communication::all(device, RECEIVED).into_iter().filter(|pdo| pdo.id == id);
         let mut refused = Vec::new();
@@ -186,8 +186,8 @@ pub(super) fn emit_communication_error(device: &mut Device, code: u16) {
     device.emit_emergency(code, register, [0; 5]);
 }
 
-/// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long. If the
-/// device refuses a value, returns the index of the mapping object and the abort code.
+/// Writes the data of a PDO to the device. Emits an emergency message if the PDO is too short or too long. If the PDO
+/// is too short or the device refuses a value, returns the index of the mapping object and the abort code.
 fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)> {
     let index = index + MAPPING;
     let mapping = device.mapping(index).ok().filter(|mapping| !mapping.is_empty())?;

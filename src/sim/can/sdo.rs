@@ -29,7 +29,8 @@ enum Source {
 }
 
 impl Source {
-    /// Returns the COB-IDs of requests and replies. Returns `None` if the channel is disabled (bit 31).
+    /// Returns the COB-IDs of requests and replies. Returns `None` if the channel is disabled (bit 31 is set, or a
+    /// COB-ID is 0), or if a COB-ID is invalid.
     fn identifiers(self, device: &Device) -> Option<(u32, u32)> {
         let index = match self {
             Self::Default => {

@@ -17,8 +17,8 @@ impl Device {
     /// (velocity), 3 (profile velocity), 4 (profile torque), 6 (homing), 7 (interpolated position), and 8 to 11 (cyclic
     /// synchronous position, velocity, torque, and torque with commutation angle). The axis accelerates and decelerates
     /// on ramps. The drive accesses all objects by index, so it works on every bus and with process data. If the table
-    /// lacks an object, its default value applies. The drive doesn't activate a mode if the table lacks its target, for
-    /// example 0x607A in modes 1 and 8.
+    /// lacks an object, its default value applies. The drive doesn't activate a mode if object 0x6502 excludes the
+    /// mode, or if the table lacks the target object of the mode, for example 0x607A in modes 1 and 8.
     ///
     /// The drive executes the controlword at once. Everything else happens when the simulated time advances
     /// ([`step`](Self::step)), for example motion, the change of the mode, and the transition after power-on. If the
@@ -61,13 +61,13 @@ impl Device {
         self
     }
 
-    /// Simulates a fault of the drive whose cause is already gone. The drive stops with the fault reaction (0x605E), and
-    /// then enters the state "Fault". `code` becomes the error code (0x603F), and is reported in the error list (0x1003)
-    /// and in an emergency message.
+    /// Simulates a drive fault whose cause is already gone. The drive stops with the fault reaction (0x605E), and then
+    /// enters the state "Fault". `code` becomes the error code (0x603F), and is reported in the error list (0x1003) and
+    /// in an emergency message.
     ///
     /// # Errors
     ///
-    /// Returns [`AbortCode::NO_OBJECT`] if the device isn't a [simulated drive](Self::with_cia402).
+    /// Returns [`AbortCode::NO_OBJECT`] if the axis isn't a [simulated drive](Self::with_cia402).
     pub fn fail(&mut self, code: u16) -> Result<(), AbortCode> {
         self.axis(1).fail(code)
     }

@@ -107,7 +107,7 @@ impl Objects<'_> {
     }
 
     /// Returns an acceleration of the mode "velocity": the speed change (sub-index 1) divided by the time in seconds
-    /// (sub-index 2). Returns `default` if the axis doesn't have the object.
+    /// (sub-index 2). Returns `default` if the axis doesn't have the object, or if the speed change is 0.
     pub fn ramp(&self, index: u16, default: f64) -> f64 {
         match (self.sub_number(index, 1), self.sub_number(index, 2)) {
             // A time of 0 is an infinite acceleration.

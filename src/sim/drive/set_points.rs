@@ -30,7 +30,7 @@ pub(super) struct SetPoints {
 
 impl SetPoints {
     /// Handles the rising edge of the bit "new set-point". If a set-point is already waiting, the new set-point is
-    /// ignored.
+    /// ignored, unless the bit "change set immediately" is set.
     pub fn accept(&mut self, control: u16, motion: &Motion, objects: &Objects<'_>) {
         let position = objects.real(0x607A);
         let point = SetPoint { position, is_relative: control & RELATIVE != 0, profile: Profile::read(objects) };

@@ -48,7 +48,8 @@ impl Drive {
         bits.into_iter().zip(10..).fold(0, |word, (bit, at)| word | u16::from(bit) << at)
     }
 
-    /// Returns bit 10: target reached, or standstill of a halted axis. The bit has no meaning in modes 2 and 8 to 11.
+    /// Returns bit 10: target reached, or standstill of a halted axis. The bit is 0 in modes 2 and 8 to 11, because it
+    /// has no meaning there.
     fn is_target_reached(&self, objects: &Objects<'_>) -> bool {
         let is_still = self.motion.is_still();
         match self.mode {

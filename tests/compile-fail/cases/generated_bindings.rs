@@ -1,4 +1,4 @@
-//! Errors in the use of generated bindings: a write of a read-only object, a value of a wrong type, a misspelled name.
+//! Errors in the use of generated bindings: a write to a read-only object, a value of a wrong type, a misspelled name.
 
 use lexibus::{CanOpen, Client, Error, Object};
 use lexibus_drives::demo_drive::DemoDrive;

@@ -20,7 +20,7 @@ pub fn used(script: &mut Script, direction: &str, number: u32) -> Value {
     script.ask(json!({ "do": "pdo", "direction": direction, "number": number }))
 }
 
-/// Returns the PDO parameters that the Python library should read if a PDO struct is configured.
+/// Returns the PDO parameters that the Python library should read after the configuration of a PDO struct.
 pub fn expected<P: Pdo>(cob_id: u32, transmission_type: u8) -> Value {
     let entry = |entry: &lexibus::MappedEntry| json!([entry.index, entry.sub_index, entry.bits]);
     let bits: u32 = P::MAPPING.iter().map(|entry| entry.bits).sum();

@@ -98,7 +98,7 @@ pub fn behavior(b: &mut Bytes<'_>) -> Behavior {
     }
 }
 
-/// Returns how an item of this type differs on some models or buses.
+/// Returns facts of an item of this type that differ on some models or buses.
 pub fn variant(b: &mut Bytes<'_>, ty: Type) -> ItemVariant {
     ItemVariant {
         models: b.list(1, names::model),

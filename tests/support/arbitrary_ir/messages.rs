@@ -63,7 +63,7 @@ pub fn example(b: &mut Bytes<'_>) -> MessageExample {
     MessageExample { request, reply, documentation: names::documentation(b), ..MessageExample::default() }
 }
 
-/// Returns the names of all values in a frame.
+/// Returns the names of all values in a frame that are not repeated.
 fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     let name = |field: &MessageField| match field {
         MessageField::Value(value) => Some(value.item.name.clone()),
@@ -155,7 +155,7 @@ pub fn space(b: &mut Bytes<'_>, name: CompactString, messages: &[CompactString])
     }
 }
 
-/// Returns a framing. One of the message fields is the station address.
+/// Returns a framing. If the framing has a device address, the address is usually a field of a request.
 pub fn framing(b: &mut Bytes<'_>, messages: &[Message]) -> Framing {
     let requested: Vec<CompactString> = messages.iter().flat_map(|message| fields(&message.request)).collect();
     Framing {

@@ -170,7 +170,7 @@ const ODD: [&str; 142] = [
     "station",
 ];
 
-/// Texts that would end a comment or string if they were not escaped.
+/// Ordinary texts, and texts that would end a comment or string if they were not escaped.
 const TEXTS: [&str; 14] = [
     "It turns.",
     "",

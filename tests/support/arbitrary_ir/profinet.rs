@@ -279,7 +279,7 @@ fn unit_diagnosis(b: &mut Bytes<'_>, types: &[TypeDef]) -> UnitDiagnosis {
     }
 }
 
-/// Returns a type that can be an enumeration.
+/// Returns the id of a defined type, which can be an enumeration, or `None`.
 fn enumeration(b: &mut Bytes<'_>, types: &[TypeDef]) -> Option<TypeId> {
     let Type::Named(id) = types::any(b, types.len()) else { return None };
     Some(id)

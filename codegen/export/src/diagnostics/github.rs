@@ -11,9 +11,9 @@ use lexibus_codegen::text::steers;
 /// Returns the diagnostic as one workflow command without a line feed:
 /// `::warning file=drive.eds,line=2,col=7,title=EDS020 octal-number::message`.
 ///
-/// Lines and columns start at 1; columns count characters. A diagnostic about a whole file has no `line` and `col`. The message also
-/// contains the label, the notes and the help text of the diagnostic, on separate lines. A marked part of several lines has
-/// `endLine` and no `col`, because GitHub ignores columns in this case.
+/// Lines and columns start at 1; columns count characters. A diagnostic about a whole file has no `line` and `col`. The
+/// message also contains the label, the notes and the help text of the diagnostic, on separate lines. A marked part of
+/// several lines has `endLine` and no `col`, because GitHub ignores columns in this case.
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
     let mut command = format!("::{} ", diagnostic.severity.name());
     let place = MarkedSource::of(diagnostic.span, sources);

@@ -48,7 +48,8 @@ fn is_count(item: &Item, count: u8) -> bool {
         && has_no_other_facts(item)
 }
 
-/// Returns whether two elements differ only in name and configured value.
+/// Returns whether `item` differs from `other` only in name and configured value, and CompactSubObj can express its
+/// facts.
 fn is_like(item: &Item, other: &Item) -> bool {
     let is_configured_alike = item
         .configured

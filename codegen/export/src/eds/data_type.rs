@@ -19,8 +19,8 @@ pub(super) struct DataType {
 
 /// Returns the EDS data type for `ty`.
 ///
-/// In CANopen files, an unknown type keeps its number because other tools may know it. An entry without a type stays
-/// without one if the source is a CiA 306 file (`is_verbatim`).
+/// If the source describes a CANopen device, an unknown type keeps its number because other tools may know it. An entry
+/// without a type stays without one if the source is a CiA 306 file (`is_verbatim`).
 pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbatim: bool) -> DataType {
     let (ty, mut note) = resolved(ty, types);
     let widened = |bits: u8| bits.clamp(1, 64).div_ceil(8) * 8;
@@ -47,7 +47,8 @@ pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbat
     DataType { code: code(ty), ty, note }
 }
 
-/// Replaces a defined type with the basic type that it is derived from. Also returns a note about the lost facts.
+/// Replaces a defined type with the basic type that it is derived from, and an array or record with DOMAIN. Also
+/// returns a note if facts are lost.
 fn resolved(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..MAX_DEPTH {

@@ -81,8 +81,8 @@ fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
     }
 }
 
-/// Writes the number of PDOs that the source declares. If there is none and the device is not a CANopen device, writes
-/// the number of mapping objects.
+/// Writes the number of PDOs that the source declares. If the source declares no number and the device is not a CANopen
+/// device, writes the number of mapping objects.
 fn pdo_count(
     writer: &mut Writer,
     key: &'static str,

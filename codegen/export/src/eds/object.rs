@@ -67,7 +67,8 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// Returns the value of an object that has only one value and no sub-indices.
+    /// Returns the value of an object that has only one value and no sub-indices, and no separate section for sub-index
+    /// 0.
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
@@ -255,7 +256,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// Returns whether a section refines the sub-indices of an object, such as `2000Name`.
+/// Returns whether a section lists names, values or denotations of the sub-indices of an object, such as `2000Name`.
 fn is_refinement(section: &str) -> bool {
     let rest =
         section.trim_start_matches(|letter: char| letter.is_ascii_hexdigit() || matches!(letter, 'x' | 'X' | ' '));

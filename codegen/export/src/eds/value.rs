@@ -137,7 +137,8 @@ fn time(value: &Value) -> Written {
     }
 }
 
-/// Quotes a text in which `;` or `#` occurs before the first quotation mark. These characters would begin a comment.
+/// Quotes a text in which `;` or `#` occurs before the first quotation mark, because these characters would begin a
+/// comment. Treats other texts like [`quoted`].
 fn without_comment(text: &str) -> String {
     let has_comment = text.find([';', '#', '"']).is_some_and(|at| !text[at..].starts_with('"'));
     if has_comment {

@@ -16,9 +16,10 @@ const MAX_LINE: usize = 255;
 /// An EDS or DCF file that is being written.
 pub(super) struct Writer {
     text: String,
-    /// Keys of the current section, in lowercase.
+    /// Keys of the current section that no extension attribute may repeat, in lowercase.
     keys: HashSet<String>,
-    /// True if the source is an EDS. Keys of its extension attributes may contain any characters and occur twice.
+    /// True if the source is an EDS or DCF. Keys of its extension attributes may contain characters that CiA 306 does
+    /// not allow, and may occur twice.
     is_verbatim: bool,
     pub(super) notes: Notes,
 }
@@ -80,7 +81,8 @@ impl Writer {
         }
     }
 
-    /// Writes an extension attribute or a comment. Adds a note if the file cannot contain the attribute.
+    /// Writes an extension attribute or a comment. Adds a note instead if the key is invalid or already used in the
+    /// section.
     pub(super) fn extension(&mut self, key: &str, value: &str, subject: Subject<'_>) {
         if key == ";" {
             return self.comment(value);
@@ -95,7 +97,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Replaces each character in `text` that would end the line or the file by a space.
+    /// Replaces line breaks and end-of-file characters in `text` with spaces, and adds a note if there are any.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {

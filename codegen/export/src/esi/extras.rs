@@ -1,4 +1,4 @@
-//! Writes time limits and the extension attributes for which ETG.2000 has an element or attribute.
+//! Writes timeouts and the extension attributes for which ETG.2000 has an element or attribute.
 
 use std::collections::HashSet;
 
@@ -24,12 +24,12 @@ const OF_TYPE: [&str; 9] = [
 /// Elements of a profile that contain a number.
 const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
 
-/// Time limits of the state machine and of the mailbox. If the file contains one time limit of a list, the schema
-/// requires all time limits of this list.
+/// Timeouts of the state machine and of the mailbox. If the file contains one timeout of a list, the schema requires
+/// all timeouts of this list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
-/// Elements that follow the time limits in Info. Each element has a required text format.
+/// Elements that follow the timeouts in Info.
 const CONTROLLER: [&str; 3] =
     ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
 const LAST: [&str; 3] = ["Info/StationAliasSupported", "Info/IdentificationAdo", "Info/IdentificationReg134"];
@@ -126,7 +126,7 @@ fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
     }
 }
 
-/// Returns the time limits with these names if all of them exist. Otherwise, adds a note for those that exist.
+/// Returns the timeouts with these names if all of them exist. Otherwise, adds a note for those that exist.
 fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
     let limit = |name: &&'static str| {
         let found = settings.timeouts.iter().find(|(known, _)| known == *name);
@@ -177,7 +177,8 @@ pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     }
 }
 
-/// Writes the vendor facts that the IR stores as extensions.
+/// Writes the vendor's URLs, which the IR stores as extensions. Adds a note for the other extensions and for the
+/// descriptions of the catalog.
 pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     let urls = context.catalog.extensions.iter().filter(|extension| extension.key == VENDOR_URL);
     urls.for_each(|extension| xml.leaf("URL", &extension.value));

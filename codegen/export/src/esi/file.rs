@@ -16,7 +16,9 @@ use super::{Export, NoteKind, Options, Refusal};
 /// Version of ETG.2000 whose schema describes the exported file.
 const VERSION: &str = "1.17";
 
-/// Exports all devices and modules of `catalog` that are EtherCAT slaves or have objects. The encoding is UTF-8.
+/// Exports the EtherCAT slaves of `catalog`, and its other devices with objects, except PROFINET devices. Modules are
+/// exported only if the source is an ESI. A file has one vendor, so devices and modules of other vendors are left out
+/// with a note. The encoding is UTF-8.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     let devices: Vec<&Device> = catalog.devices.iter().filter(|device| is_slave(device)).collect();

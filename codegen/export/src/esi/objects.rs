@@ -29,8 +29,9 @@ fn is_on_ethercat(device: &Device, item: &Item) -> bool {
     device.ethercat.is_none() || has_address && (buses.is_empty() || buses.contains(Bus::EtherCat))
 }
 
-/// Returns the objects of a device that exist on EtherCAT, including the objects in `of_registers`. Objects that exist only
-/// on CANopen, and objects that describe CAN services, are left out.
+/// Returns the objects of a device that exist on EtherCAT, including the objects in `of_registers`. If the device has
+/// CANopen but not EtherCAT, objects that describe CAN services are left out. Adds a note for each object that is left
+/// out.
 pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes: &mut Notes) -> Vec<&'g Group> {
     let is_canopen_only = device.canopen.is_some() && device.ethercat.is_none();
     let mut objects = all(device.groups.iter().chain(of_registers), notes);

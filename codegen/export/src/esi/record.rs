@@ -72,7 +72,8 @@ pub(super) struct Plan {
 }
 
 /// Returns the entries of an object whose record type has these fields, sorted by sub-index. An array field gives one
-/// entry per element until it reaches the sub-index of the next field (ETG.2000, DataType).
+/// entry per element (ETG.2000, DataType). It gives a single entry if its elements would reach the sub-index of the
+/// next field or exceed 256 sub-indices, or if the name of its type begins with `ARRAY`.
 pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     let (mut entries, mut next) = (Vec::new(), 0u32);
     for (position, field) in fields.iter().enumerate() {
@@ -106,7 +107,8 @@ fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> 
     (first, count, element)
 }
 
-/// Returns the type of an object: a declared type that describes exactly the object's entries, or a new one.
+/// Returns the type of an object: the type of its only value or, for an object with sub-indices, a declared type that
+/// describes exactly the object's entries, or a new one.
 pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
     if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
         let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));

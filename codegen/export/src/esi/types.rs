@@ -163,7 +163,7 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// Returns the basic type of a type's values.
+    /// Returns the base type of an alias, enumeration, bit field or scaled type, and any other type unchanged.
     pub(super) fn underlying(&self, ty: Type) -> Type {
         match self.def(ty).map(|def| &def.shape) {
             Some(
@@ -176,7 +176,8 @@ impl<'a> Types<'a> {
         }
     }
 
-    /// Returns the element type, the lower bound and the number of elements of an array.
+    /// Returns the element type of an array, the lower bound of its first dimension, and the number of elements in all
+    /// dimensions.
     pub(super) fn elements(&self, ty: Type) -> Option<(Type, i32, u32)> {
         match &self.def(ty)?.shape {
             Shape::Array { element, dimensions } => {

@@ -14,8 +14,8 @@ use super::{Export, NoteKind, Options, Refusal};
 /// Schema version of the file if the source does not declare one.
 const VERSION: &str = "2.35";
 
-/// Exports all device access points of `catalog`. The encoding is UTF-8. Save the file under the name that
-/// [`file_name`] returns.
+/// Exports all device access points of `catalog` or, if the source is not a GSDML, a new device access point for each
+/// device with process images. The encoding is UTF-8. Save the file under the name that [`file_name`] returns.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     // Mark the option `date` as used, because the file name contains the date even if the content of the file does not.
@@ -49,8 +49,9 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     missing.finish(xml.finish(), notes.finish())
 }
 
-/// Returns the required file name without extension: schema version, vendor, family and date. Returns `None` if there
-/// is no date.
+/// Returns the required file name without extension: schema version, vendor, family and date. If the options contain no
+/// date, returns the file name of a GSDML source, provided that it begins with `GSDML-V`. Returns `None` if the date,
+/// vendor or family is missing.
 pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let source = catalog.files.first().filter(|_| is_gsdml(catalog));
     let stem = source.and_then(|file| {
@@ -196,7 +197,7 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::
     xml.close();
 }
 
-/// Adds a note for the extensions of the catalog that the file does not contain.
+/// Adds notes for the extensions, vendor names and code tables of the catalog that the file does not contain.
 fn lost(context: &mut Context<'_>) {
     let catalog = context.catalog;
     let is_written = |extension: &&Extension| {

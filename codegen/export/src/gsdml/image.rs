@@ -299,7 +299,8 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
     PdoEntry { ty, ..field.clone() }
 }
 
-/// Returns the basic type of a defined type. GSDML cannot describe names of bits or values in cyclic data.
+/// Returns the basic type of a defined type, and a note if the data item loses names of bits, named values, a scaling
+/// or a structure.
 fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..8 {

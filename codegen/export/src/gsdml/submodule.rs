@@ -161,7 +161,7 @@ fn head(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule, has_inf
     }
 }
 
-/// Writes the subslot of an interface or port unless it is the default.
+/// Writes the subslot number of a port, or of an interface whose subslot is not the default.
 fn subslot(xml: &mut Xml, element: &str, numbers: &Numbers) {
     let first = numbers.0.first().map_or(INTERFACE, |(first, _)| *first);
     if element == "PortSubmoduleItem" || first != INTERFACE {

@@ -22,8 +22,8 @@ pub(super) struct TextList {
 }
 
 impl TextList {
-    /// Creates a text list. Attributes that the IR stores unchanged can also refer to texts. The list starts with the
-    /// texts of the source to which nothing else refers.
+    /// Creates a text list with the texts of the source to which no field of the IR refers. They keep their
+    /// identifiers, because attributes that the IR stores unchanged can refer to them.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();
         let mut positions: HashMap<CompactString, usize> = HashMap::new();
@@ -66,7 +66,8 @@ impl TextList {
         id
     }
 
-    /// Adds a text with a new identifier and returns the identifier. No other element refers to the added text.
+    /// Adds a text with a new identifier and returns the identifier. [`id`](Self::id) does not return this identifier
+    /// again, so no other element refers to the added text.
     pub(super) fn add(&mut self, text: &str, names: &Texts) -> CompactString {
         let id = loop {
             self.next += 1;

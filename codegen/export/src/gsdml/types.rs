@@ -79,7 +79,7 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
 }
 
 /// Follows the chain of definitions from a type to the first type that GSDML defines, and returns its name. If GSDML
-/// defines none of the types, returns the basic type as an error.
+/// defines none of the types, returns the basic type as an error, with a note if facts are lost.
 fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Option<NoteKind>)> {
     let mut note = None;
     for _ in 0..MAX_DEPTH {

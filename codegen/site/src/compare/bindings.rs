@@ -28,8 +28,8 @@ pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Compari
     }
 }
 
-/// Returns whether the other addresses cover all buses of this address. If so, the comparison of buses does not report a change
-/// of this address.
+/// Returns whether the other addresses cover all buses of this address. If so, the comparison of buses does not report
+/// a change to this address.
 fn is_reached(binding: &Binding, others: &[Binding]) -> bool {
     let names = names_of(others);
     buses_of(binding).iter().all(|bus| names.contains(bus))
@@ -78,7 +78,7 @@ fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Compa
     // Word order only matters for items with several registers.
     let word_order = if old.count.max(new.count) > 1 { Judgment::WIRE } else { Judgment::NONE };
     compare_fields!(RegisterBinding, old, new, comparison, {
-        // The printed address changes with the wire address and the length, so its changes are not reported separately.
+        // If the wire address or the length changes, the printed address changes, too, and is not reported separately.
         printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
             if (old.address, old.count) == (new.address, new.count) {
                 text("printed address")(one, other, comparison);

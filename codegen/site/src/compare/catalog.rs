@@ -12,7 +12,8 @@ use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, S
 /// Compares two versions of a device description.
 ///
 /// The result begins with changes that break Rust code or the communication. Changes that break the behavior follow,
-/// then all others. The changes in each of these groups have the order of the old description.
+/// then compatible changes, then changes without an effect. The changes in each of these groups have the order of the
+/// old description, with added elements last.
 pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     let mut comparison = Comparison::new(old, new);
     all_devices(&old.devices, &new.devices, &mut comparison);
@@ -50,8 +51,8 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
     }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
 }
 
-/// Compares the devices. If both descriptions have exactly one device, these two are compared. Otherwise devices are
-/// paired by product code, name and identifier.
+/// Compares the devices. If both descriptions have exactly one device, these two are compared. Otherwise, devices are
+/// paired if product code, name and identifier are equal, and the remaining ones by name.
 fn all_devices<'a>(old: &'a [Device], new: &'a [Device], comparison: &mut Comparison<'a>) {
     let is_one = old.len() == 1 && new.len() == 1;
     let key = |device: &Device| format!("{:?} {} {}", device.identity.product_code, title(device), device.id);
@@ -81,7 +82,8 @@ fn compare_submodules<'a>(old: &'a [Submodule], new: &'a [Submodule], comparison
     }
 }
 
-/// Compares two lists of devices, modules or submodules. Each change contains the name of the compared element.
+/// Compares a pair of devices, modules or submodules, or reports that the element was added or removed. Each change
+/// contains `owner`, the name of the element.
 fn owned<'a, T>(
     owner: String,
     kind: &str,

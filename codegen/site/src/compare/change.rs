@@ -31,7 +31,7 @@ pub struct Judgment {
 }
 
 impl Judgment {
-    /// No effect, as for changes of texts and of facts about the file.
+    /// No effect, as for changes to texts and to facts about the file.
     pub const NONE: Judgment = Judgment::new(Effect::Unaffected, Effect::Unaffected, Effect::Unaffected);
     /// Breaks Rust code only.
     pub const API: Judgment = Judgment::new(Effect::Breaking, Effect::Unaffected, Effect::Unaffected);
@@ -161,7 +161,7 @@ fn excerpts(old: &str, new: &str) -> (String, String) {
     (excerpt(old), excerpt(new))
 }
 
-/// The number of changes with each effect.
+/// The total number of changes, and the number of changes with each effect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// Total number of changes.
@@ -179,7 +179,8 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Counts the changes of each class.
+    /// Counts the changes with each effect. A change with several breaking effects is counted for each of them. Only a
+    /// change without breaking effects is counted as compatible or as a change without an effect.
     pub fn of(changes: &[Change]) -> Self {
         let count =
             |condition: &dyn Fn(Judgment) -> bool| changes.iter().filter(|change| condition(change.judgment)).count();

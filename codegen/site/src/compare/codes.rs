@@ -40,7 +40,7 @@ fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {
         Some(last) => format!("{} to {last}", row.code),
         None => row.code.to_string(),
     };
-    // A change of the notation does not affect the communication, as long as the code stays the same.
+    // A different last code of a range affects only Rust code, as long as the first code stays the same.
     let judgment = if old.code == new.code { Judgment::API } else { Judgment::WIRE };
     comparison.texts("code", number(old), number(new), judgment);
     compare_fields!(CodeRow, old, new, comparison, {

@@ -174,7 +174,7 @@ pub(super) const KEY: &str = "a key; a change is reported as a removal and an ad
 /// Reason to ignore a field: it is compared together with another field.
 pub(super) const COMPARED: &str = "compared together with another field";
 
-/// Compares a fact. All changes of the fact have the same effects.
+/// Compares a fact. All changes to the fact have the same effects.
 pub(super) fn fact<T: PartialEq + Debug + Show>(
     name: &'static str,
     judgment: Judgment,
@@ -182,7 +182,7 @@ pub(super) fn fact<T: PartialEq + Debug + Show>(
     fact_as(name, judgment, T::show)
 }
 
-/// Compares a fact. All changes of the fact have the same effects. `show` returns the text of a value for reports.
+/// Compares a fact. All changes to the fact have the same effects. `show` returns the text of a value for reports.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
     judgment: Judgment,

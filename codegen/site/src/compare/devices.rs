@@ -175,7 +175,7 @@ fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Compariso
     }, KEY => [space]);
 }
 
-/// Returns the effects of a change of a maximum request length.
+/// Returns the effects of a changed maximum request length.
 fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgment {
     let is_shorter = new.is_some_and(|new| old.is_none_or(|old| new < old));
     let wire = if is_shorter { Effect::Breaking } else { Effect::Compatible };

@@ -27,7 +27,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
             joined(list, |(address, value)| format!("{} = 0x{value:X}", hex16(*address)))
         }),
         eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
-        timeouts: fact("time limits in ms", Judgment::BEHAVIOR),
+        timeouts: fact("timeouts in ms", Judgment::BEHAVIOR),
     });
 }
 

@@ -66,7 +66,7 @@ fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'
     });
 }
 
-/// Returns the effects of a change of access rights.
+/// Returns the effects of changed access rights.
 fn access_effects(old: &Access, new: &Access) -> Judgment {
     let lost = old.readable() && !new.readable() || old.writable() && !new.writable();
     let gained = !old.readable() && new.readable() || !old.writable() && new.writable();
@@ -116,8 +116,8 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
     }
 }
 
-/// Returns the effects of changed limits. A change is breaking if a previously valid value becomes invalid for writing, or if a
-/// read value can be outside of the old limits.
+/// Returns the effects of changed limits. A change is breaking if a value that could be written becomes invalid or, for
+/// an item that cannot be written, if a value can be outside of the old limits.
 fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgment {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
     if is_broken {

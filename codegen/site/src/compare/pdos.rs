@@ -28,7 +28,7 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
     });
 }
 
-/// Compares PDOs, which are paired by mapping object and buses.
+/// Compares PDOs, which are paired by direction, mapping object and buses.
 fn pdos(old: &[Pdo], new: &[Pdo], buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     let key = |pdo: &Pdo| format!("{:?} {} {:?}", pdo.direction, pdo.mapping_index, pdo.buses);
     for (old, new) in super::pairing::pairs(old, new, key, |_| String::new()) {
@@ -111,7 +111,7 @@ fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
         lengths(old, new, comparison);
     }
     objects(old, new, comparison);
-    // Compare the other facts of entries that are paired by name or order.
+    // Compare the other facts of entries with equal keys.
     let matching = Matching::of(&entry_keys(old), &entry_keys(new));
     for (old, other) in old.iter().zip(matching.new_of_old) {
         if let Some(new) = other.map(|at| &new[at]) {
@@ -148,8 +148,8 @@ impl Layout<'_> {
         Judgment { api, wire: self.wire_effect_of(new), ..Judgment::NONE }
     }
 
-    /// Returns the effect on the communication. The communication breaks if an entry has another position, or if the
-    /// type at a position changes.
+    /// Returns the effect on the communication. The communication breaks if an entry has another position or length, or
+    /// if the type at a position changes in a way that affects the bytes.
     fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
         let positions =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
@@ -162,8 +162,8 @@ impl Layout<'_> {
     }
 }
 
-/// Returns the keys that pair entries. The key of an entry is its name. The key of a padding is its position among the
-/// paddings.
+/// Returns the keys that pair entries. The key of an entry is its name and its bit offset. The key of a padding is its
+/// position among the paddings.
 fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     let mut paddings = 0_u32..;
     let name = |entry: &PdoEntry| match entry.kind {
@@ -173,7 +173,8 @@ fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     entries.iter().map(name).map(|name| Key { name, position: String::new() }).collect()
 }
 
-/// Compares the lengths of entries. The comparison is necessary because the layout texts do not contain paddings.
+/// Compares the lengths of entries. The comparison is necessary because the layout texts contain neither paddings nor
+/// lengths.
 fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let length = |entries: &[PdoEntry]| entries.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
     let of_all = |entries: &[PdoEntry]| format!("{} bits", length(entries));
@@ -193,7 +194,7 @@ fn entry_title(entry: &PdoEntry) -> String {
 
 fn entry(old: &PdoEntry, new: &PdoEntry, comparison: &mut Comparison<'_>) {
     compare_fields!(PdoEntry, old, new, comparison, {
-        // The change of the layout already shows all changed positions, except those of paddings.
+        // The reported layout change already shows all changed positions, except those of paddings.
         bit_offset: fact("first bit", Judgment::NONE),
         kind: fact_as("kind", Judgment::API, |kind| kind_name(*kind).to_owned()),
         name: text("name"),

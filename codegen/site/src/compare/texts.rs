@@ -1,4 +1,4 @@
-//! Compares texts about an element. Changes of texts have no effect.
+//! Compares texts about an element. Except for names, changes to texts have no effect.
 
 use super::change::Judgment;
 use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};

@@ -99,7 +99,7 @@ fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
     Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
 }
 
-/// Returns the effects of a change of the type.
+/// Returns the effects of a changed basic type.
 fn effects(old: Option<Type>, new: Option<Type>) -> Judgment {
     let (Some(old), Some(new)) = (old, new) else { return Judgment::API_AND_WIRE };
     match (old, new) {

@@ -1,5 +1,5 @@
-//! Lanes: the vertical lines of arrows next to the column of states, the points at which they meet the boxes, and the places of their
-//! labels.
+//! Lanes: the vertical lines of arrows next to the column of states, the points at which they meet the boxes, and the
+//! places of their labels.
 
 use super::Edge;
 

@@ -53,8 +53,8 @@ impl Object {
         self.frame(0x40, &[])
     }
 
-    /// Returns the data of an SDO download (CiA 301, 7.2.4.3.3): an expedited transfer, or a segmented one if there are more than four
-    /// bytes. A number has at most eight bytes.
+    /// Returns the data of an SDO download (CiA 301, 7.2.4.3.3): an expedited transfer, or a segmented one if there are
+    /// more than four bytes. A number has at most eight bytes.
     pub fn download(&self, bytes: &[Option<u8>]) -> Vec<Frame> {
         let count = u8::try_from(bytes.len()).unwrap_or(u8::MAX);
         if let Some(unused) = 4_u8.checked_sub(count) {

@@ -1,4 +1,4 @@
-//! Checks that a comparison reports changes of all facts in the intermediate representation. [`UNREPORTED`] lists the
+//! Checks that a comparison reports changes to all facts in the intermediate representation. [`UNREPORTED`] lists the
 //! exceptions, with reasons.
 //!
 //! The test changes the leaves of the serialized representation: numbers, texts, truth values, alternatives, list
@@ -44,8 +44,8 @@ const UNREPORTED: [(&str, &str); 12] = [
     ("/manual/sections/*/start", "a position in the manual"),
 ];
 
-/// Returns the reason why changes of a leaf are not reported. The list can name the leaf itself or an element that contains the
-/// leaf.
+/// Returns the reason why changes to a leaf are not reported. The list can name the leaf itself or an element that
+/// contains the leaf.
 fn unreported(pattern: &str) -> Option<&'static str> {
     let is_part = |end: &str| format!("{pattern}/").contains(&format!("{end}/"));
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))

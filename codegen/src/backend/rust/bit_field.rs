@@ -239,7 +239,8 @@ fn span(entry: &BitFieldEntry) -> String {
     }
 }
 
-/// Returns sentences that state whether a flag is inverted and which edge of the bit triggers an action.
+/// Returns sentences that state whether a flag is inverted, which edge of the bit triggers an action, and whether the
+/// device clears the bit.
 fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
     let is_inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
     let trigger = entry.trigger.map(|trigger| match trigger {

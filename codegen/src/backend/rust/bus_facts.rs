@@ -109,7 +109,8 @@ fn span(span: (u16, u16, u8)) -> Doc {
 }
 
 /// Returns whether an item can be read without an explicit request by the program. The item must exist on all models
-/// and firmware versions and with all options, it must be readable in all states, and reading must have no side effect.
+/// and firmware versions and with all options, it must be readable in all states, reading must have no side effect, and
+/// its flags must not exclude it from scans.
 fn is_read_along(item: &Item) -> bool {
     /// Flag in ObjFlags (CiA 306): do not read the object during a scan.
     const REFUSES_SCAN: u32 = 2;

@@ -67,7 +67,7 @@ type Played<'r, 'c> = (&'r Role, Constant<'c>);
 
 impl Cia402Model {
     /// Returns the model of a device. Returns `None` unless the device has the CiA 402 state machine and the objects
-    /// 0x6060 and 0x6061 (mode of operation).
+    /// 0x6060 and 0x6061 (mode of operation), with the access rights that the operations need.
     pub(super) fn new(constants: &Constants<'_, '_>, walks: &[WalkModel]) -> Option<Self> {
         let find = |role: &Role| {
             let (reads, writes) = role.access;

@@ -71,7 +71,8 @@ impl<'i> Arguments<'i> {
         self.range.text() == FULL && self.unit.is_empty()
     }
 
-    /// Returns the constructor call of an item whose only address is an object.
+    /// Returns the constructor call of an item whose only address is an object. Returns `None` for other items, and if
+    /// the short constructors of objects cannot express the item.
     fn of_object(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let (object, index, sub) = addresses.only_object().filter(|_| self.is_plain())?;
         let (name, flags) = (&self.name, self.flags);
@@ -87,7 +88,8 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// Returns the constructor call of a register. The register may have an object address too.
+    /// Returns the constructor call of a register, which may also have an object address. Returns `None` for other
+    /// items, and if the short constructors of registers cannot express the item.
     fn of_register(&self, addresses: &ItemAddresses<'_>) -> Option<Doc> {
         let address = addresses.with_register().filter(|_| self.initial.text() == UNKNOWN)?;
         let Arguments { name, range, flags, .. } = self;

@@ -31,8 +31,8 @@ fn links_from<'c>(
 }
 
 /// Returns the documentation of an item's constant. The first paragraph contains the name, the unit, the values, the
-/// address, the type and the access rights. Lists of constants show only this paragraph. Links to related elements and
-/// other facts come last. Links are relative to `doc_module`.
+/// address, the type and the access rights, and links to related elements. Lists of constants show only this paragraph.
+/// The description of the item and its other facts follow. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
@@ -129,7 +129,8 @@ fn type_name<'c>(context: &'c Context<'_>, item: &Item) -> Option<&'c str> {
     context.enumeration(item.ty).map(|named| named.name.as_str())
 }
 
-/// Returns a sentence about an address that no client of the runtime supports.
+/// Returns a sentence about an address in the device's ASCII protocol or in the memory of a slave controller. Returns
+/// `None` for other addresses.
 fn elsewhere(binding: &Binding) -> Option<String> {
     match binding {
         Binding::Ascii(name) => Some(format!("Name in the device's ASCII protocol: {}.", escape(name))),
@@ -176,8 +177,8 @@ pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str,
     }
 }
 
-/// Returns the first lines of the documentation of the type at `position`: its name, its description, and the items that use the
-/// type.
+/// Returns the first lines of the documentation of the type at `position`: its name, its description and origin,
+/// ambiguities, and the items that use the type.
 pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];

@@ -67,8 +67,8 @@ pub fn usage(device: &Device) -> Usage {
     Usage { calls: calls.collect(), pdos: pdos.collect() }
 }
 
-/// Returns the calls that read and write the items of the EtherCAT modules for which code is generated. `offset` is the increase of the
-/// object's index in the slot of the module.
+/// Returns the calls that read and write the items of the EtherCAT modules for which code is generated. In these calls,
+/// the variable `offset` is the increase of the object's index in the slot of the module.
 pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     let (modules, names) = catalog::named_modules(catalog);
     let calls = |(id, module): (ModuleId, _), name: &str| {
@@ -82,7 +82,8 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
 }
 
-/// Returns the calls that read and write an item: first in its physical unit, then as raw value. `handle` is the expression of the item.
+/// Returns the calls that read and write an item: first in its physical unit, then as raw value. `handle` is the
+/// expression of the item.
 fn calls_of(context: &Context<'_>, item: &Item, handle: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),

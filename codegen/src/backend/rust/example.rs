@@ -8,8 +8,9 @@ use super::value_type;
 use super::walk::WalkModel;
 use crate::ir::{Binding, Item, Type, Value};
 
-/// Returns the lines of the example, which creates the driver, leads its state machine to a state, reads a value and
-/// writes a value. Returns no lines if a program cannot access any value of the device.
+/// Returns the lines of the example, which creates the driver, leads its state machine to the energized state, reads a
+/// value and writes a value. Steps that the device does not support are left out. Returns no lines if the device has no
+/// suitable value to read or write.
 pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel]) -> Vec<String> {
     let calls: Vec<(&NamedItem<'_>, String)> = objects::calls(context).collect();
     let (read, write) = (readable(context, &calls), writable(context, &calls));

@@ -226,7 +226,7 @@ impl Links {
     }
 
     /// Returns a sentence about the items that use the type at `position` in the list of types. The sentence is empty
-    /// if no item has a handle.
+    /// if none of these items has a handle.
     pub fn users(&self, position: u32, doc_module: DocModule<'_>) -> String {
         let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
         let paths = users.iter().filter_map(|id| Some(self.handles.get(id)?.constant.as_str()));

@@ -108,7 +108,7 @@ pub(super) struct PatternModel {
     position: u32,
     /// Name of the state or command in the description.
     original: String,
-    /// The same name for people, with spaces instead of underscores.
+    /// The same name in words, with spaces instead of underscores.
     pub title: String,
     pub docs: String,
     /// Meaning of the state or command, for a table cell.

@@ -40,8 +40,8 @@ pub(super) const RESERVED: [&str; 31] = [
 /// Additional reserved names if the device has messages.
 pub(super) const RESERVED_WITH_MESSAGES: [&str; 3] = ["messages", "on", "after_power_on"];
 
-/// Returns the `allow` attribute for methods with these names, if at least one name needs the attribute. It suppresses
-/// the clippy lints about prefixes such as `to_` and about names of trait methods such as `next`.
+/// Returns the `allow` attribute for methods with these names, if at least one name needs the attribute. The attribute
+/// suppresses the clippy lints about prefixes such as `to_` and about names of trait methods such as `next`.
 pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
     const PREFIXES: [&str; 5] = ["from_", "into_", "to_", "is_", "as_"];
     const TRAITS: [&str; 3] = ["next", "deref_mut", "borrow_mut"];

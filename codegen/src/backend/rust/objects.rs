@@ -55,7 +55,7 @@ impl ObjectModel {
         self.items.iter().any(|item| item.names_runtime)
     }
 
-    /// Drops the documentation of the device's method that returns the value of the object.
+    /// Drops the documentation of the device's accessor method for the object, unless the object is a module.
     pub(super) fn drop_method_docs(&mut self) {
         if !self.is_module {
             self.items.iter_mut().for_each(|item| item.method_docs = Vec::new());

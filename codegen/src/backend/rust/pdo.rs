@@ -504,7 +504,7 @@ fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     writes
 }
 
-/// Returns the SDO writes that set the default transmission type and timers. Read-only parameters are left out.
+/// Returns the SDO writes that set the default transmission type, inhibit time, event timer and SYNC start value. Read-only parameters are left out.
 pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),

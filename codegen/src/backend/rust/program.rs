@@ -128,7 +128,8 @@ struct Parts<'p, 'a> {
 
 impl Parts<'_, '_> {
     /// Returns the first state machine with an operating state whose items can be accessed on a bus. If there is no
-    /// such machine, returns the reason why the program does not use the first machine on the bus.
+    /// such machine, returns the reason why the program does not use the first machine on the bus. Returns `None` if no
+    /// machine is on the bus.
     fn machine(&self, types: &Types, bus: RouteBus) -> Option<Result<ProgramMachine, NoTarget>> {
         let machines = self.context.names.types.machines.iter().zip(&types.machines).enumerate();
         let mut on_bus = machines.filter_map(|(position, (named, model))| {
@@ -192,7 +193,8 @@ impl Parts<'_, '_> {
         Some((self.item(entry, call, number)?, number))
     }
 
-    /// Returns the first raw value that an item can have on a bus: one of the numbers `preferred`, or a limit of the item.
+    /// Returns the first raw value that an item can have on a bus: one of the numbers `preferred`, or a limit or an
+    /// allowed value of the item.
     fn sample(&self, item: &Item, bus: RouteBus, preferred: &[i128]) -> Option<i128> {
         let limits = item.limits_on(bus.of_items()).unwrap_or(&item.limits);
         let (low, high) = limits.integers();

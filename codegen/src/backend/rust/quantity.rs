@@ -12,8 +12,8 @@ pub(super) struct QuantityType {
     pub word: String,
 }
 
-/// Returns the type of an item's value. Returns `None` if the value is a plain number, or if no type of the runtime can
-/// express its scale.
+/// Returns the type of an item's value. Returns `None` if the value is a plain number, if its scale differs between
+/// models or buses, or if no type of the runtime can express the scale.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
@@ -102,7 +102,8 @@ fn spelled(number: i128) -> String {
 }
 
 /// Converts `factor` and `offset` to fractions with a common denominator. Returns the numerator of the factor, the
-/// denominator, and the numerator of the offset. Returns `None` if a number does not fit in 64 bits.
+/// denominator, and the numerator of the offset. Returns `None` if `factor` or `offset` has no fraction (see
+/// [`rational`]), or if a result does not fit in 64 bits.
 fn common(factor: f64, offset: f64) -> Option<(i64, i64, i64)> {
     let (num, den) = rational(factor)?;
     if offset == 0.0 {

@@ -84,7 +84,7 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
 }
 
 /// Adds the constants that a CANopen PDO needs. Returns the Rust type of the COB-ID, or `None` if the mapping of the
-/// PDO is fixed.
+/// PDO is fixed or the PDO has no communication parameters.
 fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     let communication = pdo.communication.as_ref()?;
     let settings = device.canopen.as_deref();
@@ -117,7 +117,7 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
 }
 
 /// Adds the constants that an EtherCAT PDO needs. Returns the type that is used instead of a COB-ID, or `None` if the
-/// description is not that of an EtherCAT device.
+/// description is not that of an EtherCAT device or contains only a dictionary.
 fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;

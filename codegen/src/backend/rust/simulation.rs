@@ -20,7 +20,7 @@ pub struct Simulation {
 }
 
 /// Returns the behavior of a state machine. The simulated device makes a transition without a command only if the
-/// program waits for this transition. Returns `None` if the states or commands of the machine are not bit patterns.
+/// program waits for this transition. Returns `None` if the commands of the machine are not bit patterns.
 pub(super) fn of(model: &MachineModel, walk: &WalkModel, path: &Path<'_>) -> Option<Simulation> {
     let transition =
         |step: &StepModel| Some((step.from.clone(), step.command.clone()?, path.settled(&step.to).to_owned()));

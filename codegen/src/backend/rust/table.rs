@@ -146,7 +146,8 @@ fn data_type(ty: Type) -> String {
     name.to_owned()
 }
 
-/// Returns a default value or configured value as the bytes of an SDO upload.
+/// Returns the code of a default value or configured value: the bytes of an SDO upload, a node-ID formula, or
+/// `Unknown`.
 fn raw_value(value: Option<&Value>, base: Type, ty: ValueType) -> Doc {
     let formula = value.and_then(|value| ty.formula(value));
     if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {

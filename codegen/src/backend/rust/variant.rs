@@ -5,8 +5,8 @@ use thin_vec::ThinVec;
 use crate::ir::{Item, Limits, Value};
 use crate::text::glob;
 
-/// Returns the item with the default value and limits of one model. Returns `None` if these do not differ between
-/// models, or if the model does not have the item.
+/// Returns the item with the default value, limits and scale of one model. Returns `None` if neither the default value
+/// nor the limits differ between models, or if the model does not have the item.
 pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     let differs = |variant: &&crate::ir::ItemVariant| {
         !variant.models.is_empty()
@@ -36,7 +36,7 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     Some(adapted)
 }
 
-/// Returns the limits for writing: the widest range of all models and buses.
+/// Returns the limits for writing: the widest range of all models and buses, and the writable values.
 pub(super) fn widest(item: &Item) -> Limits {
     let mut limits = Limits::clone(&item.limits);
     let writable = item.behavior.iter().flat_map(|behavior| &behavior.writable_values);

@@ -30,8 +30,8 @@ pub(super) struct WalkModel {
     pub bounds: Vec<Doc>,
 }
 
-/// Returns the methods for the machines whose commands are bit patterns of an item. `machines` are the machines of the
-/// context, ready to be printed.
+/// Returns the methods for the machines with transitions that a program can trigger or wait for. `machines` are the
+/// machines of the context, ready to be printed.
 pub(super) fn models(constants: &Constants<'_, '_>, machines: &[MachineModel]) -> Vec<WalkModel> {
     let all = constants.context.names.types.machines.iter().zip(machines).enumerate();
     let named = all.filter(|(_, (_, model))| model.has_transitions());
@@ -50,7 +50,8 @@ pub(super) fn models(constants: &Constants<'_, '_>, machines: &[MachineModel]) -
     named.filter_map(lower).collect()
 }
 
-/// Creates the method of a state machine.
+/// Creates the method of a state machine. Returns `None` if a client cannot read the status item or cannot write the
+/// control item.
 fn walk(
     constants: &Constants<'_, '_>,
     named: &NamedMachine<'_>,

@@ -73,7 +73,8 @@ fn no_framing(framing: &Framing) -> Option<Problem> {
     }
 }
 
-/// Reports messages that cannot transfer their parameters, and parameters that no message transfers.
+/// Reports messages that cannot transfer their parameters, parameters that no message transfers, and parameter numbers
+/// that occur twice.
 fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
     let mut carried: BTreeMap<u32, &str> = BTreeMap::new();
     for space in &context.device.parameter_spaces {

@@ -87,8 +87,8 @@ fn description(name: &str, are_words: bool) -> Option<&'static str> {
     }
 }
 
-/// Reports a name with a hyphen from a line break in a narrow table column, such as `Rcamstspc-trl` for `Rcamstspctrl`. Words in
-/// lower case (`low-pass`) and names that begin with an abbreviation (`CO-alarm`) are not reported.
+/// Reports a name with a hyphen from a line break in a narrow table column, such as `Rcamstspc-trl` for `Rcamstspctrl`. Names of
+/// several words, words in lower case (`low-pass`) and names that begin with an abbreviation (`CO-alarm`) are not reported.
 fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     let letters = || name.chars().zip(name.chars().skip(1)).zip(name.chars().skip(2));
     let is_broken = letters().any(|((before, mark), after)| {

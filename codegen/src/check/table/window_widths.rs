@@ -20,7 +20,8 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports items with more bits than their widest window on a bus. For each window, only the first item is reported.
+/// Reports items with more bits than their widest window on a bus. For each value item of a window, only the first item
+/// that does not fit is reported.
 fn width<'d>(
     context: &Context<'d>,
     item: &'d Item,

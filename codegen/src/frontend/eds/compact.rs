@@ -1,5 +1,5 @@
 //! Expands `CompactSubObj`, a description of sub-indices that differ only in their number, and applies the sections
-//! that refine single sub-indices.
+//! that contain names, values and denotations of single sub-indices.
 
 use super::keywords::{Raw, OF_A_VALUE};
 use super::lists;

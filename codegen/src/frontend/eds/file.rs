@@ -59,8 +59,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     Some(Catalog::of_device(device, modules))
 }
 
-/// Sort rank of the sections that refine sub-indices. The refining sections are sorted after the sections that describe
-/// sub-indices.
+/// First sort rank of the sections `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`. They are sorted after the
+/// sections that describe sub-indices.
 const REFINEMENT: u16 = 0x200;
 
 /// Sections of a file, grouped by subject.

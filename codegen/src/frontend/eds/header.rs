@@ -126,7 +126,7 @@ fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Dev
     old_version(reader, sections, &device.header, seen[3].as_ref());
 }
 
-/// Reports each mandatory entry that a section lacks.
+/// Reports each mandatory entry that a section lacks or leaves empty.
 fn missing(
     reader: &mut Reader<'_, '_>,
     sections: &[Section],

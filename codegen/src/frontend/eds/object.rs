@@ -287,8 +287,8 @@ impl<'a> Reader<'a, '_> {
         self.converter().value(text, span, ty, role)
     }
 
-    /// Returns the data type of an object or sub-index. Returns `None` and reports an error if the data type is
-    /// invalid, or if it is missing and the value needs one.
+    /// Returns the data type of an object or sub-index. Returns `None` and reports the data type if it is not a number,
+    /// or if it is missing and the value needs one.
     fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
         let (text, span) = match raw.get(Key::DataType) {
             Some(entry) => self.fixed(entry, Fixed::Number),
@@ -378,7 +378,8 @@ impl<'a> Reader<'a, '_> {
         is_mappable.then(|| Srdo { inverted: inverted.map(|address| ((address >> 8) as u16, address as u8)) })
     }
 
-    /// Returns the number of sub-indices that CompactSubObj declares.
+    /// Returns the number of sub-indices that CompactSubObj declares, which is at most 254, or `None` if it declares
+    /// none.
     fn compact_count(&mut self, raw: &Raw) -> Option<u8> {
         let entry = raw.get(Key::CompactSubObj)?;
         let (text, span) = self.fixed(entry, Fixed::Number);

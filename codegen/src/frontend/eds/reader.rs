@@ -17,8 +17,8 @@ pub(super) struct Reader<'a, 'd> {
     pub types: Vec<(u32, Type)>,
     /// Targets of object links, which are checked after all objects are read.
     pub link_spans: Vec<(u16, Span)>,
-    /// Sections that refine an object that the file does not describe. The entries of these sections become extensions
-    /// of the device.
+    /// Sections `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of objects that the file does not describe. The
+    /// entries of these sections become extensions of the device.
     pub orphan_sections: Vec<Section>,
     /// Number of modules that `[SupportedModules]` announces, and the span of the number.
     pub announced_modules: Option<(u32, Span)>,

@@ -1,4 +1,4 @@
-//! Reads the `Info` element of a device: time limits, ports, electrical data.
+//! Reads the `Info` element of a device: timeouts, ports, electrical data.
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;

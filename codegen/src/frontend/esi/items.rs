@@ -225,7 +225,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
     }
 
     /// Adds those sub-items of an object that the data type of the object does not define. The added sub-items get the
-    /// sub-indices after the last entry, and the type of the last entry.
+    /// sub-indices after the last entry, and the type of the last entry. Without an entry after sub-index 0, they
+    /// become raw bytes.
     fn extra(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -372,8 +373,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Reports an object without declared access rights. Records that its items are read-only by a rule of the
-    /// compiler.
+    /// Reports an object without declared access rights if one of its items does not declare them either. Records that
+    /// these items are read-only by a rule of the compiler.
     fn access_given(&self, reader: &mut Reader<'_, '_>, group: &mut Group, flags: &Flags) {
         if flags.access.is_some() {
             return;

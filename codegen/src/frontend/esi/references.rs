@@ -270,8 +270,8 @@ fn cost_of(dictionary: &Device, length: usize) -> Cost {
     Cost { items, bytes: length + extensions * size_of::<Extension>() }
 }
 
-/// Returns whether the budget allows a copy of the file. The limit applies because many devices may refer to one large
-/// file.
+/// Subtracts the cost of a copy from the budget. Returns false and reports the reference if the budget is too small.
+/// The limit applies because many devices may refer to one large file.
 fn affordable(budget: &mut Budget, cost: Cost, reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
     let affordable = budget.take(cost);
     if !affordable {

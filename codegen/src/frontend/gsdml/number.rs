@@ -69,7 +69,7 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// Reads the required ident number of `tag`. Returns 0 if the ident number is missing.
+    /// Reads the required ident number of `tag`. Returns 0 if the ident number is missing or invalid.
     pub fn required_ident(&mut self, tag: &Tag<'_>, given: &Given<'_>, name: &str) -> u32 {
         self.require(tag, given, name, "read as 0");
         self.ident(given, u32::MAX, "ident number").unwrap_or(0)

@@ -49,7 +49,7 @@ impl<'a> Reader<'a, '_> {
         Ok(index.map(|_| group))
     }
 
-    /// Reads the required length of a record. Returns 0 if the length is missing.
+    /// Reads the required length of a record. Returns 0 if the length is missing or invalid.
     pub fn record_length(&mut self, tag: &Tag<'a>, given: &Given<'a>) -> u32 {
         self.require(tag, given, "Length", "read as 0");
         self.unsigned(given, u32::MAX, "length").unwrap_or(0)

@@ -377,7 +377,7 @@ pub(super) fn read_only_table(reader: &mut Reader<'_, '_>, item: &Item) {
     }
 }
 
-/// Reports a word order in a row whose space has no Modbus registers.
+/// Reports `order` and `swap` in a row that has register numbers, but no Modbus registers.
 pub(super) fn words_without_register(reader: &mut Reader<'_, '_>, row: &Row, items: &[Item]) {
     let Some(item) = items.first() else { return };
     let has_register = item.bindings.iter().any(|binding| matches!(binding, Binding::Register(_)));

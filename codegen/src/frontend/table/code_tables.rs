@@ -98,7 +98,8 @@ fn printed_cells(reader: &Reader<'_, '_>, cells: &[At<Literal>]) -> Vec<CompactS
 struct Distinct<'t>(HashMap<Vec<Cell<'t>>, &'t At<String>>);
 
 impl<'t> Distinct<'t> {
-    /// Returns an earlier code with the same cells as `row`. Returns `None` if the row has no cells.
+    /// Returns an earlier code with the same cells as `row`, or `None` if there is no such code. A row without cells,
+    /// or with a NaN cell, equals no other row.
     fn before(&mut self, key: &'t At<String>, row: &'t CodeTableRow) -> Option<&'t At<String>> {
         let cells = row
             .cells

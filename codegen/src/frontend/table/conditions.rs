@@ -20,7 +20,7 @@ pub(super) struct GivenAvailability<'t> {
     pub buses: Option<&'t Vec<At<String>>>,
 }
 
-/// Reads the condition of a bit or value, which may depend on one item only.
+/// Reads the condition of a bit or value. Reports a condition on several items, and reads only its first item.
 pub(super) fn condition(
     reader: &mut Reader<'_, '_>,
     references: &mut References,
@@ -60,8 +60,8 @@ pub(super) fn conditions(
     conditions
 }
 
-/// Reads the models, firmware versions and buses that have an element. Returns `None` if all models, firmware versions and buses
-/// have the element.
+/// Reads the models, firmware versions and buses that have an element, and the element that replaces it. Returns `None` if the
+/// table states none of these facts.
 pub(super) fn availability(
     reader: &mut Reader<'_, '_>,
     references: &mut References,

@@ -120,7 +120,7 @@ impl Definitions {
         ty
     }
 
-    /// Returns the length of a basic or named type in bits, or `None` if the length varies.
+    /// Returns the length of a basic or named type in bits, or `None` if the length varies or is unknown.
     pub fn bits_of(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.types.get(id as usize).and_then(|def| def.bits),

@@ -56,7 +56,7 @@ const KEYS: [&str; 25] = [
 
 /// Reads the device that a table describes. `chosen` contains the choices for the options of the table.
 ///
-/// Returns `None` and reports an error if the table does not describe a device.
+/// Returns `None` and reports an error if `source` is not valid TOML or does not describe a device.
 pub fn read(
     source: &Source,
     file: FileId,

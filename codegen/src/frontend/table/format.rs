@@ -422,7 +422,7 @@ tables! {
         pub revision: Option<u32>,
         /// Name, order code or identifier of the devices; `*` matches any characters.
         pub device: Option<String>,
-        /// Modules that the overlay changes, by name, identifier or ident number; on PROFINET also submodules, by name.
+        /// Modules that the overlay changes, by name, identifier or number; also PROFINET submodules, if `for` contains no keys of a device.
         pub module: Option<String>,
     }
 
@@ -539,7 +539,7 @@ tables! {
         /// Buses on which the window exists. Default: all buses of the items in the window.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Register numbers for which the window is valid, such as `"0x8000..0x8FFF"`. Default: all numbers.
+        /// Numbers that the driver may write to the window (`reg` + `add`), such as `"0x8000..0x8FFF"`. Default: all numbers.
         pub numbers: Option<At<String>>,
         /// Offset that is added to `reg` to get the number that the driver writes.
         pub add: Option<i64>,
@@ -549,7 +549,7 @@ tables! {
         pub read: Option<At<TextOr<WindowTable>>>,
         /// Item through which the driver writes the value, or a table with further keys.
         pub write: Option<At<TextOr<WindowTable>>>,
-        /// Whether the device resets the register number to 0 after the transfer. Default: `clears` of the item that receives the number.
+        /// Whether the device resets the register number to 0 after the transfer. Default: follows from `procedure` and the row of `write_address`.
         pub clears: Option<bool>,
         /// Time in ms that the transfer takes, if the device does not reset the register number.
         pub wait: Option<u32>,
@@ -565,7 +565,7 @@ tables! {
         pub address: Option<At<String>>,
         /// Item through which the driver reads or writes the value.
         pub value: Option<At<String>>,
-        /// Item that the driver writes first: `address` or `value`.
+        /// Item that the driver writes first: `address` or `value`; valid only in `write`.
         #[cfg_attr(test, schemars(transform = schema::words("address value")))]
         pub first: Option<At<String>>,
         /// Whether the device resets the register number to 0 after the transfer.
@@ -620,13 +620,14 @@ tables! {
         /// Data type: `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Access rights: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state them.
+        /// Access rights: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state them (the compiler assumes `rw`).
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo const rwr rww ?")))]
         pub access: Option<At<String>>,
         /// PDO direction, as seen from the device: `rx`, `tx`, `both` or `no`.
         #[cfg_attr(test, schemars(transform = schema::words("rx tx both no")))]
         pub pdo: Option<At<String>>,
-        /// Default value as a raw value; a list if the row describes several objects.
+        /// Default value: a raw value, an expression with the node-ID (`"$NODEID+0x80"`), or a list with one value per object, repetition or
+        /// array element.
         pub default: Option<At<OneOrMany<Literal>>>,
         /// Value that the item always has.
         pub fixed: Option<At<Literal>>,
@@ -673,9 +674,9 @@ tables! {
         pub count: Option<At<NumberOrText>>,
         /// Maximum number of repetitions, required if `count` names an item.
         pub max_count: Option<u32>,
-        /// Difference between the register numbers of successive repetitions.
+        /// Difference between the addresses of successive repetitions, in `reg`, `obj`, `param` and `esc`.
         pub stride: Option<u32>,
-        /// Bits of the register that contain the value (`"7-0"`).
+        /// Bits of the Modbus register that contain the value (`"7-0"`).
         #[cfg_attr(test, schemars(transform = schema::notation(schema::BITS)))]
         pub part: Option<At<NumberOrText>>,
         /// Word order of the value: `high_first` or `low_first`.
@@ -683,7 +684,7 @@ tables! {
         pub order: Option<At<String>>,
         /// Whether the device sends the low byte of each word first.
         pub swap: Option<bool>,
-        /// Whether the sub-index exists, but has no meaning.
+        /// Whether the sub-index exists and is read-only, but has no meaning.
         pub reserved: Option<bool>,
         /// Whether the sub-index does not always exist.
         pub optional: Option<bool>,
@@ -929,7 +930,7 @@ tables! {
         pub fields: Entries<ImageField>,
     }
 
-    /// Field of a process image; the key of the field is the name of an item.
+    /// Field of a process image; the key of the field is the name of an item, or any other name.
     pub struct ImageField: meaning orig doc cite doubt {
         /// Number of the first byte of the field.
         pub at: Option<u32>,
@@ -946,7 +947,7 @@ tables! {
         pub columns: Vec<String>,
         /// Prefix of the codes in the manual: `F` for `F125`.
         pub prefix: Option<String>,
-        /// Whether no two codes may have the same cells.
+        /// Whether the compiler warns about codes with equal cells.
         pub distinct: bool,
         /// Codes of diagnostics that an ambiguity explains; the compiler suppresses these diagnostics.
         pub allow: Option<Vec<At<String>>>,
@@ -976,7 +977,7 @@ tables! {
         pub states: Option<At<TextOr<Entries<PatternTable>>>>,
         /// State after power-on.
         pub initial: Option<At<String>>,
-        /// Fault states, in which `walk` stops. States to which a transition without `from` and `command` leads, and states that follow them without a command, are fault states without an entry.
+        /// Fault states, in which `walk` stops. The list can omit states that the device enters automatically from any state, and the states that follow them automatically.
         pub faults: Vec<At<String>>,
         /// Commands, each with its bit pattern in the `control` item.
         pub commands: Entries<PatternTable>,
@@ -1153,7 +1154,7 @@ tables! {
         pub request: Vec<At<FieldTable>>,
         /// Fields of the reply.
         pub reply: Vec<At<FieldTable>>,
-        /// Event that completes the order: `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
+        /// Event that indicates that the device has executed the request: `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
         pub completion: Option<At<TextOr<CompletionTable>>>,
         /// States in which the device accepts the message.
         pub accepted_in: Vec<At<String>>,
@@ -1165,7 +1166,8 @@ tables! {
         pub reply_time: Option<u32>,
         /// Earlier message that selects the reply of this message, if several messages have identical requests.
         pub after: Option<At<String>>,
-        /// Whether the device also sends this reply after power-on.
+        /// Whether the device answers the request with this reply after power-on, until it receives a message that selects another
+        /// reply.
         pub default: bool,
         /// Message that the device sends instead of the reply if it refuses the request.
         pub error: Option<At<String>>,
@@ -1183,7 +1185,7 @@ tables! {
         pub reply: At<Vec<u8>>,
     }
 
-    /// Event that completes an order.
+    /// Event that indicates that the device has executed a request.
     pub struct CompletionTable {
         /// Item or reply field that indicates completion; the name of a bit may follow after a dot.
         pub poll: Option<At<String>>,
@@ -1191,9 +1193,10 @@ tables! {
         pub mask: Option<u64>,
         /// Value that indicates completion. Default: any value except 0.
         pub value: Option<Literal>,
-        /// Whether the reply to the order already contains the polled value, which differs from `value` until the order completes.
+        /// Whether the reply to the request already contains the polled value, which differs from `value` until the device has executed the
+        /// request.
         pub in_reply: bool,
-        /// Time in ms after which the order is complete.
+        /// Time in ms after which the device has executed the request.
         pub delay: Option<u32>,
     }
 

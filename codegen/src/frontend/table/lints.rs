@@ -90,7 +90,7 @@ fn hexadecimal(text: &str) -> Option<String> {
     (!digits.is_empty() && digits.chars().all(|c| c.is_ascii_hexdigit())).then_some(digits)
 }
 
-/// Reports an index that is decimal or does not have four digits.
+/// Reports an index that is decimal, has the prefix `0X`, or does not have four digits.
 pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     capital(reader, reader.span(given));
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);

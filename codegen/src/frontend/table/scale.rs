@@ -42,7 +42,8 @@ pub(super) fn of_variant(
     Some(found.unwrap_or(Scale::Linear { factor: 1.0, offset: 0.0 }))
 }
 
-/// Reads a scale that the table declares. Returns `Some(None)` for a factor of 1, and `None` for an invalid scale.
+/// Reads a scale that the table declares. Returns `Some(None)` for a factor of 1 without an offset. Reports an invalid
+/// scale, and returns `None`.
 fn explicit(
     reader: &mut Reader<'_, '_>,
     given: &At<Scaling>,

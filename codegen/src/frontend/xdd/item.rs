@@ -313,7 +313,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 }
 
-/// Stores the exact list of allowed values as an extension. The limits of the item contain only the minimum and the
+/// Stores the exact list of allowed values as an extension. The limits of the item contain at most the minimum and the
 /// maximum of this list.
 fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());

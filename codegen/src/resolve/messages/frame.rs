@@ -130,7 +130,7 @@ impl Reader<'_, '_> {
         self.frame.is_open = true;
     }
 
-    /// Returns the length in bits of a value in the request.
+    /// Returns the length in bits of a value in the request, or `None` if the value is missing or has a variable length.
     fn echoed(&self, name: &str) -> Option<u32> {
         let bits_of = |field: &MessageField| match field {
             MessageField::Value(value) if value.item.name == name => Some(self.owner.basic(value.item.ty).bits()),
@@ -139,7 +139,7 @@ impl Reader<'_, '_> {
         self.request.iter().find_map(bits_of).flatten()
     }
 
-    /// Returns the length in bits of the shortest value in a parameter space.
+    /// Returns the length in bits of the shortest value with a fixed length in a parameter space, or 0 if there is none.
     fn shortest_value(&self, space: &SpaceRef) -> usize {
         let is_in = |binding: &Binding| matches!(binding, Binding::Parameter(parameter) if parameter.space == *space);
         let items = self.device.items().filter(|item| item.bindings.iter().any(is_in));

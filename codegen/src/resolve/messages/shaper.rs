@@ -28,7 +28,7 @@ pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,
     /// Name, bit offset and length in bits of each value before the first step with a variable length.
     offsets: Vec<(&'a str, u32, u32)>,
-    /// Names of all values in the request or reply.
+    /// Names of the values and copied fields that are not repeated.
     names: Vec<&'a str>,
     /// Bit offset and length in bits of the first parameter number.
     code: Option<(u32, u32)>,
@@ -266,7 +266,7 @@ fn counts(field: &MessageField, name: &str) -> Option<Option<u16>> {
     }
 }
 
-/// Returns the name of a value, or of a copied field.
+/// Returns the name of a value, or of a field that is copied completely.
 fn name(field: &MessageField) -> Option<&str> {
     match field {
         MessageField::Value(value) => Some(value.item.name.as_str()),
@@ -275,7 +275,7 @@ fn name(field: &MessageField) -> Option<&str> {
     }
 }
 
-/// Returns the names of values that are not repeated.
+/// Returns the names of the values and copied fields that are not repeated.
 fn names(fields: &[MessageField]) -> impl Iterator<Item = &str> {
     fields.iter().filter_map(name)
 }

@@ -196,7 +196,7 @@ impl<'p> Completion<'p> {
         Some(added)
     }
 
-    /// Returns the basic type of a bit field, an enumeration or an alias.
+    /// Returns the basic type under bit fields, enumerations, aliases and scaled types.
     fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
         // The loop ends, because a definition refers only to earlier definitions.
@@ -335,7 +335,8 @@ fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&
     true
 }
 
-/// Returns the letters and digits of a name in lower case. Two names with the same letters and digits have the same Rust name.
+/// Returns the letters and digits of a name in lower case. Names that differ only in case or in other characters can have the same
+/// Rust name.
 fn letters(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }

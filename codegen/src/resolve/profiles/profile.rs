@@ -42,7 +42,7 @@ pub(crate) struct Described {
     pub indices: (u16, u16),
     /// First and last sub-index; `None` for the objects themselves.
     pub subs: Option<(u8, u8)>,
-    /// Type of the entries, whose signedness is ignored.
+    /// Type of the entries. The signedness of this type is ignored.
     pub ty: Option<Type>,
     /// Buses on which the facts apply; `None` means all buses.
     pub buses: Option<ObjectBuses>,
@@ -60,7 +60,7 @@ pub(crate) struct Described {
 pub(crate) struct Signal {
     pub name: CompactString,
     pub ty: Option<Type>,
-    /// Type with the names of bits, from [`Profile::types`].
+    /// Type with the names of bits or values, from [`Profile::types`].
     pub meaning: Option<TypeId>,
 }
 
@@ -74,8 +74,8 @@ pub(crate) struct Telegram {
 }
 
 impl Profile {
-    /// Returns whether `groups` contain the object by which the profile is recognized. Returns true if the profile has no such
-    /// object.
+    /// Returns whether `groups` contain the object by which the profile is recognized, with a single value of the expected type.
+    /// Returns true if the profile has no such object.
     pub fn is_shown_by(&self, groups: &[Group]) -> bool {
         let Some(index) = self.when else { return true };
         let found = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));
@@ -110,8 +110,8 @@ impl Profile {
         when.values.iter().map(name_of).collect()
     }
 
-    /// Returns whether a type has the kind and length that the profile expects. The signedness of integers may differ, but a
-    /// signed type never matches a bit field.
+    /// Returns whether a type has the kind and length that the profile expects, or the profile expects no particular type. The
+    /// signedness of integers may differ, but a signed type never matches a bit field.
     pub fn is_alike(&self, ty: Type, expected: Option<Type>, meaning: Option<TypeId>) -> bool {
         let Some(expected) = expected else { return true };
         let shape = meaning.and_then(|id| self.definition(id)).map(|definition| &definition.shape);

@@ -21,8 +21,8 @@
 //! # Ok::<(), lexibus_codegen::syntax::xml::Error>(())
 //! ```
 //!
-//! DTDs are skipped, and only the five predefined entities of XML are expanded. A small file therefore cannot expand
-//! into a large one. Reading stops at the first error.
+//! DTDs are skipped, and only character references and the five predefined entities of XML are expanded. A small file therefore
+//! cannot expand into a large one. Reading stops at the first error.
 
 mod attributes;
 mod cursor;

@@ -35,7 +35,7 @@ fn error(text: &str) -> (&'static str, String) {
 
 #[test]
 fn blanks_around_references_and_comments() {
-    // An element can follow a character reference and a space. Spaces within a text are a part of the text.
+    // An element can follow a reference and a space. Spaces within a text are a part of the text.
     assert!(events("<a>x&amp; <b/></a>").unwrap().iter().any(|event| event.contains('b')));
     assert_eq!(events("<a> x &amp; y <!-- --> z </a>").unwrap()[1..3], ["\" x & y \"", "\" z \""]);
 }

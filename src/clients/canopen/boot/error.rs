@@ -60,7 +60,7 @@ impl fmt::Display for VersionText {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BootError<E> {
-    /// An NMT command was not sent, or the CAN interface failed while the master waited for a heartbeat.
+    /// An NMT command was not sent, or the CAN interface failed outside SDO transfers and node guarding requests.
     Command(Error<E>),
     /// The node did not send its boot-up message after the restart.
     NoBootUp,

@@ -68,7 +68,8 @@ pub(super) struct Checks {
 }
 
 impl Boot {
-    /// Creates a boot that only starts the node, without checks and without a configuration.
+    /// Creates a boot that only reads the device type (0x1000) and starts the node, without checks and without a
+    /// configuration.
     #[must_use]
     pub const fn new(error_control: ErrorControl) -> Self {
         let checks = Checks { device_type: 0, identity: [0; 4], hardware_version: None, software_version: None };
@@ -190,12 +191,12 @@ impl Boot {
         self
     }
 
-    /// Stores the configuration in the node after it was written (0x1010:01). If the node confirms the command, the
+    /// After the configuration was written, stores it in the node (0x1010:01). If the node confirms the command, the
     /// date of the configuration is written to 0x1020 and stored, too. Without this option, 0x1020 is never written,
     /// because the node loses the configuration when it restarts.
     ///
-    /// The node must confirm the store command within its timeout
-    /// ([`Node::with_timeout`](crate::clients::canopen::Node::with_timeout)).
+    /// The node must confirm the store command within the [timeout](crate::clients::canopen::Node::with_timeout) of the
+    /// client.
     #[must_use]
     pub const fn store(mut self) -> Self {
         self.is_stored = true;

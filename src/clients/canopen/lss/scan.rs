@@ -29,8 +29,8 @@ macro_rules! scan {
             }
 
             /// Switches all slaves to Waiting, finds a slave that has no node-ID, and returns its address. This slave
-            /// is then in Configuration. Returns `None` if all slaves have a node-ID, which means that no slave has
-            /// answered two requests within the timeout.
+            /// is then in Configuration. Returns `None` if all slaves have a node-ID: the master sends two requests,
+            /// and no slave answers either of them within the timeout.
             ///
             /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master then inquires the
             /// address of the slave and compares the two addresses, so a lost or late answer doesn't lead to a wrong

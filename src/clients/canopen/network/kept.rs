@@ -45,7 +45,8 @@ pub(super) struct Kept<const N: usize> {
     pub lost_emergencies: usize,
 }
 
-/// Returns the owner and the kind of a frame that a slave sends with this default COB-ID (CiA 301 7.3.5).
+/// Returns the owner and the kind of a frame with a default COB-ID (CiA 301 7.3.5), or `None` if no handle receives
+/// frames with this COB-ID.
 fn default_owner(frame: &CanFrame) -> Option<(Owner, Kind)> {
     match frame.id() {
         0x080 | 0x100 => return Some((None, Kind::ProcessData)),

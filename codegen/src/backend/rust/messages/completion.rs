@@ -10,7 +10,8 @@ use crate::backend::rust::links::DocModule;
 use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
 use crate::resolve::messages::Step;
 
-/// Returns a sentence that states when the command of a message is completed.
+/// Returns a sentence that states when the command of a message is completed, or `None` if the command is completed
+/// immediately.
 pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: DocModule<'_>) -> Option<String> {
     let late = message.reply_time.map(|time| format!(", after about {time} ms")).unwrap_or_default();
     Some(match &message.completion {

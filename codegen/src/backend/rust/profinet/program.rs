@@ -12,8 +12,8 @@ use crate::ir::{Catalog, Direction, IoData, ModuleUse, Numbers, Submodule, Submo
 pub struct ProfinetProgram {
     /// Number of places in the slot plan: one for each submodule, and one for each module without submodules.
     pub places: usize,
-    /// Module that the program plugs, and its slot. `None` if the program exchanges the data of a default module, or if
-    /// no module has cyclic data.
+    /// Module that the program plugs, and its slot. `None` if the program exchanges the data of a fixed or default
+    /// module, or if no module has cyclic data.
     pub plugged: Option<(u16, String)>,
     /// Whether the program also plugs the submodule whose data it exchanges.
     pub plugs_submodule: bool,

@@ -67,7 +67,7 @@ struct Parameter<'i> {
     field: Field<'i>,
 }
 
-/// Returns the records of a submodule in the order of the description.
+/// Returns the records of a submodule in the order of the description. Records without a valid length are left out.
 pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &RustOptions) -> Vec<RecordModel> {
     let records = groups.iter().filter_map(|group| match &group.kind {
         GroupKind::Record(record) if (1..=MAX_RECORD_BYTES).contains(&record.length) => Some((group, &**record)),
