@@ -14,15 +14,17 @@ pub enum Failure {
     Exception(u8),
     /// The device didn't reply in time.
     Timeout,
+    /// The client has no request for this access, such as a value that is too long for a Modbus request. Nothing was sent.
+    Unsupported(String),
     /// The bus or the client failed.
     Bus(String),
 }
 
 impl Failure {
-    /// Returns whether the device refused the access. After a refusal, the bus and the device still work.
+    /// Returns whether the device refused the access, or the access is impossible. The bus and the device still work.
     #[must_use]
     pub fn is_refusal(&self) -> bool {
-        matches!(self, Failure::Abort(_) | Failure::Exception(_))
+        matches!(self, Failure::Abort(_) | Failure::Exception(_) | Failure::Unsupported(_))
     }
 
     /// Returns whether the device reports that it has no such object, sub-index or register.
@@ -53,7 +55,7 @@ impl fmt::Display for Failure {
             Failure::Abort(code) => write!(f, "the device aborted: {code}"),
             Failure::Exception(code) => write!(f, "the device refused: Modbus exception {code} ({})", exception(*code)),
             Failure::Timeout => f.write_str("no reply within the timeout"),
-            Failure::Bus(text) => f.write_str(text),
+            Failure::Unsupported(text) | Failure::Bus(text) => f.write_str(text),
         }
     }
 }

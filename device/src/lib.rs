@@ -64,15 +64,18 @@ mod bus;
 mod connection;
 mod description;
 mod failure;
+pub mod monitor;
 mod parameter;
 mod parse;
 mod port;
 mod protection;
 mod quote;
 pub mod restore;
+pub mod scan;
 pub mod slcan;
 #[cfg(test)]
 mod testing;
+pub mod trace;
 pub mod verify;
 mod write;
 

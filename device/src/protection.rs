@@ -113,8 +113,8 @@ impl Parameter<'_> {
         let behavior = self.behavior();
         match () {
             () if self.flags() & REFUSES_WRITE != 0 => Some(Protection::RefusesDownload),
-            () if self.is_command(device) => Some(Protection::Command),
             () if self.is_control(device) => Some(Protection::Control),
+            () if self.is_command(device) => Some(Protection::Command),
             () if self.is_output(device) => Some(Protection::Output),
             () if self.is_node_id() => Some(Protection::NodeId),
             () if self.is_bit_rate() => Some(Protection::BitRate),

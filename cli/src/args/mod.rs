@@ -1,12 +1,19 @@
 //! Arguments of the command line.
 
 mod command;
+#[cfg(feature = "bus")]
+mod device;
 mod inputs;
 mod output;
 
 pub(super) use command::{
     Arguments, Bus, Check, Command, Diff, DiffFormat, Docs, DocsFormat, ExplainFormat, Fix, Import, InfoFormat, New,
     Schema, Shown,
+};
+#[cfg(feature = "bus")]
+pub(super) use device::{
+    BackupCommand, BackupFormat, Compare, Decode, Described, DeviceCommand, EventFormat, Monitor, NodeFile, Read, Restore, Scan,
+    ScanFormat, Target, Verify, VerifyFormat, WriteCommand,
 };
 pub(super) use inputs::{ColorChoice, Inputs, MessageFormat, Printing};
 pub(super) use output::{Export, ExportFormat, Generate, RealForm};

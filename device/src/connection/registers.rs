@@ -52,7 +52,8 @@ impl ModbusFailure for lexibus::clients::modbus::ModbusError {
             ModbusError::Bus(tokio_modbus::Error::Transport(error)) if error.kind() == std::io::ErrorKind::TimedOut => {
                 Failure::Timeout
             }
-            error => Failure::Bus(error.to_string()),
+            ModbusError::Bus(error) => Failure::Bus(error.to_string()),
+            error => Failure::Unsupported(error.to_string()),
         }
     }
 }
@@ -94,7 +95,7 @@ fn failure<E: ModbusFailure>(error: Error<E>) -> Failure {
         Error::Client(error) => error.into_failure(),
         Error::Timeout => Failure::Timeout,
         Error::Abort(code) => Failure::Abort(code),
-        Error::Length(error) => Failure::Bus(error.to_string()),
-        _ => Failure::Bus("the client cannot transfer the value".to_owned()),
+        Error::Length(error) => Failure::Unsupported(error.to_string()),
+        _ => Failure::Unsupported("the client cannot transfer the value".to_owned()),
     }
 }

@@ -117,18 +117,31 @@ fn attempt(write: &Write<'_>, connection: &mut impl Connection) -> Status {
 }
 
 /// Reads the written values back. Returns those that differ from the last write of their address, and the number of values that could
-/// not be read. Ends if the device doesn't reply.
+/// not be read. If the device didn't reply to a read, it may have restarted, so all values are read again.
 fn read_back<'d>(states: &[(Write<'d>, Status)], connection: &mut impl Connection) -> (Vec<(Write<'d>, String)>, usize) {
-    /// Number of values without a reply after which the function ends.
-    const MOST_FAILURES: usize = 2;
+    /// Maximum number of attempts to read all values without a failure.
+    const ATTEMPTS: usize = 3;
     let written = states.iter().filter(|(_, status)| *status == Status::Written).map(|(write, _)| write);
     let last: BTreeMap<Address, &Write<'d>> = written.map(|write| (write.parameter().address(), write)).collect();
     let readable: Vec<&Write<'d>> =
         last.into_values().filter(|write| write.parameter().read_refusal().is_none()).collect();
+    let mut result = (Vec::new(), readable.len());
+    for _ in 0..ATTEMPTS {
+        result = read_all(&readable, connection);
+        if result.1 == 0 {
+            break;
+        }
+    }
+    result
+}
+
+/// Reads values once. Ends if the device doesn't reply to two reads.
+fn read_all<'d>(writes: &[&Write<'d>], connection: &mut impl Connection) -> (Vec<(Write<'d>, String)>, usize) {
+    const MOST_FAILURES: usize = 2;
     let (mut mismatches, mut failures) = (Vec::new(), 0);
-    for (at, write) in readable.iter().enumerate() {
+    for (at, write) in writes.iter().enumerate() {
         if failures == MOST_FAILURES {
-            return (mismatches, failures + readable.len() - at);
+            return (mismatches, failures + writes.len() - at);
         }
         let expected = write.parameter().decode(write.bytes());
         match write.parameter().read(connection) {

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::finding::{Finding, Found};
+use lexibus_codegen::ir::{Group, Value};
+
+use super::finding::{Finding, FindingKind, Found};
 use super::mapping;
 use super::run::Run;
 use crate::connection::Connection;
@@ -65,10 +67,8 @@ fn check_entry<C: Connection>(run: &mut Run<'_, C>, index: u16, sub: u8, message
     Ok(true)
 }
 
-/// Searches undeclared entries of declared objects, up to the number of entries that the device states.
+/// Checks the number of entries of all declared objects. The numbers of the error history and of mappings change.
 fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
-    /// Sub-index of the structure of an object (CiA 301 7.4.5). It isn't an entry.
-    const STRUCTURE: u8 = 0xFF;
     let description = run.description;
     for group in &description.device().groups {
         let has_entries = group.object_code().is_some_and(lexibus_codegen::ir::ObjectCode::has_subs);
@@ -76,19 +76,35 @@ fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
         else {
             continue;
         };
-        let subs = group.items.iter().filter_map(|item| item.object()).map(|(_, sub)| sub);
-        let highest = subs.max().unwrap_or(0);
-        let is_readable = description.object(index, 0).is_some_and(|count| count.read_refusal().is_none());
-        if !is_readable {
-            continue;
+        if !run.missing.contains(&index) {
+            check_count(run, group, index)?;
         }
-        let count = match run.read_object(index, 0)?.as_deref() {
-            Ok(&[count]) => count,
-            _ => continue,
-        };
-        for sub_index in highest.saturating_add(1)..=count.min(STRUCTURE - 1) {
-            check_entry(run, index, sub_index, "the description doesn't declare this sub-index")?;
-        }
+    }
+    Ok(())
+}
+
+/// Compares the number of entries of an object with the description, and searches undeclared entries.
+fn check_count<C: Connection>(run: &mut Run<'_, C>, group: &Group, index: u16) -> Result<(), Failure> {
+    /// Sub-index of the structure of an object (CiA 301 7.4.5). It isn't an entry.
+    const STRUCTURE: u8 = 0xFF;
+    let description = run.description;
+    let Some(parameter) = description.object(index, 0).filter(|count| count.read_refusal().is_none()) else {
+        return Ok(());
+    };
+    let count = match run.read_object(index, 0)?.as_deref() {
+        Ok(&[count]) => count,
+        _ => return Ok(()),
+    };
+    let highest = group.items.iter().filter_map(|item| item.object()).map(|(_, sub)| sub).max().unwrap_or(0);
+    let mut has_extra = false;
+    for sub_index in highest.saturating_add(1)..=count.min(STRUCTURE - 1) {
+        has_extra |= check_entry(run, index, sub_index, "the description doesn't declare this sub-index")?;
+    }
+    let declared = parameter.default().filter(|_| !parameter.access().writable());
+    let actual = Value::Int(count.into());
+    if let Some(declared) = declared.filter(|declared| !has_extra && **declared != actual) {
+        let finding = Finding::of(&parameter, FindingKind::Different, "number of entries");
+        run.add(finding.compared(parameter.text(declared), parameter.text(&actual)));
     }
     Ok(())
 }

@@ -13,8 +13,11 @@ use crate::failure::Failure;
 use crate::parameter::Parameter;
 use crate::protection::ReadRefusal;
 
-/// Checks one parameter.
+/// Checks one parameter. The entries of a missing object are not checked.
 pub(super) fn check<C: Connection>(run: &mut Run<'_, C>, parameter: &Parameter<'_>) -> Result<(), Failure> {
+    if parameter.address().object().is_some_and(|object| run.missing.contains(&object.index)) {
+        return Ok(());
+    }
     match parameter.read_refusal() {
         Some(ReadRefusal::WriteOnly) => return check_write_only(run, parameter),
         Some(refusal) => {
@@ -58,8 +61,13 @@ where
     C: Connection,
 {
     let finding = match failure {
-        failure if failure.is_missing() && is_conditional(parameter) => {
+        failure if failure.is_missing() && is_conditional(parameter) || is_unused_entry(parameter, failure) => {
             unverifiable(parameter, "the device doesn't have the parameter, which exists only under a condition")
+        }
+        Failure::Abort(AbortCode::NO_OBJECT) => {
+            run.missing.extend(parameter.address().object().map(|object| object.index));
+            let finding = Finding::of(parameter, FindingKind::Missing, failure.to_string()).found(Found::Nothing);
+            Finding { name: parameter.group().name.to_string(), ..finding }
         }
         failure if failure.is_missing() => {
             Finding::of(parameter, FindingKind::Missing, failure.to_string()).found(Found::Nothing)
@@ -68,6 +76,7 @@ where
             let access = parameter.access().name();
             different(parameter, "access rights").compared(access, "wo").found(Found::WriteOnly)
         }
+        Failure::Unsupported(reason) => unverifiable(parameter, &format!("not read: {reason}")),
         failure => Finding::of(parameter, FindingKind::Unreadable, failure.to_string()),
     };
     run.add(finding.failed(failure));
@@ -79,13 +88,21 @@ fn different(parameter: &Parameter<'_>, fact: &str) -> Finding {
 
 /// Returns whether the parameter doesn't always exist: an entry of a list, or a parameter of some models or versions.
 fn is_conditional(parameter: &Parameter<'_>) -> bool {
-    /// Error history. Entries above the number of errors don't exist (CiA 301 7.5.2.3).
-    const HISTORY: u16 = 0x1003;
     let item = parameter.item();
-    let is_entry = parameter.address().object().is_some_and(|object| {
-        object.sub_index > 0 && (object.index == HISTORY || mapping::is_mapping(object.index))
-    });
-    item.is_optional || item.availability.is_some() || is_entry
+    item.is_optional || item.availability.is_some() || is_entry(parameter)
+}
+
+/// Returns whether the parameter is an entry of the error history or of a mapping. Entries above the current number of entries don't
+/// exist, or have no value (CiA 301 7.5.2.3 and 7.5.2.36).
+fn is_entry(parameter: &Parameter<'_>) -> bool {
+    const HISTORY: u16 = 0x1003;
+    let object = parameter.address().object();
+    object.is_some_and(|object| object.sub_index > 0 && (object.index == HISTORY || mapping::is_mapping(object.index)))
+}
+
+/// Returns whether a failure means that an entry of a list has no value.
+fn is_unused_entry(parameter: &Parameter<'_>, failure: &Failure) -> bool {
+    is_entry(parameter) && matches!(failure, Failure::Abort(AbortCode::NO_DATA | AbortCode::NO_RESOURCE))
 }
 
 /// Checks the length and the value.
@@ -143,8 +160,7 @@ fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) ->
     is_unknown.then(|| different(parameter, "value").compared("one of the listed values", parameter.text(value)))
 }
 
-/// Returns the value that the device must have: an identity number, a constant, the device type, or the number of
-/// entries of an object.
+/// Returns the value that the device must have: an identity number, a constant, or the device type.
 fn expected(parameter: &Parameter<'_>) -> Option<Value> {
     let object = parameter.address().object();
     let identity = &parameter.description().device().identity;
@@ -157,19 +173,17 @@ fn expected(parameter: &Parameter<'_>) -> Option<Value> {
     };
     let is_fixed = object.is_some_and(|object| match (object.index, object.sub_index) {
         (0x1000, 0) | (0x1018, _) => true,
-        // The numbers of entries in these objects change: error history, mappings.
-        (0x1003, _) => false,
-        (index, 0) if !mapping::is_mapping(index) => is_number_of_entries(parameter),
         _ => false,
     });
-    let is_fixed = is_fixed || parameter.access() == Access::Constant;
+    // The number of entries is checked together with the undeclared entries.
+    let is_fixed = !is_number_of_entries(parameter) && (is_fixed || parameter.access() == Access::Constant);
     number.map(|number| Value::Int(number.into())).or_else(|| parameter.default().filter(|_| is_fixed).cloned())
 }
 
-/// Returns whether the parameter is the fixed number of entries of an object.
+/// Returns whether the parameter is the number of entries of an object.
 fn is_number_of_entries(parameter: &Parameter<'_>) -> bool {
     let has_entries = parameter.group().object_code().is_some_and(lexibus_codegen::ir::ObjectCode::has_subs);
-    has_entries && !parameter.access().writable()
+    has_entries && parameter.address().object().is_some_and(|object| object.sub_index == 0)
 }
 
 /// Returns whether two values are equal. REAL32 values of a description have more digits than the device has.

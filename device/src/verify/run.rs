@@ -1,5 +1,6 @@
 //! Runs the comparison.
 
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use super::extra;
@@ -32,6 +33,8 @@ pub(super) struct Run<'r, C> {
     pub connection: &'r mut C,
     pub options: &'r Options,
     pub report: Report,
+    /// Indices of the objects that the device doesn't have.
+    pub missing: BTreeSet<u16>,
     timeouts: usize,
 }
 
@@ -80,7 +83,7 @@ pub fn verify(
     options: &Options,
 ) -> Result<Report, Failure> {
     let report = Report::new(description);
-    let mut run = Run { description, connection, options, report, timeouts: 0 };
+    let mut run = Run { description, connection, options, report, missing: BTreeSet::new(), timeouts: 0 };
     for parameter in description.parameters() {
         item::check(&mut run, &parameter)?;
     }
