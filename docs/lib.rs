@@ -76,6 +76,8 @@ mod chapters {
     mod serial {}
     #[doc = include_str!("src/simulation.md")]
     mod simulation {}
+    #[doc = include_str!("src/devices.md")]
+    mod devices {}
     #[doc = include_str!("src/recipes.md")]
     mod recipes {}
     #[doc = include_str!("src/diff.md")]

@@ -14,7 +14,7 @@
 //! let mut interpreter = Interpreter::new([(5, &drive)]);
 //! let frame = CanFrame::new(0x085, &[0x11, 0x86, 0x21, 0, 0, 0, 0, 0]).expect("a frame");
 //! let event = interpreter.interpret(&frame).expect("an emergency message");
-//! assert_eq!(event.to_string(), "node 5: EMCY 0x8611 (Following error), error register 0x21");
+//! assert_eq!(event.to_string(), "node 5: EMCY 0x8611 (following error), error register 0x21");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -90,7 +90,7 @@ pub(crate) struct WriteCommand {
     #[arg(value_name = "NAME")]
     pub name: String,
     /// Value, with its unit if the value is scaled: 15.5 rev/s, 1550 raw, 0x10, or the name of a value.
-    #[arg(required = true, value_name = "VALUE", allow_hyphen_values = true)]
+    #[arg(required = true, value_name = "VALUE", allow_negative_numbers = true)]
     pub value: Vec<String>,
     /// Write without asking.
     #[arg(long)]

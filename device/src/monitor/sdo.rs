@@ -20,7 +20,7 @@ pub(super) fn event(interpreter: &Interpreter<'_>, frame: &CanFrame) -> Option<E
     let [command, low, high, sub_index, data @ ..] = bytes;
     let object = Object::new(u16::from_le_bytes([low, high]), sub_index);
     let (text, value) = match (command >> 5, is_request) {
-        (ABORT, _) => (format!("SDO abort: {}", AbortCode(u32::from_le_bytes(data))), None),
+        (ABORT, _) => ("SDO abort".to_owned(), None),
         (1, true) => ("SDO download".to_owned(), expedited(command, &data)),
         (2, true) => ("SDO upload".to_owned(), None),
         (2, false) => ("SDO upload reply".to_owned(), expedited(command, &data)),
@@ -38,6 +38,9 @@ pub(super) fn event(interpreter: &Interpreter<'_>, frame: &CanFrame) -> Option<E
     };
     let name = parameter.map_or_else(String::new, |parameter| format!(" {}", parameter.path()));
     let (text, values) = match shown.as_str() {
+        "" if command >> 5 == ABORT => {
+            (format!("SDO abort of {object}{name}: {}", AbortCode(u32::from_le_bytes(data))), Vec::new())
+        }
         "" => (format!("{text} of {object}{name}"), Vec::new()),
         value => {
             let named = Named { address: object.to_string(), name: format!("{object}{name}"), value: value.to_owned() };
