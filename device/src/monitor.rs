@@ -24,5 +24,7 @@ mod interpreter;
 mod process;
 mod sdo;
 
+pub(crate) use interpreter::state_name;
+
 pub use event::{Event, EventKind, Named};
 pub use interpreter::Interpreter;

@@ -167,7 +167,10 @@ impl<'d> Parameter<'d> {
     #[must_use]
     pub fn text(&self, value: &Value) -> String {
         let text = facts::value(self.item, value, self.types());
-        if let Some(meaning) = facts::meaning(self.ty(), value, self.types()) {
+        // The text of a COB-ID and of a mapped object already contains the meaning of its bits.
+        let is_explained = PLAIN.is_named(self.item, value)
+            || self.address.object().is_some_and(|object| matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF));
+        if let Some(meaning) = facts::meaning(self.ty(), value, self.types()).filter(|_| !is_explained) {
             return format!("{text} ({meaning})");
         }
         match self.unit() {

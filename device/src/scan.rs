@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::description::Description;
 use crate::failure::Failure;
+use crate::monitor::state_name;
 
 /// A node of the bus.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -75,7 +76,7 @@ where
     for node_id in nodes {
         let Some(id) = NodeId::new(node_id) else { continue };
         let mut node = Node::new(&mut *port, id).with_timeout(timeout);
-        let state = states.iter().rev().find(|(of, _)| *of == id).map(|(_, state)| format!("{state:?}"));
+        let state = states.iter().rev().find(|(of, _)| *of == id).map(|(_, state)| state_name(*state));
         found.push(FoundNode { node_id, state, ..identity(&mut node) });
     }
     Ok(found)
@@ -95,24 +96,23 @@ where
     /// Time between two requests, so that the replies don't overflow small receive buffers.
     const PAUSE: Duration = Duration::from_millis(1);
     let mut nodes = BTreeSet::new();
-    let mut receive = |port: &mut P, patience: Duration| -> Result<bool, Failure> {
-        let frame = port.receive(patience, &mut |_| true).map_err(bus)?;
-        let Some(frame) = frame else { return Ok(false) };
-        states.extend(NmtState::of(&frame));
+    let mut note = |frame: &CanFrame| {
+        states.extend(NmtState::of(frame));
         let node = frame.id().checked_sub(REPLIES).filter(|node| (1..=0x7F).contains(node));
         // The reply contains the value or an abort code.
         let is_reply = matches!(frame.data(), [_, 0, 0x10, 0, ..]);
         nodes.extend(node.filter(|_| is_reply).map(|node| node as u8));
-        Ok(true)
+        // All frames are skipped, so the port waits for the whole time.
+        false
     };
     for node in 1..=0x7F {
         let Some(request) = CanFrame::new(REQUESTS + node, &DEVICE_TYPE) else { continue };
         if !port.send(&request, timeout).map_err(bus)? {
             return Err(Failure::Bus("the bus is busy, or no node acknowledges frames".to_owned()));
         }
-        while receive(port, PAUSE)? {}
+        port.receive(PAUSE, &mut note).map_err(bus)?;
     }
-    while receive(port, timeout)? {}
+    port.receive(timeout, &mut note).map_err(bus)?;
     Ok(nodes)
 }
 

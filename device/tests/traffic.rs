@@ -39,7 +39,7 @@ fn frames_have_names() {
     shown(&drive, (0x080, &[7]), "SYNC 7");
     shown(&drive, (0x085, &[0x11, 0x86, 0x21, 1, 0, 0, 0, 0]), "node 5: EMCY 0x8611 (following error), error register 0x21, vendor data 01 00 00 00 00");
     shown(&drive, (0x085, &[0; 8]), "node 5: EMCY 0x0000: no error");
-    shown(&drive, (0x285, &[0x37, 0x02, 0xFE, 0xFF, 0xFF, 0xFF]), "node 5: TPDO 2: Statusword = 567 (ready to switch on, switched on, operation enabled, voltage enabled, quick stop, remote), Position actual value = -2");
+    shown(&drive, (0x285, &[0x37, 0x02, 0xFE, 0xFF, 0xFF, 0xFF]), "node 5: TPDO 2: Statusword = 567 (ready to switch on, switched on, operation enabled, voltage enabled, remote), Position actual value = -2");
     shown(&drive, (0x605, &[0x40, 0x81, 0x60, 0, 0, 0, 0, 0]), "node 5: SDO upload of 0x6081:00 Profile velocity");
     shown(&drive, (0x585, &[0x43, 0x81, 0x60, 0, 0xE8, 3, 0, 0]), "node 5: SDO upload reply: 0x6081:00 Profile velocity = 1000");
     shown(&drive, (0x605, &[0x2B, 0x17, 0x10, 0, 100, 0, 0, 0]), "node 5: SDO download: 0x1017:00 Producer heartbeat time = 100 ms");
@@ -62,6 +62,8 @@ fn a_scan_finds_all_nodes_and_their_descriptions() {
     let mut bus = CanBus::new();
     for node in [1, 5, 127] {
         bus.add(CanNode::new(Device::new(demo_drive::ENTRIES).with_node_id(id(node))));
+        // Heartbeats that are faster than the timeout do not extend the search.
+        Node::new(&mut bus, id(node)).write(Object::new(0x1017, 0), &10_u16.to_le_bytes()).expect("a write");
     }
     let found = scan(&mut bus, Duration::from_millis(100)).expect("a scan");
     assert_eq!(found.iter().map(|node| node.node_id).collect::<Vec<_>>(), [1, 5, 127]);

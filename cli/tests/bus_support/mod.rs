@@ -44,7 +44,7 @@ fn serve_can(mut pty: Pty, delay: Duration) -> ! {
     let (mut decoder, mut buffer) = (Decoder::default(), [0; 1024]);
     let mut last = Instant::now();
     loop {
-        let count = pty.read(&mut buffer, Duration::from_millis(5)).unwrap_or(0);
+        let count = pty.read(&mut buffer, Duration::from_millis(1)).unwrap_or(0);
         decoder.push(&buffer[..count]);
         bus.advance(last.elapsed());
         last = Instant::now();

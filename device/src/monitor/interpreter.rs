@@ -48,7 +48,11 @@ impl<'d> Interpreter<'d> {
             return Some(Event::new(node, EventKind::Nmt, format!("NMT {}{everyone}", command_name(command))));
         }
         if let Some((node, state)) = NmtState::of(frame) {
-            return Some(Event::new(Some(node.get()), EventKind::State, state_name(state)));
+            let text = match state {
+                NmtState::BootUp => "boot-up".to_owned(),
+                state => format!("state {}", state_name(state)),
+            };
+            return Some(Event::new(Some(node.get()), EventKind::State, text));
         }
         if frame.id() == SYNC && frame.data().len() <= 1 {
             let counter = frame.data().first().map(|counter| format!(" {counter}")).unwrap_or_default();
@@ -76,12 +80,13 @@ fn command_name(command: NmtCommand) -> &'static str {
     }
 }
 
-fn state_name(state: NmtState) -> String {
+/// Returns the name of an NMT state.
+pub(crate) fn state_name(state: NmtState) -> String {
     match state {
-        NmtState::BootUp => "boot-up".to_owned(),
-        NmtState::Stopped => "state Stopped".to_owned(),
-        NmtState::Operational => "state Operational".to_owned(),
-        NmtState::PreOperational => "state Pre-operational".to_owned(),
-        NmtState::Unknown(number) => format!("unknown state {number}"),
+        NmtState::BootUp => "Boot-up".to_owned(),
+        NmtState::Stopped => "Stopped".to_owned(),
+        NmtState::Operational => "Operational".to_owned(),
+        NmtState::PreOperational => "Pre-operational".to_owned(),
+        NmtState::Unknown(number) => format!("unknown ({number})"),
     }
 }
