@@ -84,7 +84,10 @@ fn a_backup_of_each_format_is_restored() {
         assert_eq!(texts(&run(&[&["read"], &common[..], &["0x6081"]].concat())).0, "0x6081:00 Profile velocity = 7\n");
         let output = run(&[&restore[..], &["--yes"]].concat());
         assert!(output.status.success(), "{:?}", texts(&output));
-        assert_eq!(texts(&run(&[&["read"], &common[..], &["0x6081"]].concat())).0, "0x6081:00 Profile velocity = 1000\n");
+        assert_eq!(
+            texts(&run(&[&["read"], &common[..], &["0x6081"]].concat())).0,
+            "0x6081:00 Profile velocity = 1000\n"
+        );
     }
     let [dcf, toml] = ["axis.dcf", "axis.toml"].map(|name| folder.join(name).to_string_lossy().into_owned());
     let output = run(&["compare", &eds, &dcf, &toml]);
@@ -112,7 +115,9 @@ fn an_interrupted_restore_reports_its_writes() {
 #[test]
 fn a_missing_device_and_a_missing_adapter_are_reported() {
     let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
-    for (bus, message) in [(bus.as_str(), "no reply within the timeout"), ("slcan:/dev/none", "cannot open the CAN adapter")] {
+    for (bus, message) in
+        [(bus.as_str(), "no reply within the timeout"), ("slcan:/dev/none", "cannot open the CAN adapter")]
+    {
         let output = run(&["read", "--bus", bus, "--node", "9", "--timeout", "100", &eds, "0x6081"]);
         assert!(!output.status.success() && texts(&output).1.contains(message), "{:?}", texts(&output));
     }

@@ -64,7 +64,8 @@ fn register(binding: &RegisterBinding, ty: Type) -> Register {
         RegisterSpace::DiscreteInput => RegisterTable::DiscreteInput,
     };
     let bits = ty.bits().unwrap_or(0);
-    let mut register = Register::new(table, binding.address, binding.count).words_per_address(binding.words_per_address);
+    let mut register =
+        Register::new(table, binding.address, binding.count).words_per_address(binding.words_per_address);
     if ty.is_bytes() {
         register = register.ordered(WordOrder::Bytes);
     } else if binding.low_word_first && binding.count > 1 {

@@ -9,6 +9,7 @@ use lexibus::NodeId;
 
 use crate::address::Network;
 use crate::connection::Connection;
+use crate::description::Description;
 use crate::failure::Failure;
 use crate::port::AnyPort;
 
@@ -126,21 +127,30 @@ impl BusAddress {
     /// Connects to a device: the CANopen node or the Modbus server with this address. `timeout` is the maximum time for a
     /// reply. No message is sent to the device.
     ///
+    /// On Modbus, the connection uses only the functions and request lengths that `description` states. The list of
+    /// functions stays in memory until the end of the program.
+    ///
     /// # Errors
     ///
     /// Fails if the bus cannot be opened, or if this build doesn't support it.
-    pub fn connect(&self, address: u8, timeout: Duration) -> Result<Box<dyn Connection>, Failure> {
+    pub fn connect(
+        &self,
+        description: &Description,
+        address: u8,
+        timeout: Duration,
+    ) -> Result<Box<dyn Connection>, Failure> {
         match self.network() {
             Network::CanOpen => {
-                let id = NodeId::new(address).ok_or_else(|| Failure::Bus("the node-ID is not in 1 to 127".to_owned()))?;
+                let id =
+                    NodeId::new(address).ok_or_else(|| Failure::Bus("the node-ID is not in 1 to 127".to_owned()))?;
                 Ok(Box::new(self.open_port()?.connection(id, timeout)))
             }
-            Network::Modbus => self.connect_modbus(address, timeout),
+            Network::Modbus => self.connect_modbus(description, address, timeout),
         }
     }
 
     #[cfg(not(feature = "modbus"))]
-    fn connect_modbus(&self, _: u8, _: Duration) -> Result<Box<dyn Connection>, Failure> {
+    fn connect_modbus(&self, _: &Description, _: u8, _: Duration) -> Result<Box<dyn Connection>, Failure> {
         Err(Failure::Bus("this build doesn't support Modbus (feature `modbus`)".to_owned()))
     }
 }

@@ -90,7 +90,9 @@ impl Description {
                 let errors = compilation.diagnostics.list().iter();
                 let mut errors = errors.filter(|found| found.severity == lexibus_codegen::diagnostics::Severity::Error);
                 let first = errors.next().map(|error| compilation.one_line(error));
-                Err(DescriptionError::Invalid(first.unwrap_or_else(|| "the file is not a device description".to_owned())))
+                Err(DescriptionError::Invalid(
+                    first.unwrap_or_else(|| "the file is not a device description".to_owned()),
+                ))
             }
         }
     }
@@ -106,11 +108,17 @@ impl Description {
         let position = match devices.as_slice() {
             [] => return Err(DescriptionError::NoDevice),
             [(position, _)] => *position,
-            several => return Err(DescriptionError::SeveralDevices(several.iter().map(|(_, name)| name.clone()).collect())),
+            several => {
+                return Err(DescriptionError::SeveralDevices(several.iter().map(|(_, name)| name.clone()).collect()))
+            }
         };
         let description = Self { catalog, position, network };
         let is_empty = description.parameters().next().is_none();
-        if is_empty { Err(DescriptionError::NotOnNetwork(network)) } else { Ok(description) }
+        if is_empty {
+            Err(DescriptionError::NotOnNetwork(network))
+        } else {
+            Ok(description)
+        }
     }
 
     /// Returns the catalog that contains the device.
@@ -188,19 +196,21 @@ impl Description {
         if let Some(parameter) = self.by_address(text) {
             return Ok(parameter);
         }
-        let matching = |is: &dyn Fn(&Parameter<'_>) -> bool| self.parameters().filter(|parameter| is(parameter)).collect();
+        let matching =
+            |is: &dyn Fn(&Parameter<'_>) -> bool| self.parameters().filter(|parameter| is(parameter)).collect();
         let by_path: Vec<Parameter<'_>> = matching(&|parameter| parameter.path().eq_ignore_ascii_case(text));
         let by_name: Vec<Parameter<'_>> = matching(&|parameter| parameter.name().eq_ignore_ascii_case(text));
         let found = if by_path.is_empty() { by_name } else { by_path };
         match found.as_slice() {
             [parameter] => Ok(*parameter),
             [] => {
-                let names: Vec<String> = self.parameters().map(|parameter| parameter.path()).collect();
+                let names: Vec<String> = self.parameters().flat_map(|parameter| [parameter.name(), parameter.path()]).collect();
                 let similar = similar(text, names.iter().map(String::as_str)).map(str::to_owned);
                 Err(FindError::Unknown(text.to_owned(), similar))
             }
             several => {
-                let candidate = |parameter: &Parameter<'_>| format!("{} ({})", parameter.address_text(), parameter.path());
+                let candidate =
+                    |parameter: &Parameter<'_>| format!("{} ({})", parameter.address_text(), parameter.path());
                 Err(FindError::Ambiguous(text.to_owned(), several.iter().map(candidate).collect()))
             }
         }

@@ -163,9 +163,7 @@ fn an_interrupted_restore_reports_what_was_written() {
 #[test]
 fn a_refused_value_is_reported_and_the_others_are_written() {
     let (description, mut device) = (drive_description(), drive());
-    device
-        .on_write(demo_drive::objects::PROFILE_ACCELERATION, |_, _| Err(AbortCode::DEVICE_STATE))
-        .expect("an object");
+    device.on_write(demo_drive::objects::PROFILE_ACCELERATION, |_, _| Err(AbortCode::DEVICE_STATE)).expect("an object");
     let mut connection = CanOpenConnection::new(device.client::<CanOpen>());
     let saved = save(&description, &mut connection);
     let outcome = restore(&description, &saved, &mut connection);
@@ -307,11 +305,8 @@ fn check_states(outcome: &Outcome<'_>, device: &Device, text: &str) {
 #[test]
 fn deviations_of_a_simulated_device_are_found() {
     let description = drive_description();
-    let entries: Vec<lexibus::Entry> = demo_drive::ENTRIES
-        .iter()
-        .filter(|entry| entry.object != Some(Object::new(0x6081, 0)))
-        .copied()
-        .collect();
+    let entries: Vec<lexibus::Entry> =
+        demo_drive::ENTRIES.iter().filter(|entry| entry.object != Some(Object::new(0x6081, 0))).copied().collect();
     let mut device = Device::new(&entries);
     let mut connection = CanOpenConnection::new(device.client::<CanOpen>());
     let report = verify(&description, &mut connection, &VerifyOptions::default()).expect("a report");

@@ -37,12 +37,24 @@ fn frames_have_names() {
     shown(&drive, (0x709, &[0]), "node 9: boot-up");
     shown(&drive, (0x080, &[]), "SYNC");
     shown(&drive, (0x080, &[7]), "SYNC 7");
-    shown(&drive, (0x085, &[0x11, 0x86, 0x21, 1, 0, 0, 0, 0]), "node 5: EMCY 0x8611 (following error), error register 0x21, vendor data 01 00 00 00 00");
+    shown(
+        &drive,
+        (0x085, &[0x11, 0x86, 0x21, 1, 0, 0, 0, 0]),
+        "node 5: EMCY 0x8611 (following error), error register 0x21, vendor data 01 00 00 00 00",
+    );
     shown(&drive, (0x085, &[0; 8]), "node 5: EMCY 0x0000: no error");
     shown(&drive, (0x285, &[0x37, 0x02, 0xFE, 0xFF, 0xFF, 0xFF]), "node 5: TPDO 2: Statusword = 567 (ready to switch on, switched on, operation enabled, voltage enabled, remote), Position actual value = -2");
     shown(&drive, (0x605, &[0x40, 0x81, 0x60, 0, 0, 0, 0, 0]), "node 5: SDO upload of 0x6081:00 Profile velocity");
-    shown(&drive, (0x585, &[0x43, 0x81, 0x60, 0, 0xE8, 3, 0, 0]), "node 5: SDO upload reply: 0x6081:00 Profile velocity = 1000");
-    shown(&drive, (0x605, &[0x2B, 0x17, 0x10, 0, 100, 0, 0, 0]), "node 5: SDO download: 0x1017:00 Producer heartbeat time = 100 ms");
+    shown(
+        &drive,
+        (0x585, &[0x43, 0x81, 0x60, 0, 0xE8, 3, 0, 0]),
+        "node 5: SDO upload reply: 0x6081:00 Profile velocity = 1000",
+    );
+    shown(
+        &drive,
+        (0x605, &[0x2B, 0x17, 0x10, 0, 100, 0, 0, 0]),
+        "node 5: SDO download: 0x1017:00 Producer heartbeat time = 100 ms",
+    );
     shown(&drive, (0x585, &[0x80, 0, 0x20, 0, 0x22, 0, 0, 8]), "node 5: SDO abort of 0x2000:00 Motor temperature: 0x08000022: the data cannot be transferred or stored in the present state of the device");
     shown(&drive, (0x606, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]), "node 6: SDO upload of 0x1000:00");
 }

@@ -15,10 +15,14 @@ pub(crate) enum DeviceCommand {
     #[command(after_help = "Example:\n  lexibus read --bus can:can0 --node 5 drive.eds \"Profile velocity\"")]
     Read(Read),
     /// Write a value of a device by name. The value is checked and shown before it is written.
-    #[command(after_help = "Example:\n  lexibus write --bus can:can0 --node 5 drive.eds \"Profile velocity\" 15.5 rev/s")]
+    #[command(
+        after_help = "Example:\n  lexibus write --bus can:can0 --node 5 drive.eds \"Profile velocity\" 15.5 rev/s"
+    )]
     Write(WriteCommand),
     /// Compare a device with its description. Nothing is written. The exit code is 1 if there is a deviation.
-    #[command(after_help = "Example:\n  lexibus verify --bus can:can0 --node 5 drive.eds --format html --out report.html")]
+    #[command(
+        after_help = "Example:\n  lexibus verify --bus can:can0 --node 5 drive.eds --format html --out report.html"
+    )]
     Verify(Verify),
     /// Save the parameters of a device to a file.
     #[command(after_help = "Example:\n  lexibus backup --bus can:can0 --node 5 drive.eds --out axis.dcf")]
@@ -273,5 +277,8 @@ fn node_file(text: &str) -> Result<NodeFile, String> {
 fn indices(text: &str) -> Result<std::ops::RangeInclusive<u16>, String> {
     let number = |text: &str| u16::from_str_radix(text.trim_start_matches("0x"), 16).ok();
     let (first, last) = text.split_once("..").unwrap_or((text, text));
-    number(first).zip(number(last)).map(|(first, last)| first..=last).ok_or_else(|| "expected 0x2000..0x5FFF".to_owned())
+    number(first)
+        .zip(number(last))
+        .map(|(first, last)| first..=last)
+        .ok_or_else(|| "expected 0x2000..0x5FFF".to_owned())
 }

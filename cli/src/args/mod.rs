@@ -12,8 +12,8 @@ pub(super) use command::{
 };
 #[cfg(feature = "bus")]
 pub(super) use device::{
-    BackupCommand, BackupFormat, Compare, Decode, Described, DeviceCommand, EventFormat, Monitor, NodeFile, Read, Restore, Scan,
-    ScanFormat, Target, Verify, VerifyFormat, WriteCommand,
+    BackupCommand, BackupFormat, Compare, Decode, Described, DeviceCommand, EventFormat, Monitor, NodeFile, Read,
+    Restore, Scan, ScanFormat, Target, Verify, VerifyFormat, WriteCommand,
 };
 pub(super) use inputs::{ColorChoice, Inputs, MessageFormat, Printing};
 pub(super) use output::{Export, ExportFormat, Generate, RealForm};

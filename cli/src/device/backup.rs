@@ -14,7 +14,7 @@ pub(super) fn run(arguments: &BackupCommand) -> Result<bool, Failure> {
     let description = bus::description(&arguments.target)?;
     let include = files::addresses(&arguments.include, &description)?;
     let format = format(arguments)?;
-    let mut connection = bus::connect(&arguments.target)?;
+    let mut connection = bus::connect(&arguments.target, &description)?;
     let options = Options { node_id: Some(arguments.target.node), include };
     let saved = backup(&description, &mut connection, &options)?;
     let mut is_complete = saved.is_complete();
@@ -63,7 +63,8 @@ pub(super) fn compare(arguments: &Compare) -> Result<bool, Failure> {
 /// Reads the description for CANopen, or for Modbus if it has no objects.
 fn either(arguments: &Compare) -> Result<Description, Failure> {
     let of_objects = files::description(&arguments.described, Network::CanOpen);
-    let has_toml = [&arguments.old, &arguments.new].iter().all(|path| path.extension().is_some_and(|end| end == "toml"));
+    let has_toml =
+        [&arguments.old, &arguments.new].iter().all(|path| path.extension().is_some_and(|end| end == "toml"));
     match of_objects {
         Ok(description) if !has_toml => Ok(description),
         // A device can have registers and objects. The addresses of the backup show which of them it contains.

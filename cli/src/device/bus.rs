@@ -14,9 +14,9 @@ pub(super) fn description(target: &Target) -> Result<Description, Failure> {
 }
 
 /// Connects to the device of a target.
-pub(super) fn connect(target: &Target) -> Result<Box<dyn Connection>, Failure> {
+pub(super) fn connect(target: &Target, description: &Description) -> Result<Box<dyn Connection>, Failure> {
     let timeout = Duration::from_millis(target.timeout.into());
-    Ok(target.bus.connect(target.node, timeout)?)
+    Ok(target.bus.connect(description, target.node, timeout)?)
 }
 
 impl From<lexibus_device::Failure> for Failure {

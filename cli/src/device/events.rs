@@ -79,7 +79,11 @@ impl<W: Write> Output<W> {
         for value in &event.values {
             self.rows.insert((event.node, value.name.clone()), value.value.clone());
         }
-        if self.is_terminal { self.draw() } else { Ok(()) }
+        if self.is_terminal {
+            self.draw()
+        } else {
+            Ok(())
+        }
     }
 
     fn draw(&mut self) -> std::io::Result<()> {

@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &Monitor) -> Result<bool, Failure> {
             return Err(Failure::Usage("on Modbus, name the values to read with --read".to_owned()));
         }
         Network::Modbus => {
-            let mut connection = arguments.bus.connect(*node, timeout)?;
+            let mut connection = arguments.bus.connect(first, *node, timeout)?;
             while !schedule.is_over() {
                 match schedule.is_due() {
                     true => read(*node, &parameters, &mut connection, &schedule, &mut output)?,

@@ -29,7 +29,7 @@ pub(super) fn run(arguments: &Restore) -> Result<bool, Failure> {
         say("nothing was written");
         return Ok(false);
     }
-    let mut connection = bus::connect(&arguments.target)?;
+    let mut connection = bus::connect(&arguments.target, &description)?;
     let deferred = Deferred::new();
     let outcome = plan.execute(&mut connection, &mut |_| !deferred.is_requested());
     for line in outcome.to_string().lines() {

@@ -13,7 +13,7 @@ pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
     let description = bus::description(&arguments.target)?;
     let parameters = arguments.names.iter().map(|name| description.find(name));
     let parameters = parameters.collect::<Result<Vec<_>, _>>().map_err(|error| Failure::Usage(error.to_string()))?;
-    let mut connection = bus::connect(&arguments.target)?;
+    let mut connection = bus::connect(&arguments.target, &description)?;
     let mut is_ok = true;
     for parameter in parameters {
         match parameter.read(&mut connection) {
@@ -36,9 +36,14 @@ pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
     let text = arguments.value.join(" ");
     let write = Write::parse(parameter, &text, Some(arguments.target.node));
     let write = write.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
-    let mut connection = bus::connect(&arguments.target)?;
-    let old = parameter.read(&mut connection).map(|reading| reading.to_string());
-    let old = old.unwrap_or_else(|failure| format!("unknown: {failure}"));
+    let mut connection = bus::connect(&arguments.target, &description)?;
+    let old = match parameter.read_refusal() {
+        Some(refusal) => format!("not read: {refusal}"),
+        None => match parameter.read(&mut connection) {
+            Ok(reading) => reading.to_string(),
+            Err(failure) => format!("unknown: {failure}"),
+        },
+    };
     say(&format!("{write} (now {old})"));
     if let Some(protection) = parameter.protection() {
         say(&format!("note: this parameter {protection}"));

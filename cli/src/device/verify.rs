@@ -13,12 +13,9 @@ use crate::{say, Failure};
 
 pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
     let description = bus::description(&arguments.target)?;
-    let mut connection = bus::connect(&arguments.target)?;
+    let mut connection = bus::connect(&arguments.target, &description)?;
     let is_canopen = description.network() == Network::CanOpen;
-    let options = Options {
-        node_id: is_canopen.then_some(arguments.target.node),
-        search: arguments.search.clone(),
-    };
+    let options = Options { node_id: is_canopen.then_some(arguments.target.node), search: arguments.search.clone() };
     let report = verify(&description, &mut connection, &options)?;
     let text = match arguments.format {
         VerifyFormat::Text => report.text(arguments.changed),

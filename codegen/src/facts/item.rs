@@ -184,12 +184,14 @@ mod tests {
 
     #[test]
     fn values_and_bits_have_names() {
-        let flag = |name: &str, offset| BitFieldEntry::new(name.into(), offset, 1, BitMeaning::Flag { inverted: false });
+        let flag =
+            |name: &str, offset| BitFieldEntry::new(name.into(), offset, 1, BitMeaning::Flag { inverted: false });
         let ready = BitFieldEntry { meaning: BitMeaning::Flag { inverted: true }, ..flag("Enabled", 2) };
         let mode = BitFieldEntry::new("Mode".into(), 4, 4, BitMeaning::Enumeration(crate::ir::TypeId(0)));
         let fields = vec![flag("Fault", 0), flag("Warning", 1), ready, mode];
         let base = Type::Unsigned(8);
-        let values = vec![EnumValue::new("Homing".into(), 6), EnumValue { last: Some(3), ..EnumValue::new("Jog".into(), 1) }];
+        let values =
+            vec![EnumValue::new("Homing".into(), 6), EnumValue { last: Some(3), ..EnumValue::new("Jog".into(), 1) }];
         let types = [
             TypeDef::new("Mode", Shape::Enumeration { base, values, closed: false }, Some(8)),
             TypeDef::new("Status", Shape::BitField { base, fields }, Some(8)),

@@ -261,7 +261,8 @@ mod tests {
 
     #[test]
     fn a_physical_value_becomes_the_nearest_raw_value() {
-        let raw = |text: &str, scale: Scale| Physical { unit: "", scale: &scale }.raw(text).and_then(|raw| raw.as_int());
+        let raw =
+            |text: &str, scale: Scale| Physical { unit: "", scale: &scale }.raw(text).and_then(|raw| raw.as_int());
         let linear = |factor, offset| Scale::Linear { factor, offset };
         assert_eq!(raw("15.5", linear(0.01, 0.0)), Some(1550));
         assert_eq!(raw("-15.5", linear(0.01, 0.0)), Some(-1550));

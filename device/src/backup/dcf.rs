@@ -66,7 +66,9 @@ impl Backup {
             let value: Option<Value> = address.and_then(|address| self.value(address)).cloned();
             match &mut item.configured {
                 Some(configured) => configured.value = value,
-                None if value.is_some() => item.configured = Some(Box::new(Configured { value, ..Configured::default() })),
+                None if value.is_some() => {
+                    item.configured = Some(Box::new(Configured { value, ..Configured::default() }))
+                }
                 None => {}
             }
         }

@@ -59,7 +59,11 @@ fn exclusion(parameter: &Parameter<'_>) -> Option<String> {
 fn is_setting(protection: Protection) -> bool {
     matches!(
         protection,
-        Protection::NodeId | Protection::BitRate | Protection::SideEffect | Protection::WriteOnce | Protection::RefusesDownload
+        Protection::NodeId
+            | Protection::BitRate
+            | Protection::SideEffect
+            | Protection::WriteOnce
+            | Protection::RefusesDownload
     )
 }
 
@@ -84,9 +88,10 @@ fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mu
 
 /// Returns whether some devices lack the parameter, such as entries above the number of mapped objects.
 fn is_optional(parameter: &Parameter<'_>) -> bool {
-    let is_mapping = parameter.address().object().is_some_and(|object| {
-        object.sub_index > 0 && matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
-    });
+    let is_mapping = parameter
+        .address()
+        .object()
+        .is_some_and(|object| object.sub_index > 0 && matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF));
     is_mapping || parameter.item().is_optional || parameter.item().availability.is_some()
 }
 

@@ -88,9 +88,11 @@ fn written(parameter: &Parameter<'_>, value: &Value) -> String {
 fn entry(row: &toml::Value, description: &Description) -> Result<Entry, TableError> {
     let text = |key: &str| row.get(key).and_then(toml::Value::as_str);
     let identifier = text("address").or_else(|| text("name"));
-    let identifier = identifier.ok_or_else(|| TableError(format!("a parameter has neither an address nor a name: {row:?}")))?;
+    let identifier =
+        identifier.ok_or_else(|| TableError(format!("a parameter has neither an address nor a name: {row:?}")))?;
     let parameter = description.find(identifier).map_err(|error| TableError(error.to_string()))?;
-    let is_named = |name: &str| parameter.path().eq_ignore_ascii_case(name) || parameter.name().eq_ignore_ascii_case(name);
+    let is_named =
+        |name: &str| parameter.path().eq_ignore_ascii_case(name) || parameter.name().eq_ignore_ascii_case(name);
     if let Some(name) = text("name").filter(|name| !is_named(name)) {
         return Err(TableError(format!("{parameter}: the backup has the name `{name}` for this address")));
     }

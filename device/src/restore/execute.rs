@@ -51,7 +51,9 @@ impl Outcome<'_> {
     /// Returns whether the device has all values of the plan.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.mismatches.is_empty() && self.unconfirmed == 0 && self.states.iter().all(|(_, status)| *status == Status::Written)
+        self.mismatches.is_empty()
+            && self.unconfirmed == 0
+            && self.states.iter().all(|(_, status)| *status == Status::Written)
     }
 
     /// Returns the number of confirmed writes.
@@ -118,7 +120,10 @@ fn attempt(write: &Write<'_>, connection: &mut impl Connection) -> Status {
 
 /// Reads the written values back. Returns those that differ from the last write of their address, and the number of values that could
 /// not be read. If the device didn't reply to a read, it may have restarted, so all values are read again.
-fn read_back<'d>(states: &[(Write<'d>, Status)], connection: &mut impl Connection) -> (Vec<(Write<'d>, String)>, usize) {
+fn read_back<'d>(
+    states: &[(Write<'d>, Status)],
+    connection: &mut impl Connection,
+) -> (Vec<(Write<'d>, String)>, usize) {
     /// Maximum number of attempts to read all values without a failure.
     const ATTEMPTS: usize = 3;
     let written = states.iter().filter(|(_, status)| *status == Status::Written).map(|(write, _)| write);

@@ -46,7 +46,8 @@ pub(super) fn ordered<'d>(
 }
 
 fn phases(configuration: &Configuration) -> impl Iterator<Item = &Setting> {
-    let Configuration { disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos, .. } = configuration;
+    let Configuration { disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos, .. } =
+        configuration;
     [disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos].into_iter().flatten()
 }
 

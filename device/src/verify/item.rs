@@ -152,7 +152,9 @@ fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) ->
         return None;
     }
     if parameter.excluded(value, node_id).is_some() {
-        return Some(different(parameter, "value").compared(format!("range {}", parameter.range()), parameter.text(value)));
+        return Some(
+            different(parameter, "value").compared(format!("range {}", parameter.range()), parameter.text(value)),
+        );
     }
     let (values, is_closed) = Owner::of_types(&parameter.description().device().types).enumeration(parameter.ty())?;
     let is_listed = |number: i128| values.iter().any(|named| (named.range().0..=named.range().1).contains(&number));

@@ -57,12 +57,8 @@ impl Report {
         let kinds = FindingKind::ALL.into_iter().filter(|kind| kind.is_deviation());
         let counts: Vec<String> = kinds.map(|kind| format!("{} {kind}", self.count(kind))).collect();
         let deviations = self.deviations().count();
-        let _ = writeln!(
-            text,
-            "{deviations} deviation{}: {}",
-            if deviations == 1 { "" } else { "s" },
-            counts.join(", ")
-        );
+        let _ =
+            writeln!(text, "{deviations} deviation{}: {}", if deviations == 1 { "" } else { "s" }, counts.join(", "));
         let _ = writeln!(
             text,
             "{} parameters read; {} values differ from the default value; unverifiable: {} parameters, and the write \

@@ -39,7 +39,7 @@ fn node(script: &str) -> Option<(Cable, Script, BusAddress)> {
 }
 
 fn compare(description: &Description, bus: &BusAddress) -> Report {
-    let mut connection = bus.connect(NODE, TIMEOUT).expect("a connection");
+    let mut connection = bus.connect(description, NODE, TIMEOUT).expect("a connection");
     let options = VerifyOptions { node_id: Some(NODE), ..VerifyOptions::default() };
     verify(description, &mut connection, &options).expect("a report")
 }
@@ -120,7 +120,7 @@ fn changed_and_restored(description: &Description, connection: &mut impl Connect
 fn a_canopen_node_gets_its_parameters_back() {
     let Some((_cable, mut script, bus)) = node("tests/interop/canopen_node.py") else { return };
     let description = dictionary("demo-drive.eds", Network::CanOpen);
-    let mut connection = bus.connect(NODE, TIMEOUT).expect("a connection");
+    let mut connection = bus.connect(&description, NODE, TIMEOUT).expect("a connection");
     let velocity = description.find("Profile velocity").expect("a parameter");
     Write::parse(velocity, "4711", None).expect("a value").execute(&mut connection).expect("a write");
     assert_eq!(script.ask(json!({ "do": "get", "index": 0x6081 })), json!(4711));
@@ -158,7 +158,7 @@ fn modbus_servers_get_their_parameters_back() {
 }
 
 fn check_modbus(description: &Description, bus: &BusAddress) {
-    let mut connection = bus.connect(1, TIMEOUT).expect("a connection");
+    let mut connection = bus.connect(description, 1, TIMEOUT).expect("a connection");
     let kept = changed_and_restored(description, &mut connection);
     assert!(kept.iter().all(|parameter| parameter.contains(REFUSED)), "{kept:?}");
 }
