@@ -204,7 +204,8 @@ impl Description {
         match found.as_slice() {
             [parameter] => Ok(*parameter),
             [] => {
-                let names: Vec<String> = self.parameters().flat_map(|parameter| [parameter.name(), parameter.path()]).collect();
+                let names: Vec<String> =
+                    self.parameters().flat_map(|parameter| [parameter.name(), parameter.path()]).collect();
                 let similar = similar(text, names.iter().map(String::as_str)).map(str::to_owned);
                 Err(FindError::Unknown(text.to_owned(), similar))
             }

@@ -30,7 +30,9 @@ mod mapping;
 mod overlay;
 mod report;
 mod run;
+mod session;
 
 pub use finding::{Finding, FindingKind, Found};
 pub use report::Report;
-pub use run::{verify, Options};
+pub use run::verify;
+pub use session::Options;

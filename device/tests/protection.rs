@@ -137,7 +137,6 @@ fn a_drive_keeps_its_commands_modes_targets_and_identity_on_the_bus() {
     for index in ["0x6040", "0x6060", "0x607A"] {
         assert_eq!(protection(index), Some(Protection::Control), "{index}");
     }
-    assert_eq!(protection("0x1010:1"), Some(Protection::Command));
     assert_eq!(protection("Rcanbaud"), Some(Protection::BitRate));
 }
 
@@ -234,7 +233,7 @@ fn files_that_are_no_backups_are_refused() {
     assert!(error("parameters = []").contains("`lexibus-backup = 1` is missing"));
     assert!(error("lexibus-backup = 1\nparameters = [{ value = 1 }]").contains("neither an address nor a name"));
     assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plain\" }]").contains("the value is missing"));
-    assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plane\", value = 1 }]").contains("did you mean"));
+    assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plan\", value = 1 }]").contains("did you mean"));
     let other = "lexibus-backup = 1\nparameters = [{ address = \"0\", name = \"Gain\", value = 1 }]";
     assert!(error(other).contains("has the name `Gain`"));
     // A value outside the type is refused by the plan and not written.

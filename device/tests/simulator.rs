@@ -208,11 +208,14 @@ fn writes_are_checked_before_anything_is_sent() {
 }
 
 /// Faults that a client can meet on the bus.
-fn faults() -> [CanFault; 7] {
+fn faults() -> [CanFault; 10] {
     use std::time::Duration;
     let foreign = lexibus::clients::canopen::CanFrame::new(0x585, &[0x80, 0, 0, 0, 0, 0, 0, 8]).expect("a frame");
     [
         CanFault::Lost,
+        CanFault::Duplicated,
+        CanFault::Noise(100),
+        CanFault::WrongToggle,
         CanFault::Late(Duration::from_millis(800)),
         CanFault::Truncated,
         CanFault::Foreign { frame: foreign, count: 1, period: Duration::from_millis(1) },

@@ -7,6 +7,7 @@ use lexibus_device::Write;
 
 use super::{bus, question};
 use crate::args::{Read, WriteCommand};
+use crate::interrupt::Deferred;
 use crate::{say, Failure};
 
 pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
@@ -52,7 +53,10 @@ pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
         say("nothing was written");
         return Ok(false);
     }
+    // Ctrl-C during the transfer would leave open whether the device has the value.
+    let deferred = Deferred::new();
     let result = write.execute(&mut connection);
+    drop(deferred);
     result.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
     say("written");
     Ok(true)

@@ -6,7 +6,7 @@ use lexibus_codegen::ir::{Group, Value};
 
 use super::finding::{Finding, FindingKind, Found};
 use super::mapping;
-use super::run::Run;
+use super::session::Run;
 use crate::connection::Connection;
 use crate::failure::Failure;
 

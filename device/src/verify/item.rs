@@ -1,12 +1,13 @@
 //! Checks of one parameter: presence, access, length, value.
 
 use lexibus::AbortCode;
+use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::owner::Owner;
-use lexibus_codegen::ir::{Access, Type, Value};
+use lexibus_codegen::ir::{Access, Identity, Type, Value};
 
 use super::finding::{Finding, FindingKind, Found};
 use super::mapping;
-use super::run::{unverifiable, Run};
+use super::session::{unverifiable, Run};
 use crate::address::Network;
 use crate::connection::Connection;
 use crate::failure::Failure;
@@ -167,19 +168,44 @@ fn expected(parameter: &Parameter<'_>) -> Option<Value> {
     let object = parameter.address().object();
     let identity = &parameter.description().device().identity;
     let number = match object.map(|object| (object.index, object.sub_index)) {
-        Some((0x1018, 1)) => identity.vendor_id,
-        Some((0x1018, 2)) => identity.product_code,
-        Some((0x1018, 3)) => identity.revision_number,
         Some((0x1018, 4)) => return identity.serial_number.map(|number| Value::Int(number.into())),
+        Some((0x1018, sub_index)) => identity_number(identity, sub_index),
         _ => None,
     };
-    let is_fixed = object.is_some_and(|object| match (object.index, object.sub_index) {
-        (0x1000, 0) | (0x1018, _) => true,
-        _ => false,
-    });
-    // The number of entries is checked together with the undeclared entries.
-    let is_fixed = !is_number_of_entries(parameter) && (is_fixed || parameter.access() == Access::Constant);
+    let is_fixed = object.is_some_and(|object| matches!(object.index, 0x1000 | 0x1018));
+    // The numbers of entries are checked together with the undeclared entries, and the mappings as a whole.
+    let is_mapping = object.is_some_and(|object| mapping::is_mapping(object.index));
+    let is_fixed =
+        !is_number_of_entries(parameter) && !is_mapping && (is_fixed || parameter.access() == Access::Constant);
     number.map(|number| Value::Int(number.into())).or_else(|| parameter.default().filter(|_| is_fixed).cloned())
+}
+
+/// Returns the vendor ID, the product code or the revision number that a description states.
+fn identity_number(identity: &Identity, sub_index: u8) -> Option<u32> {
+    match sub_index {
+        1 => identity.vendor_id,
+        2 => identity.product_code,
+        3 => identity.revision_number,
+        _ => None,
+    }
+}
+
+/// Compares the identity numbers whose sub-indices the description doesn't declare.
+pub(super) fn check_identity<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
+    const IDENTITY: u16 = 0x1018;
+    let description = run.description;
+    for sub_index in 1..=3 {
+        let declared = identity_number(&description.device().identity, sub_index);
+        let is_undeclared = description.object(IDENTITY, sub_index).is_none();
+        let Some(declared) = declared.filter(|_| is_undeclared && !run.missing.contains(&IDENTITY)) else { continue };
+        let Ok(bytes) = run.read_object(IDENTITY, sub_index)? else { continue };
+        let actual = <[u8; 4]>::try_from(bytes).map(u32::from_le_bytes).ok();
+        if let Some(actual) = actual.filter(|actual| *actual != declared) {
+            let finding = Finding::of_object(IDENTITY, sub_index, "identity").compared(hex32(declared), hex32(actual));
+            run.add(Finding { kind: FindingKind::Different, ..finding });
+        }
+    }
+    Ok(())
 }
 
 /// Returns whether the parameter is the number of entries of an object.

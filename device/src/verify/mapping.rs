@@ -4,7 +4,7 @@ use lexibus_codegen::facts::{address, pdo};
 use lexibus_codegen::ir::{Direction, Group, Value};
 
 use super::finding::{Finding, FindingKind};
-use super::run::Run;
+use super::session::Run;
 use crate::connection::Connection;
 use crate::failure::Failure;
 
