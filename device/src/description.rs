@@ -12,6 +12,9 @@ use lexibus_codegen::text::similar;
 use crate::address::{Address, Network};
 use crate::parameter::Parameter;
 
+/// Maximum number of parameters with the same name that an error lists.
+const CANDIDATES: usize = 8;
+
 /// The description of a device, as the device appears on one bus.
 #[derive(Clone, Debug)]
 pub struct Description {
@@ -56,7 +59,7 @@ impl Error for DescriptionError {}
 pub enum FindError {
     /// No parameter has this name or address. The second field is a similar name, if there is one.
     Unknown(String, Option<String>),
-    /// Several parameters have this name. The list contains their paths and addresses.
+    /// Several parameters have this name. The list contains the addresses and paths of the first ones.
     Ambiguous(String, Vec<String>),
 }
 
@@ -169,6 +172,13 @@ impl Description {
     /// Returns the parameter at an address.
     #[must_use]
     pub fn at(&self, address: Address) -> Option<Parameter<'_>> {
+        match address {
+            Address::Object(object) => self.object(object.index, object.sub_index),
+            Address::Register(_) => self.search(address),
+        }
+    }
+
+    fn search(&self, address: Address) -> Option<Parameter<'_>> {
         self.parameters().find(|parameter| parameter.address() == address)
     }
 
@@ -177,7 +187,7 @@ impl Description {
         let group = self.device().object(index).filter(|group| is_data(group));
         match group {
             Some(group) => Parameter::new(self, group, group.sub(sub_index)?),
-            None => self.at(Address::Object(lexibus::Object::new(index, sub_index))),
+            None => self.search(Address::Object(lexibus::Object::new(index, sub_index))),
         }
     }
 
@@ -212,7 +222,7 @@ impl Description {
             several => {
                 let candidate =
                     |parameter: &Parameter<'_>| format!("{} ({})", parameter.address_text(), parameter.path());
-                Err(FindError::Ambiguous(text.to_owned(), several.iter().map(candidate).collect()))
+                Err(FindError::Ambiguous(text.to_owned(), several.iter().take(CANDIDATES).map(candidate).collect()))
             }
         }
     }

@@ -319,3 +319,20 @@ fn deviations_of_a_simulated_device_are_found() {
     let overlay = report.overlay().expect("an overlay");
     assert!(overlay.contains("0x6081 = { remove = true }"), "{overlay}");
 }
+
+#[test]
+fn values_of_other_tools_without_a_place_are_left_out() {
+    let (description, mut device) = (drive_description(), drive());
+    let text = "lexibus-backup = 1\nparameters = [{ address = \"0x1000:00\", value = 1 }, \
+        { address = \"0x1A01:00\", value = 1 }, { address = \"0x1A01:01\", value = 0x60410010 }, \
+        { address = \"0x1A01:02\", value = 0 }]";
+    let saved = Backup::from_toml(text, &description).expect("a backup");
+    let plan = Plan::new(&description, &saved, Some(NODE), &[]);
+    let refused: Vec<String> = plan.refused.iter().map(ToString::to_string).collect();
+    assert_eq!(refused.len(), 2, "{plan}");
+    assert!(refused[0].ends_with("the parameter is read-only"), "{plan}");
+    assert!(refused[1].ends_with("the sub-index is above the number of mapped objects"), "{plan}");
+    assert!(plan.refused.iter().all(|refused| !refused.is_failure));
+    let outcome = plan.execute(&mut CanOpenConnection::new(device.client::<CanOpen>()), &mut |_| true);
+    assert!(outcome.is_complete(), "{outcome}");
+}

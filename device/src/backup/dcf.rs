@@ -56,6 +56,7 @@ impl Backup {
 
     /// Returns the catalog of the description with the values of the backup as configured values.
     pub(crate) fn configured(&self, description: &Description) -> Catalog {
+        let values = self.values();
         let mut catalog = description.catalog().clone();
         let device = &mut catalog.devices[description.position()];
         let commissioning = device.commissioning.get_or_insert_with(Box::<Commissioning>::default);
@@ -63,7 +64,7 @@ impl Backup {
         for item in device.groups.iter_mut().flat_map(|group| &mut group.items) {
             let object = item.object();
             let address = object.map(|(index, sub)| crate::address::Address::Object(lexibus::Object::new(index, sub)));
-            let value: Option<Value> = address.and_then(|address| self.value(address)).cloned();
+            let value: Option<Value> = address.and_then(|address| values.get(&address).copied()).cloned();
             match &mut item.configured {
                 Some(configured) => configured.value = value,
                 None if value.is_some() => {
@@ -81,7 +82,8 @@ impl Backup {
         let catalog = check(source, &Options::default()).catalog;
         let again = catalog.and_then(|catalog| Description::new(catalog, Network::CanOpen).ok());
         let again = again.map(|again| Backup::of_description(&again)).unwrap_or_default();
-        let is_lost = |entry: &&super::Entry| again.value(entry.address) != Some(&entry.value);
+        let again = again.values();
+        let is_lost = |entry: &&super::Entry| again.get(&entry.address) != Some(&&entry.value);
         let lost = self.entries.iter().filter(is_lost);
         lost.filter_map(|entry| description.at(entry.address))
             .map(|parameter| Skipped::failed(&parameter, "a DCF cannot express the value"))

@@ -41,10 +41,11 @@ pub fn difference(description: &Description, old: &Backup, new: &Backup) -> Vec<
         old: old.map(|value| text(entry, value)),
         new: new.map(|value| text(entry, value)),
     };
+    let (old_values, new_values) = (old.values(), new.values());
     let changed = old.entries.iter().filter_map(|entry| {
-        let found = new.value(entry.address);
+        let found = new_values.get(&entry.address).copied();
         (found != Some(&entry.value)).then(|| of(entry, Some(&entry.value), found))
     });
-    let added = new.entries.iter().filter(|entry| old.value(entry.address).is_none());
+    let added = new.entries.iter().filter(|entry| !old_values.contains_key(&entry.address));
     changed.chain(added.map(|entry| of(entry, None, Some(&entry.value)))).collect()
 }

@@ -1,5 +1,6 @@
 //! Saved parameters.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use lexibus_codegen::ir::Value;
@@ -69,10 +70,10 @@ impl fmt::Display for Skipped {
 }
 
 impl Backup {
-    /// Returns the value at an address.
+    /// Returns the values by address.
     #[must_use]
-    pub fn value(&self, address: Address) -> Option<&Value> {
-        self.entries.iter().find(|entry| entry.address == address).map(|entry| &entry.value)
+    pub fn values(&self) -> BTreeMap<Address, &Value> {
+        self.entries.iter().map(|entry| (entry.address, &entry.value)).collect()
     }
 
     /// Returns whether all parameters that belong to the backup were saved.

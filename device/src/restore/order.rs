@@ -2,47 +2,64 @@
 
 use std::collections::BTreeMap;
 
-use lexibus_codegen::facts::configuration::{Configuration, Setting};
+use lexibus_codegen::facts::configuration::{Configuration, LeftOut, Setting};
 use lexibus_codegen::facts::encoding;
 use lexibus_codegen::ir::Value;
 
-use crate::address::Network;
-use crate::backup::Backup;
+use crate::address::{Address, Network};
+use crate::backup::{Backup, Skipped};
 use crate::description::Description;
 use crate::parameter::Parameter;
 use crate::write::Write;
 
 /// Returns the writes of a CANopen device in the order of CiA 301: PDOs are disabled, the communication parameters and
-/// all other parameters are written, then the mappings and the parameters of PDOs, and PDOs are enabled again. Other
-/// devices get the values in the order of the description.
+/// all other parameters are written, then the mappings and the parameters of PDOs, and PDOs are enabled again. The
+/// parameters that the caller named come last. Other devices get the values in the order of the description.
 ///
-/// `writes` contains the checked writes by address. A write that the order doesn't contain comes last.
+/// `writes` contains the checked writes by address. Also returns the values that this order leaves out.
 pub(super) fn ordered<'d>(
     description: &'d Description,
     backup: &Backup,
     node_id: Option<u8>,
-    mut writes: BTreeMap<crate::address::Address, Write<'d>>,
-) -> Vec<Write<'d>> {
+    mut writes: BTreeMap<Address, Write<'d>>,
+    include: &[Address],
+) -> (Vec<Write<'d>>, Vec<Skipped>) {
     if description.network() == Network::Modbus {
         let parameters = description.parameters();
-        return parameters.filter_map(|parameter| writes.remove(&parameter.address())).collect();
+        return (parameters.filter_map(|parameter| writes.remove(&parameter.address())).collect(), Vec::new());
     }
     let mut chosen = backup.clone();
     chosen.entries.retain(|entry| writes.contains_key(&entry.address));
     let catalog = chosen.configured(description);
+    let configuration = Configuration::of(&catalog.devices[description.position()]).unwrap_or_default();
     let mut ordered = Vec::new();
-    if let Some(configuration) = Configuration::of(&catalog.devices[description.position()]) {
-        for setting in phases(&configuration) {
-            let Some(parameter) = description.object(setting.object.0, setting.object.1) else { continue };
-            ordered.extend(write(parameter, setting, node_id));
-        }
+    for setting in phases(&configuration) {
+        let Some(parameter) = description.object(setting.object.0, setting.object.1) else { continue };
+        ordered.extend(write(parameter, setting, node_id));
     }
     for write in &ordered {
         writes.remove(&write.parameter().address());
     }
-    let parameters = description.parameters();
-    ordered.extend(parameters.filter_map(|parameter| writes.remove(&parameter.address())));
-    ordered
+    let mut left_out = Vec::new();
+    for (address, write) in writes {
+        if include.contains(&address) {
+            ordered.push(write);
+        } else {
+            left_out.push(Skipped::new(&write.parameter(), reason(&configuration, address)));
+        }
+    }
+    (ordered, left_out)
+}
+
+/// Returns the reason why the order of writes leaves out a value.
+fn reason(configuration: &Configuration, address: Address) -> &'static str {
+    let object = address.object().map(|object| (object.index, object.sub_index));
+    let found = configuration.left_out.iter().find(|(left_out, _)| Some(*left_out) == object);
+    match found {
+        Some((_, LeftOut::NotMapped)) => "the sub-index is above the number of mapped objects",
+        Some((_, reason)) => reason.text(),
+        None => "the value has no place in the order of writes",
+    }
 }
 
 fn phases(configuration: &Configuration) -> impl Iterator<Item = &Setting> {

@@ -7,7 +7,7 @@ use super::order::ordered;
 use crate::address::Address;
 use crate::backup::{Backup, Skipped};
 use crate::description::Description;
-use crate::write::Write;
+use crate::write::{Write, WriteError};
 
 /// All writes of a restore in their order, and the values that are not written.
 #[derive(Clone, Debug)]
@@ -35,10 +35,13 @@ impl<'d> Plan<'d> {
             match (protection, Write::new(parameter, entry.value.clone(), node_id)) {
                 (Some(protection), _) => refused.push(Skipped::new(&parameter, protection)),
                 (None, Ok(write)) => drop(writes.insert(entry.address, write)),
+                // Files of configuration tools contain the values of read-only parameters too.
+                (None, Err(WriteError::ReadOnly)) => refused.push(Skipped::new(&parameter, WriteError::ReadOnly)),
                 (None, Err(error)) => refused.push(Skipped::failed(&parameter, error)),
             }
         }
-        let writes = ordered(description, backup, node_id, writes);
+        let (writes, left_out) = ordered(description, backup, node_id, writes, include);
+        refused.extend(left_out);
         Self { writes, refused }
     }
 }
