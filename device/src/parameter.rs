@@ -207,6 +207,10 @@ impl<'d> Parameter<'d> {
         };
         let limits = self.limits();
         let limits = Limits { low: resolve(&limits.low), high: resolve(&limits.high), allowed: limits.allowed.clone() };
+        // A minimum above the maximum is a mistake of the description.
+        if limits.are_swapped(self.basic()) {
+            return None;
+        }
         excluded(&limits, value).map(|reason| reason.to_string())
     }
 

@@ -112,10 +112,10 @@ impl Parameter<'_> {
         let device = self.description().device();
         let behavior = self.behavior();
         match () {
-            () if self.flags() & REFUSES_WRITE != 0 => Some(Protection::RefusesDownload),
             () if self.is_control(device) => Some(Protection::Control),
             () if self.is_command(device) => Some(Protection::Command),
             () if self.is_output(device) => Some(Protection::Output),
+            () if self.flags() & REFUSES_WRITE != 0 => Some(Protection::RefusesDownload),
             () if self.is_node_id() => Some(Protection::NodeId),
             () if self.is_bit_rate() => Some(Protection::BitRate),
             () if behavior.is_some_and(|behavior| behavior.write_once) => Some(Protection::WriteOnce),

@@ -336,3 +336,82 @@ fn values_of_other_tools_without_a_place_are_left_out() {
     let outcome = plan.execute(&mut CanOpenConnection::new(device.client::<CanOpen>()), &mut |_| true);
     assert!(outcome.is_complete(), "{outcome}");
 }
+
+/// A connection that fails at one of its accesses.
+struct Faulty<C> {
+    inner: C,
+    fault: AccessFault,
+    left: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum AccessFault {
+    /// The request is lost. The device doesn't execute it.
+    LostRequest,
+    /// The reply is lost. The device executes the request.
+    LostReply,
+    /// The device refuses the request.
+    Exception,
+    /// The interface fails, also in all later accesses.
+    Broken,
+}
+
+impl<C: Connection> Faulty<C> {
+    fn access<T>(&mut self, access: impl FnOnce(&mut C) -> Result<T, Failure>) -> Result<T, Failure> {
+        self.left = self.left.saturating_sub(usize::from(self.left > 0 && self.left != usize::MAX));
+        match self.fault {
+            _ if self.left > 0 => access(&mut self.inner),
+            AccessFault::Broken => Err(Failure::Bus("the interface failed".to_owned())),
+            fault => {
+                self.left = usize::MAX;
+                match fault {
+                    AccessFault::Exception => Err(Failure::Exception(4)),
+                    AccessFault::LostReply => access(&mut self.inner).and(Err(Failure::Timeout)),
+                    _ => Err(Failure::Timeout),
+                }
+            }
+        }
+    }
+}
+
+impl<C: Connection> Connection for Faulty<C> {
+    fn network(&self) -> Network {
+        self.inner.network()
+    }
+
+    fn read(&mut self, address: Address, length: usize) -> Result<Vec<u8>, Failure> {
+        self.access(|inner| inner.read(address, length))
+    }
+
+    fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure> {
+        self.access(|inner| inner.write(address, data))
+    }
+}
+
+/// Under each fault of a Modbus access, the report of a restore must agree with the registers of the device.
+#[test]
+fn a_restore_over_a_faulty_modbus_line_reports_every_value() {
+    let description = dictionary("aec-vector-step.toml", Network::Modbus);
+    let mut device = Device::new(vector_step::ENTRIES).with_modbus_limits(60_000, 60_000);
+    let mut connection = ModbusConnection::new(device.client::<Modbus>());
+    let default = save(&description, &mut connection);
+    change_all(&description, &default, &mut connection);
+    let target = save(&description, &mut connection);
+    let plan = Plan::new(&description, &target, Some(NODE), &[]);
+    let mut incomplete = 0;
+    for fault in [AccessFault::LostRequest, AccessFault::LostReply, AccessFault::Exception, AccessFault::Broken] {
+        for n in [1, 2, 17, plan.writes.len() / 2, plan.writes.len()] {
+            let mut device = Device::new(vector_step::ENTRIES).with_modbus_limits(60_000, 60_000);
+            let inner = ModbusConnection::new(device.client::<Modbus>());
+            let mut connection = Faulty { inner, fault, left: n };
+            let outcome = plan.execute(&mut connection, &mut |_| true);
+            incomplete += usize::from(!outcome.is_complete());
+            for (write, status) in &outcome.states {
+                let held = connection.inner.read(write.parameter().address(), write.bytes().len()).expect("a value");
+                let is_right = *status != Status::Written || held == write.bytes();
+                assert!(is_right, "{fault:?} {n}: {write}: {held:?}\n{outcome}");
+            }
+        }
+    }
+    assert_eq!(incomplete, 20, "each restore with a fault is reported as incomplete");
+}

@@ -9,6 +9,8 @@ use lexibus::sim::{CanBus, CanNode, Device};
 use lexibus::{Client, NodeId, Object};
 use lexibus_device::monitor::{EventKind, Interpreter};
 use lexibus_device::scan::{scan, Fit};
+use lexibus_device::slcan::Decoder;
+use lexibus_device::trace::{Line, Reader};
 use lexibus_device::{AnyPort, Description, Network};
 use lexibus_drives::demo_drive;
 use support::dictionary;
@@ -104,4 +106,39 @@ fn the_traffic_of_a_simulated_drive_has_names() {
     }
     assert!(texts.iter().any(|text| text == "node 5: state Operational"), "{texts:?}");
     assert!(texts.iter().any(|text| text.starts_with("node 5: TPDO 1: Statusword = ")), "{texts:?}");
+}
+
+/// Returns pseudo-random numbers (xorshift64).
+fn random(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}
+
+#[test]
+fn no_frame_and_no_line_causes_a_panic() {
+    let (drive, stepper) = (drive(), dictionary("aec-vector-step.toml", Network::CanOpen));
+    let mut interpreter = Interpreter::new([(5, &drive), (6, &stepper)]);
+    let (mut state, mut events, mut frames) = (0x9E37_79B9_7F4A_7C15, 0, 0);
+    for _ in 0..200_000 {
+        let number = random(&mut state);
+        let data = random(&mut state).to_le_bytes();
+        let frame = CanFrame::new((number & 0x7FF) as u32, &data[..(number >> 16) as usize % 9]).expect("a frame");
+        events += usize::from(interpreter.interpret(&frame).is_some());
+    }
+    let pieces = [
+        "(", ")", "1.5", " can0 ", "185", "#", "0A", "[2]", "R", "T", "t1852", "date", "base dec", "d", "Rx", "\r",
+        "é", " ", "x", "-1",
+    ];
+    let mut reader = Reader::new();
+    let mut decoder = Decoder::default();
+    for _ in 0..100_000 {
+        let count = random(&mut state) % 9;
+        let line: String = (0..count).map(|_| pieces[random(&mut state) as usize % pieces.len()]).collect();
+        frames += usize::from(matches!(reader.line(&line), Line::Frame(_)));
+        decoder.push(line.as_bytes());
+        frames += usize::from(decoder.next_frame().is_some());
+    }
+    assert!(events > 5_000 && frames > 10, "{events} events, {frames} frames");
 }

@@ -60,7 +60,7 @@ pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
 
 /// Returns the name of a field with its number, or `None` if the flag is not active or the number is 0.
 fn bits(field: &BitFieldEntry, number: i128, types: &[TypeDef]) -> Option<String> {
-    let bits = number >> field.offset & ((1 << field.bits.min(64)) - 1);
+    let bits = number.checked_shr(field.offset.into()).unwrap_or(0) & ((1 << field.bits.min(64)) - 1);
     match field.meaning {
         BitMeaning::Flag { inverted } => ((bits != 0) != inverted).then(|| field.name.to_string()),
         BitMeaning::Number => (bits != 0).then(|| format!("{} {bits}", field.name)),

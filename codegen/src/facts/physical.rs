@@ -174,10 +174,10 @@ fn exact_raw(text: &str, factor: f64, offset: f64) -> Option<i128> {
     let places = value.places.max(factor.places).max(offset.places);
     let difference = value.scaled(places)?.checked_sub(offset.scaled(places)?)?;
     let factor = factor.scaled(places)?;
-    let (twice, half) = (difference.checked_mul(2)?, factor.abs());
     // Halves are rounded away from zero.
-    let rounded = if (twice < 0) == (factor < 0) { twice.abs() + half } else { -(twice.abs() + half) };
-    rounded.checked_div(factor.abs().checked_mul(2)?)
+    let rounded = difference.checked_abs()?.checked_mul(2)?.checked_add(factor.checked_abs()?)?;
+    let raw = rounded.checked_div(factor.checked_abs()?.checked_mul(2)?)?;
+    Some(if (difference < 0) == (factor < 0) { raw } else { -raw })
 }
 
 /// A decimal number: `number` / 10^`places`.
@@ -278,6 +278,8 @@ mod tests {
         assert_eq!(raw("0", Scale::Reciprocal { numerator: 25e6 }), None);
         assert_eq!(raw("inf", linear(0.1, 0.0)), None);
         assert_eq!(raw("x", linear(0.1, 0.0)), None);
+        assert_eq!(raw("1", linear(0.0, 0.0)), None);
+        assert_eq!(raw(&i128::MAX.to_string(), linear(0.1, 0.0)), None, "too large");
         assert_eq!(raw("1", Scale::Fraction { bits: 15, base: "I".into() }), None);
     }
 

@@ -45,10 +45,14 @@ fn check_mapping<C: Connection>(run: &mut Run<'_, C>, group: &Group) -> Result<(
     let index = group.index().unwrap_or_default();
     let Some(actual) = read(run, index)? else { return Ok(()) };
     let Some(count) = run.description.object(index, 0) else { return Ok(()) };
-    if let Some(declared) = declared(group).filter(|declared| *declared != actual) {
-        let finding = Finding::of(&count, FindingKind::Different, "PDO mapping");
-        run.add(finding.compared(text(&declared), text(&actual)));
-        return Ok(());
+    match declared(group) {
+        Some(declared) if declared == actual => return Ok(()),
+        Some(declared) => {
+            let finding = Finding::of(&count, FindingKind::Different, "PDO mapping");
+            run.add(finding.compared(text(&declared), text(&actual)));
+            return Ok(());
+        }
+        None => {}
     }
     for entry in actual {
         if let Some(message) = wrong_entry(run, index, entry) {
