@@ -100,7 +100,8 @@ fn check_count<C: Connection>(run: &mut Run<'_, C>, group: &Group, index: u16) -
     for sub_index in highest.saturating_add(1)..=count.min(STRUCTURE - 1) {
         has_extra |= check_entry(run, index, sub_index, "the description doesn't declare this sub-index")?;
     }
-    let declared = parameter.default().filter(|_| !parameter.access().writable());
+    let fits = |value: &&Value| parameter.encode(value, None).is_some();
+    let declared = parameter.default().filter(|_| !parameter.access().writable()).filter(fits);
     let actual = Value::Int(count.into());
     if let Some(declared) = declared.filter(|declared| !has_extra && **declared != actual) {
         let finding = Finding::of(&parameter, FindingKind::Different, "number of entries");

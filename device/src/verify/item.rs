@@ -142,7 +142,9 @@ fn wrong_length(ty: Type, expected: Option<usize>, length: usize) -> Option<Stri
 
 /// Returns the deviation of a value from the description.
 fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) -> Option<Finding> {
-    if let Some(expected) = expected(parameter) {
+    // A value that doesn't fit the type is a mistake of the description.
+    let fits = |value: &Value| parameter.encode(value, node_id.or(Some(1))).is_some();
+    if let Some(expected) = expected(parameter).filter(fits) {
         let expected = node_id.map_or_else(|| expected.clone(), |node_id| expected.resolved(node_id));
         let is_known = !matches!(expected, Value::NodeId(_) | Value::Raw(_));
         return (is_known && !is_same(&expected, value))
