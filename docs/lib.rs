@@ -80,6 +80,8 @@ mod chapters {
     mod simulation {}
     #[doc = include_str!("src/network.md")]
     mod network {}
+    #[doc = include_str!("src/devices.md")]
+    mod devices {}
     #[doc = include_str!("src/recipes.md")]
     mod recipes {}
     #[doc = include_str!("src/diff.md")]

@@ -17,7 +17,7 @@ cargo llvm-cov test --no-report --workspace --all-features --no-fail-fast -- \
     --skip compile_fail --skip generated_code_costs --skip what_is_not_used --skip both_programs
 
 # Exclude generated crates, because they are output of the compiler.
-crates=(lexibus lexibus-codegen lexibus-export lexibus-import lexibus-site lexibus-cli lexibus-macros)
+crates=(lexibus lexibus-codegen lexibus-export lexibus-import lexibus-site lexibus-device lexibus-cli lexibus-macros)
 printf '%-18s %8s %8s %8s\n' crate lines missed covered
 for crate in "${crates[@]}"; do
     read -r lines missed covered < <(cargo llvm-cov report -p "$crate" --summary-only 2>/dev/null | awk '$1 == "TOTAL" { print $8, $9, $10 }')

@@ -55,6 +55,12 @@ part_features() {
         cargo check --quiet -p lexibus-codegen --no-default-features --features "$features" || failed=1
         cargo test --quiet -p lexibus-codegen --no-default-features --features "$features" --test features || failed=1
     done
+    # Each bus must compile without the other buses, and the command line without any bus.
+    for features in "" modbus slcan socketcan; do
+        echo "buses: $features"
+        cargo check --quiet -p lexibus-device --no-default-features --features "$features" || failed=1
+    done
+    cargo check --quiet -p lexibus-cli --no-default-features || failed=1
     return $failed
 }
 # Checks crates outside the workspace, which need a C++ compiler or the newest Rust, and tests the CANopen client with `zencan-node`.

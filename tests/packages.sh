@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 folder=${CARGO_TARGET_DIR:-$PWD/target}/packages
 source=$folder/source
 scratch=$folder/scratch
-crates=(lexibus lexibus-codegen lexibus-macros lexibus-site lexibus-export lexibus-import lexibus-network lexibus-cli lexibus-drives)
+crates=(lexibus lexibus-codegen lexibus-macros lexibus-site lexibus-export lexibus-import lexibus-network lexibus-device lexibus-cli lexibus-drives)
 
 rm -rf "$source" "$scratch" "$folder/installed"
 mkdir -p "$source" "$scratch"

@@ -129,7 +129,7 @@ fn progress(files: usize) -> ProgressBar {
 
 /// Returns the input files. Each folder is replaced with the device descriptions in it and in its subfolders, sorted by
 /// path.
-fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
         if path.is_dir() {

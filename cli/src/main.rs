@@ -1,5 +1,6 @@
 //! The `lexibus` command: `lexibus generate`, `export`, `docs`, `diff`, `check`, `fix`, `info`, `dump`, `new`, `import`,
-//! `schema`, `network`, `explain`, `completions`.
+//! `schema`, `network`, `explain`, `completions`, and with the feature `bus` also `read`, `write`, `verify`, `backup`, `restore`, `compare`,
+//! `scan`, `monitor`, `decode`.
 //!
 //! ```text
 //! $ lexibus generate drive.eds --out src/drive.rs
@@ -19,6 +20,8 @@
 mod args;
 mod baseline;
 mod check;
+#[cfg(feature = "bus")]
+mod device;
 mod diff;
 mod docs;
 mod explain;
@@ -27,6 +30,7 @@ mod fix;
 mod generate;
 mod import;
 mod inputs;
+mod interrupt;
 mod network;
 mod new;
 mod output;
@@ -58,6 +62,9 @@ const INTERRUPTED: i32 = 130;
 fn main() -> ExitCode {
     // Ignore a failure to install the handler. Without the handler, the signal ends the process at once.
     let _ = ctrlc::set_handler(|| {
+        if interrupt::is_deferred() {
+            return;
+        }
         let _settled = settled();
         std::process::exit(INTERRUPTED)
     });
@@ -69,6 +76,11 @@ fn main() -> ExitCode {
             if error.kind() != std::io::ErrorKind::BrokenPipe {
                 say(&format!("error: cannot write the output: {error}"));
             }
+            ExitCode::from(FAILED)
+        }
+        #[cfg(feature = "bus")]
+        Err(Failure::Device(message)) => {
+            say(&format!("error: {message}"));
             ExitCode::from(FAILED)
         }
         Err(Failure::Usage(message)) => {
@@ -91,6 +103,9 @@ enum Failure {
     Usage(String),
     /// The output cannot be written.
     Output(std::io::Error),
+    /// A device or a bus failed.
+    #[cfg(feature = "bus")]
+    Device(String),
 }
 
 impl From<std::io::Error> for Failure {
@@ -115,6 +130,8 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
         Command::Schema(schema) => schema::run(&schema),
         Command::Network(arguments) => network::run(&arguments),
         Command::Explain { code, format } => explain(code.as_deref(), format),
+        #[cfg(feature = "bus")]
+        Command::Device(command) => device::run(&command),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "lexibus", &mut script);

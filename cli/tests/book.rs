@@ -2,6 +2,8 @@
 //! must be valid.
 
 mod book_support;
+#[cfg(unix)]
+mod bus_support;
 #[path = "../../codegen/tests/table_support/mod.rs"]
 mod table_support;
 
@@ -85,8 +87,30 @@ fn run(line: &str, folder: &Path) -> Option<Output> {
         assert!(OTHERS.contains(&program.as_str()), "the book uses an unknown program: {line}");
         return None;
     }
+    let arguments = arguments.iter().map(|argument| on_simulated_bus(argument));
     let mut command = Command::new(env!("CARGO_BIN_EXE_lexibus"));
     Some(command.args(arguments).current_dir(folder).output().expect("lexibus runs"))
+}
+
+/// Replaces the bus of an example with a bus on which a simulated device is.
+#[cfg(unix)]
+fn on_simulated_bus(argument: &str) -> String {
+    static ADAPTER: std::sync::OnceLock<String> = std::sync::OnceLock::new();
+    static SERVER: std::sync::OnceLock<u16> = std::sync::OnceLock::new();
+    if argument.contains("/dev/ttyACM0") {
+        let adapter = ADAPTER.get_or_init(|| bus_support::adapter(std::time::Duration::ZERO));
+        return argument.replace("/dev/ttyACM0", adapter);
+    }
+    if argument.contains("127.0.0.1:1502") {
+        let port = SERVER.get_or_init(bus_support::modbus_server);
+        return argument.replace("1502", &port.to_string());
+    }
+    argument.to_owned()
+}
+
+#[cfg(not(unix))]
+fn on_simulated_bus(argument: &str) -> String {
+    argument.to_owned()
 }
 
 /// Returns the output lines of a command without trailing whitespace.

@@ -26,7 +26,7 @@
 //! | writing output files | [`output`] |
 //!
 //! Other crates use the same [`ir`]: `lexibus-site` generates documentation and compares versions, and `lexibus-export` writes EDS, DCF,
-//! ESI, GSDML and JSON. `lexibus-import` converts lists of registers (CSV) to register tables, and `lexibus-cli` is the command `lexibus`.
+//! ESI, GSDML and JSON. `lexibus-import` converts lists of registers (CSV) to register tables, `lexibus-device` accesses devices on a bus, and `lexibus-cli` is the command `lexibus`.
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
 //! has a chapter for each format, and a chapter about writing a front end.
 //!

@@ -65,6 +65,9 @@ pub(in super::super) enum Command {
         #[arg(long, value_enum, value_name = "FORMAT", default_value_t = ExplainFormat::Text)]
         format: ExplainFormat,
     },
+    #[cfg(feature = "bus")]
+    #[command(flatten)]
+    Device(super::device::DeviceCommand),
     /// Print a completion script for a shell.
     #[command(after_help = "Example:\n  lexibus completions bash")]
     Completions {
@@ -295,6 +298,8 @@ impl Arguments {
             }
             Command::New(_) | Command::Import(_) | Command::Schema(_) | Command::Diff(_) => return arguments,
             Command::Explain { .. } | Command::Completions { .. } => return arguments,
+            #[cfg(feature = "bus")]
+            Command::Device(_) => return arguments,
         };
         if let Some((_, matches)) = matches {
             levels.order(matches);

@@ -1,6 +1,8 @@
 //! Arguments of the command line.
 
 mod command;
+#[cfg(feature = "bus")]
+mod device;
 mod inputs;
 mod network;
 mod output;
@@ -8,6 +10,11 @@ mod output;
 pub(super) use command::{
     Arguments, Bus, Check, Command, Diff, DiffFormat, Docs, DocsFormat, ExplainFormat, Fix, Import, InfoFormat, New,
     Schema, Shown,
+};
+#[cfg(feature = "bus")]
+pub(super) use device::{
+    BackupCommand, BackupFormat, Compare, Decode, Described, DeviceCommand, EventFormat, Monitor, NodeFile, Read,
+    Restore, Scan, ScanFormat, Target, Verify, VerifyFormat, WriteCommand,
 };
 pub(super) use inputs::{ColorChoice, Inputs, LevelArguments, MessageFormat, Printing};
 pub(super) use network::{Network, NetworkBuild, NetworkCheck, NetworkCommand, NetworkInput};

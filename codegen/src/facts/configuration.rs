@@ -143,10 +143,9 @@ impl Configuration {
     }
 }
 
-/// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. These values are not
-/// written, because a file that a tool saved from a running drive can contain them. The objects of each further axis are 0x800
-/// higher (CiA 402-2).
-fn is_motion_command(index: u16) -> bool {
+/// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. A file that a tool
+/// saved from a running drive contains such values. The objects of each further axis are 0x800 higher (CiA 402-2).
+pub fn is_motion_command(index: u16) -> bool {
     const AXIS: u16 = 0x800;
     (0x6000..0xA000).contains(&index)
         && matches!(0x6000 + (index - 0x6000) % AXIS, 0x6040 | 0x6042 | 0x6071 | 0x607A | 0x60FF)

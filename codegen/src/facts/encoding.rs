@@ -27,6 +27,48 @@ pub fn number(number: i128, ty: Type) -> Option<Vec<u8>> {
     number.to_le_bytes().get(..length.min(16)).map(<[u8]>::to_vec)
 }
 
+/// Returns the value of the bytes of a basic type: the inverse of [`bytes()`]. Returns `None` if the number of bytes is not that of the
+/// type, or if a text is not valid. A text ends before its first zero.
+pub fn value(bytes: &[u8], ty: Type) -> Option<Value> {
+    if ty.bits().is_some_and(|bits| bytes.len() != bits.div_ceil(8) as usize) {
+        return None;
+    }
+    match ty {
+        Type::Boolean => Some(Value::Bool(*bytes.first()? != 0)),
+        Type::Integer(bits) => Some(Value::Int(signed(bytes, bits))),
+        Type::Unsigned(_) => Some(Value::Int(unsigned(bytes))),
+        Type::Real32 => Some(Value::Real(f32::from_le_bytes(bytes.try_into().ok()?).into())),
+        Type::Real64 => Some(Value::Real(f64::from_le_bytes(bytes.try_into().ok()?))),
+        Type::VisibleString(_) => {
+            let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
+            Some(Value::Text(String::from_utf8(bytes.get(..end)?.to_vec()).ok()?.into()))
+        }
+        Type::UnicodeString(_) if bytes.len().is_multiple_of(2) => {
+            let units = bytes.chunks_exact(2).map(|unit| u16::from_le_bytes([unit[0], unit[1]]));
+            let units: Vec<u16> = units.take_while(|unit| *unit != 0).collect();
+            Some(Value::Text(String::from_utf16(&units).ok()?.into()))
+        }
+        Type::UnicodeString(_) => None,
+        Type::TimeOfDay | Type::TimeDifference => {
+            let (milliseconds, days) = bytes.split_at_checked(4)?;
+            let milliseconds = u32::from_le_bytes(milliseconds.try_into().ok()?);
+            Some(Value::Time { milliseconds, days: u16::from_le_bytes(days.try_into().ok()?) })
+        }
+        Type::OctetString(_) | Type::Domain | Type::Time(_) | Type::Opaque(_) | Type::Named(_) => {
+            Some(Value::Bytes(bytes.to_vec()))
+        }
+    }
+}
+
+fn unsigned(bytes: &[u8]) -> i128 {
+    bytes.iter().rev().fold(0, |number, byte| number << 8 | i128::from(*byte))
+}
+
+fn signed(bytes: &[u8], bits: u8) -> i128 {
+    let shift = 128 - u32::from(bits.clamp(1, 64));
+    unsigned(bytes) << shift >> shift
+}
+
 /// Returns whether a value fits a basic type. A formula fits only if its result fits for each node-ID.
 pub fn fits(value: &Value, ty: Type) -> bool {
     /// Range of node-IDs.
@@ -61,6 +103,29 @@ mod tests {
         assert_eq!(bytes(&time, Type::TimeOfDay), Some(vec![1, 0, 0, 0, 2, 0]));
         assert_eq!(bytes(&Value::NodeId(1), Type::Unsigned(8)), None);
         assert_eq!(bytes(&Value::Int(1), Type::Domain), None);
+    }
+
+    #[test]
+    fn bytes_become_the_value_that_they_encode() {
+        for (value, ty) in [
+            (Value::Int(-2), Type::Integer(24)),
+            (Value::Int(i64::MIN.into()), Type::Integer(64)),
+            (Value::Int(u64::MAX.into()), Type::Unsigned(64)),
+            (Value::Bool(true), Type::Boolean),
+            (Value::Real(1.5), Type::Real32),
+            (Value::Real(-0.1), Type::Real64),
+            (Value::Text("aµ".into()), Type::VisibleString(None)),
+            (Value::Text("aµ".into()), Type::UnicodeString(None)),
+            (Value::Bytes(vec![1, 2, 3]), Type::Domain),
+            (Value::Time { milliseconds: 1, days: 2 }, Type::TimeOfDay),
+        ] {
+            let encoded = bytes(&value, ty).expect("a value of the type");
+            assert_eq!(super::value(&encoded, ty), Some(value), "{ty}");
+        }
+        assert_eq!(value(&[1, 0], Type::Unsigned(8)), None, "too long");
+        assert_eq!(value(&[], Type::Unsigned(8)), None, "too short");
+        assert_eq!(value(&[0xFF], Type::VisibleString(None)), None, "no UTF-8");
+        assert_eq!(value(b"ab\0\0", Type::VisibleString(Some(4))), Some(Value::Text("ab".into())));
     }
 
     #[test]

@@ -4,7 +4,11 @@ use super::number::hex;
 use super::physical::{shown_unit, Physical};
 use super::types;
 use super::words::PLAIN;
-use crate::ir::{Group, Item, Limits, Mappable, ObjectCode, Quantity, Scale, Type, TypeDef, Value};
+use crate::ir::owner::Owner;
+use crate::ir::{
+    BitFieldEntry, BitMeaning, EnumValue, Group, Item, Limits, Mappable, ObjectCode, Quantity, Scale, Shape, Type,
+    TypeDef, Value,
+};
 
 /// Returns the name of an item. Many files state no name, or only a placeholder such as `SubIndex 001`. In this case, sub-index 0
 /// is called `Number of entries` (CiA 301), and other sub-indices are called by object and sub-index: `RxPDO 1 mapping, sub-index
@@ -35,6 +39,38 @@ pub fn is_placeholder(name: &str) -> bool {
 pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     let basic = types::basic(types, item.ty);
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
+}
+
+/// Returns the meaning of a value: the name of a value of an enumeration, or the names of the set bits of a bit field, joined with commas.
+/// Returns `None` if the type names neither. Names of several bits contain the number: `Mode 3`.
+pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
+    let number = value.as_int()?;
+    match &Owner::of_types(types).definition(ty)?.shape {
+        Shape::Enumeration { values, .. } => {
+            let is_of = |named: &&EnumValue| (named.range().0..=named.range().1).contains(&number);
+            values.iter().find(is_of).map(|named| named.name.to_string())
+        }
+        Shape::BitField { fields, .. } => {
+            let named = fields.iter().filter(|field| !field.is_reserved() && field.when.is_none());
+            let names: Vec<String> = named.filter_map(|field| bits(field, number, types)).collect();
+            (!names.is_empty()).then(|| names.join(", "))
+        }
+        _ => None,
+    }
+}
+
+/// Returns the name of a field with its number, or `None` if the flag is not active or the number is 0.
+fn bits(field: &BitFieldEntry, number: i128, types: &[TypeDef]) -> Option<String> {
+    let bits = number.checked_shr(field.offset.into()).unwrap_or(0) & ((1 << field.bits.min(64)) - 1);
+    match field.meaning {
+        BitMeaning::Flag { inverted } => ((bits != 0) != inverted).then(|| field.name.to_string()),
+        BitMeaning::Number => (bits != 0).then(|| format!("{} {bits}", field.name)),
+        BitMeaning::Enumeration(id) => {
+            let name = meaning(Type::Named(id), &Value::Int(bits), types);
+            Some(format!("{}: {}", field.name, name.unwrap_or_else(|| bits.to_string())))
+        }
+        BitMeaning::Reserved { .. } => None,
+    }
 }
 
 /// Returns the default value, or an empty text if there is none.
@@ -145,6 +181,29 @@ mod tests {
         for name in ["001", "Highest SubIndex supported", "SubIndex: 1", "Speed"] {
             assert!(!is_placeholder(name), "{name}");
         }
+    }
+
+    #[test]
+    fn values_and_bits_have_names() {
+        let flag =
+            |name: &str, offset| BitFieldEntry::new(name.into(), offset, 1, BitMeaning::Flag { inverted: false });
+        let ready = BitFieldEntry { meaning: BitMeaning::Flag { inverted: true }, ..flag("Enabled", 2) };
+        let mode = BitFieldEntry::new("Mode".into(), 4, 4, BitMeaning::Enumeration(crate::ir::TypeId(0)));
+        let fields = vec![flag("Fault", 0), flag("Warning", 1), ready, mode];
+        let base = Type::Unsigned(8);
+        let values =
+            vec![EnumValue::new("Homing".into(), 6), EnumValue { last: Some(3), ..EnumValue::new("Jog".into(), 1) }];
+        let types = [
+            TypeDef::new("Mode", Shape::Enumeration { base, values, closed: false }, Some(8)),
+            TypeDef::new("Status", Shape::BitField { base, fields }, Some(8)),
+        ];
+        let of = |id, number| meaning(Type::Named(crate::ir::TypeId(id)), &Value::Int(number), &types);
+        assert_eq!(of(0, 6).as_deref(), Some("Homing"));
+        assert_eq!(of(0, 2).as_deref(), Some("Jog"));
+        assert_eq!(of(0, 4), None);
+        assert_eq!(of(1, 0x61).as_deref(), Some("Fault, Enabled, Mode: Homing"));
+        assert_eq!(of(1, 0x96).as_deref(), Some("Warning, Mode: 9"));
+        assert_eq!(meaning(base, &Value::Int(1), &types), None);
     }
 
     #[test]

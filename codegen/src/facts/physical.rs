@@ -57,6 +57,21 @@ impl<'q> Physical<'q> {
         }
     }
 
+    /// Returns the raw value that is nearest to a physical value: 1550 for `15.5` with scale factor 0.01. Returns `None` if `text` is not
+    /// a number, if the raw value is not finite, or if the scale depends on another item or on the model.
+    pub fn raw(&self, text: &str) -> Option<Value> {
+        let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
+        let whole = |raw: f64| (raw.is_finite() && raw.abs() < 1e30).then(|| Value::Int(raw.round() as i128));
+        match *self.scale {
+            Scale::Linear { factor, offset } => {
+                number()?;
+                exact_raw(text, factor, offset).map(Value::Int).or_else(|| whole((number()? - offset) / factor))
+            }
+            Scale::Reciprocal { numerator } => whole(numerator / number()?),
+            _ => None,
+        }
+    }
+
     /// Formats a value for a table that has a column for units: `25.0`, or `raw 250` if the physical value is unknown.
     pub fn cell(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         self.number(value).unwrap_or_else(|| format!("raw {}", raw(value)))
@@ -153,6 +168,19 @@ fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
     }
 }
 
+/// Returns the raw value that is nearest to the decimal number `text`. The calculation is exact. Returns `None` if factor, offset or `text`
+/// has too many digits.
+fn exact_raw(text: &str, factor: f64, offset: f64) -> Option<i128> {
+    let (value, factor, offset) = (Decimal::parsed(text)?, Decimal::of(factor)?, Decimal::of(offset)?);
+    let places = value.places.max(factor.places).max(offset.places);
+    let difference = value.scaled(places)?.checked_sub(offset.scaled(places)?)?;
+    let factor = factor.scaled(places)?;
+    // Halves are rounded away from zero.
+    let rounded = difference.checked_abs()?.checked_mul(2)?.checked_add(factor.checked_abs()?)?;
+    let raw = rounded.checked_div(factor.checked_abs()?.checked_mul(2)?)?;
+    Some(if (difference < 0) == (factor < 0) { raw } else { -raw })
+}
+
 /// A decimal number: `number` / 10^`places`.
 struct Decimal {
     number: i128,
@@ -162,8 +190,12 @@ struct Decimal {
 impl Decimal {
     /// Returns the decimal number, or `None` if it has more than nine decimals.
     fn of(number: f64) -> Option<Self> {
-        let text = number.to_string();
-        let (whole, decimals) = text.split_once('.').unwrap_or((&text, ""));
+        Decimal::parsed(&number.to_string())
+    }
+
+    /// Returns the decimal number with this text, or `None` if it has more than nine decimals or an exponent.
+    fn parsed(text: &str) -> Option<Self> {
+        let (whole, decimals) = text.split_once('.').unwrap_or((text, ""));
         let places = u32::try_from(decimals.len()).ok().filter(|places| *places <= 9)?;
         Some(Decimal { number: format!("{whole}{decimals}").parse().ok()?, places })
     }
@@ -226,6 +258,30 @@ mod tests {
         assert_eq!(written(most, 1.0, -1.0, ""), "18446744073709551614 (raw 18446744073709551615)");
         let unscaled = Quantity { unit: "ms".into(), ..Quantity::default() };
         assert!(Physical::of(Some(&unscaled)).is_none() && Physical::of(None).is_none());
+    }
+
+    #[test]
+    fn a_physical_value_becomes_the_nearest_raw_value() {
+        let raw =
+            |text: &str, scale: Scale| Physical { unit: "", scale: &scale }.raw(text).and_then(|raw| raw.as_int());
+        let linear = |factor, offset| Scale::Linear { factor, offset };
+        assert_eq!(raw("15.5", linear(0.01, 0.0)), Some(1550));
+        assert_eq!(raw("-15.5", linear(0.01, 0.0)), Some(-1550));
+        assert_eq!(raw("15.504", linear(0.01, 0.0)), Some(1550));
+        assert_eq!(raw("15.505", linear(0.01, 0.0)), Some(1551));
+        assert_eq!(raw("-15.505", linear(0.01, 0.0)), Some(-1551));
+        assert_eq!(raw("226.85", linear(0.5, -273.15)), Some(1000));
+        assert_eq!(raw("-1.5", linear(-0.5, 0.0)), Some(3));
+        assert_eq!(raw("1844674407370955161.5", linear(0.1, 0.0)), Some(u64::MAX.into()));
+        assert_eq!(raw("1e3", linear(0.1, 0.0)), Some(10_000));
+        assert_eq!(raw("1", linear(1.0 / 3.0, 0.0)), Some(3));
+        assert_eq!(raw("6250000", Scale::Reciprocal { numerator: 25e6 }), Some(4));
+        assert_eq!(raw("0", Scale::Reciprocal { numerator: 25e6 }), None);
+        assert_eq!(raw("inf", linear(0.1, 0.0)), None);
+        assert_eq!(raw("x", linear(0.1, 0.0)), None);
+        assert_eq!(raw("1", linear(0.0, 0.0)), None);
+        assert_eq!(raw(&i128::MAX.to_string(), linear(0.1, 0.0)), None, "too large");
+        assert_eq!(raw("1", Scale::Fraction { bits: 15, base: "I".into() }), None);
     }
 
     #[test]

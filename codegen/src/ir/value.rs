@@ -132,9 +132,13 @@ impl Limits {
 }
 
 /// The reason why limits exclude a value.
-pub(crate) enum Excluded<'l> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Excluded<'l> {
+    /// The value is below this minimum.
     Below(&'l Value),
+    /// The value is above this maximum.
     Above(&'l Value),
+    /// The value is in none of the allowed ranges.
     NotAllowed,
 }
 
@@ -150,7 +154,7 @@ impl fmt::Display for Excluded<'_> {
 
 /// Returns the reason why limits exclude a value, or `None` if the limits allow the value. Values that are not numbers are never
 /// excluded.
-pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
+pub fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
     let is = |limit: &&Value, order| value.compare(limit) == Some(order);
     let below = || limits.low.as_ref().filter(|low| is(low, Ordering::Less)).map(Excluded::Below);
     let above = || limits.high.as_ref().filter(|high| is(high, Ordering::Greater)).map(Excluded::Above);

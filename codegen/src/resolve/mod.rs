@@ -33,5 +33,5 @@ pub(crate) use pdo_entries::address;
 pub(crate) use pdo_mapping::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };
-pub(crate) use profiles::is_device_of_number;
+pub use profiles::is_device_of_number;
 pub use run::{resolve, Profiles};

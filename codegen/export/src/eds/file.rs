@@ -61,8 +61,13 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
 /// objects that exist only on EtherCAT are left out.
 fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
     let compact_pdos = device.canopen.as_ref().is_some_and(|canopen| canopen.compact_pdo != 0);
-    let is_implied =
-        |group: &Group| compact_pdos && group.origin.line == 0 && matches!(group.index(), Some(0x1400..=0x1BFF));
+    let is_configured = |group: &Group| group.items.iter().any(|item| item.configured_value().is_some());
+    let is_implied = |group: &Group| {
+        compact_pdos
+            && group.origin.line == 0
+            && matches!(group.index(), Some(0x1400..=0x1BFF))
+            && !is_configured(group)
+    };
     let described = device.groups.iter().filter(|group| group.index().is_some() && !is_implied(group));
     let described = described.filter(|group| !is_coe_only(device, group));
     let mut objects: Vec<&Group> = described.chain(derived).collect();

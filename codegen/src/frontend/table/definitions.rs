@@ -376,10 +376,17 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     };
     let byte = notation::integer(byte);
     let bits = notation::bits(bits).filter(|(offset, bits)| offset + bits <= 8);
-    let (Some(byte), Some((offset, bits)), Some(first)) = (byte, bits, first) else {
-        let message = format!("`{}` is not a range of bits in a byte", brief(&key.value));
-        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
-        reader.diagnostics.push(found.help("write `\"0x221:3-2\"`, and `address` in the bit field"));
+    let (Some(byte), Some((offset, bits))) = (byte, bits) else {
+        let message = format!("`{}` is neither a bit nor a range of bits in a byte", brief(&key.value));
+        let help = "write a bit such as `\"0x221:3\"`, or a range such as `\"0x221:3-2\"`";
+        reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
+        return None;
+    };
+    let Some(first) = first else {
+        let message =
+            format!("`{}` names a bit by its byte address, but the bit field has no `address`", brief(&key.value));
+        let help = "add `address`, the address of the first byte";
+        reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
         return None;
     };
     let bytes = base.bits().unwrap_or(0).div_ceil(8);

@@ -60,7 +60,7 @@ fn is_on(device: &Device, profile: &Profile) -> bool {
 }
 
 /// Returns whether a device follows the profile with this number.
-pub(crate) fn is_device_of_number(device: &Device, number: u32) -> bool {
+pub fn is_device_of_number(device: &Device, number: u32) -> bool {
     all().iter().any(|profile| profile.number == Some(number) && is_device_of(device, profile))
 }
 

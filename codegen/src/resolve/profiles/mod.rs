@@ -17,7 +17,8 @@ mod complete;
 mod profile;
 mod stored;
 
-pub(crate) use apply::{apply, is_device_of_number};
+pub(crate) use apply::apply;
+pub use apply::is_device_of_number;
 #[cfg(test)]
 pub(crate) use complete::Completion;
 #[cfg(test)]

@@ -1,0 +1,284 @@
+//! Arguments of the subcommands that access devices.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+use lexibus_codegen::selection::DeviceFilter;
+use lexibus_device::BusAddress;
+
+use super::inputs::choice;
+
+/// Subcommands that access devices on a bus.
+#[derive(Debug, Subcommand)]
+pub(crate) enum DeviceCommand {
+    /// Read values of a device by name.
+    #[command(after_help = "Example:\n  lexibus read --bus can:can0 --node 5 drive.eds \"Profile velocity\"")]
+    Read(Read),
+    /// Write a value of a device by name. The value is checked and shown before it is written.
+    #[command(
+        after_help = "Example:\n  lexibus write --bus can:can0 --node 5 drive.eds \"Profile velocity\" 15.5 rev/s"
+    )]
+    Write(WriteCommand),
+    /// Compare a device with its description. Nothing is written. The exit code is 1 if there is a deviation.
+    #[command(
+        after_help = "Example:\n  lexibus verify --bus can:can0 --node 5 drive.eds --format html --out report.html"
+    )]
+    Verify(Verify),
+    /// Save the parameters of a device to a file.
+    #[command(after_help = "Example:\n  lexibus backup --bus can:can0 --node 5 drive.eds --out axis.dcf")]
+    Backup(BackupCommand),
+    /// Write saved parameters to a device. All writes are shown before the first one.
+    #[command(after_help = "Example:\n  lexibus restore --bus can:can0 --node 5 drive.eds axis.dcf --dry-run")]
+    Restore(Restore),
+    /// Compare two backups by name. The exit code is 1 if they differ.
+    #[command(after_help = "Example:\n  lexibus compare drive.eds monday.dcf friday.dcf")]
+    Compare(Compare),
+    /// Search the nodes of a CANopen bus, and the descriptions that fit them.
+    #[command(after_help = "Example:\n  lexibus scan --bus can:can0 vendor-files/")]
+    Scan(Scan),
+    /// Show the traffic of a CANopen bus, or values of a device, by name. Ends after Ctrl-C.
+    #[command(after_help = "Example:\n  lexibus monitor --bus can:can0 5=drive.eds")]
+    Monitor(Monitor),
+    /// Convert a recorded trace of a CANopen bus (candump, ASC) to names and values.
+    #[command(after_help = "Example:\n  lexibus decode trace.log 5=drive.eds")]
+    Decode(Decode),
+}
+
+/// A description file.
+#[derive(Debug, Args)]
+pub(crate) struct Described {
+    /// Device description.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Use this device of the file (a name, order code or product code, optionally with @REVISION or @latest).
+    #[arg(long, value_name = "DEVICE")]
+    pub device: Option<DeviceFilter>,
+    /// Set an option that the register table defines; can be repeated.
+    #[arg(long, value_name = "NAME=CHOICE", value_parser = choice)]
+    pub option: Vec<(String, String)>,
+    /// Apply this overlay, a table that corrects and extends descriptions; can be repeated.
+    #[arg(long, value_name = "OVERLAY")]
+    pub overlay: Vec<PathBuf>,
+}
+
+/// A device on a bus, with its description.
+#[derive(Debug, Args)]
+pub(crate) struct Target {
+    /// Bus: can:NAME, slcan:PATH[@500k], tcp:HOST[:PORT] or rtu:PATH[@19200-8E1].
+    #[arg(long, value_name = "BUS")]
+    pub bus: BusAddress,
+    /// Node-ID on CANopen, or server address on Modbus.
+    #[arg(long, value_name = "NODE")]
+    pub node: u8,
+    /// Maximum time for a reply, in milliseconds.
+    #[arg(long, value_name = "MS", default_value_t = 500, value_parser = clap::value_parser!(u16).range(1..))]
+    pub timeout: u16,
+    #[command(flatten)]
+    pub described: Described,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Read {
+    #[command(flatten)]
+    pub target: Target,
+    /// Names, paths (OBJECT/NAME) or addresses (0x6081, 0x1018:1, 101) of the values.
+    #[arg(required = true, value_name = "NAME")]
+    pub names: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct WriteCommand {
+    #[command(flatten)]
+    pub target: Target,
+    /// Name, path (OBJECT/NAME) or address (0x6081, 0x1018:1, 101) of the value.
+    #[arg(value_name = "NAME")]
+    pub name: String,
+    /// Value, with its unit if the value is scaled: 15.5 rev/s, 1550 raw, 0x10, or the name of a value.
+    #[arg(required = true, value_name = "VALUE", allow_negative_numbers = true)]
+    pub value: Vec<String>,
+    /// Write without asking.
+    #[arg(long)]
+    pub yes: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Verify {
+    #[command(flatten)]
+    pub target: Target,
+    /// Output format of the report.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = VerifyFormat::Text)]
+    pub format: VerifyFormat,
+    /// File to write; by default, standard output.
+    #[arg(short, long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Also list the values that differ from their default value.
+    #[arg(long)]
+    pub changed: bool,
+    /// Also search undeclared objects in this range of indices (0x2000..0x5FFF); can be repeated. Reading an undeclared object
+    /// may have unknown effects.
+    #[arg(long, value_name = "RANGE", value_parser = indices)]
+    pub search: Vec<std::ops::RangeInclusive<u16>>,
+    /// Write an overlay with the facts that were found.
+    #[arg(long, value_name = "PATH")]
+    pub write_overlay: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum VerifyFormat {
+    /// One line per finding, followed by a summary.
+    Text,
+    /// JSON object.
+    Json,
+    /// HTML page.
+    Html,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BackupCommand {
+    #[command(flatten)]
+    pub target: Target,
+    /// File to write: a DCF (.dcf) or TOML (.toml).
+    #[arg(short, long, value_name = "PATH")]
+    pub out: PathBuf,
+    /// Format of the file; by default, the extension determines the format.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<BackupFormat>,
+    /// Also save this protected or volatile parameter (a name, path or address); can be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub include: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BackupFormat {
+    /// CANopen device configuration file (CiA 306).
+    Dcf,
+    /// One line per parameter, with name, address and value.
+    Toml,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Restore {
+    #[command(flatten)]
+    pub target: Target,
+    /// Backup: a DCF or XDC, or TOML.
+    #[arg(value_name = "BACKUP")]
+    pub backup: PathBuf,
+    /// Also restore this protected parameter (a name, path or address); can be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub include: Vec<String>,
+    /// List what would be written and what is refused, and write nothing. No bus is needed.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Write without asking.
+    #[arg(long, conflicts_with = "dry_run")]
+    pub yes: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    #[command(flatten)]
+    pub described: Described,
+    /// Old backup: a DCF or XDC, or TOML.
+    #[arg(value_name = "OLD")]
+    pub old: PathBuf,
+    /// New backup: a DCF or XDC, or TOML.
+    #[arg(value_name = "NEW")]
+    pub new: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Scan {
+    /// Bus: can:NAME or slcan:PATH[@500k].
+    #[arg(long, value_name = "BUS")]
+    pub bus: BusAddress,
+    /// Time to wait for replies, in milliseconds.
+    #[arg(long, value_name = "MS", default_value_t = 200, value_parser = clap::value_parser!(u16).range(1..))]
+    pub timeout: u16,
+    /// Output format.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = ScanFormat::Text)]
+    pub format: ScanFormat,
+    /// Device descriptions, or folders to search for them. The command reports those that fit a node.
+    #[arg(value_name = "FILE")]
+    pub descriptions: Vec<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ScanFormat {
+    /// One line per node.
+    Text,
+    /// One JSON object per node and line.
+    Json,
+}
+
+/// A node-ID with a description: `5=drive.eds`.
+#[derive(Clone, Debug)]
+pub(crate) struct NodeFile {
+    pub node: u8,
+    pub file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Monitor {
+    /// Bus: can:NAME, slcan:PATH[@500k], tcp:HOST[:PORT] or rtu:PATH[@19200-8E1].
+    #[arg(long, value_name = "BUS")]
+    pub bus: BusAddress,
+    /// Nodes with their descriptions, as NODE=FILE.
+    #[arg(required = true, value_name = "NODE=FILE", value_parser = node_file)]
+    pub nodes: Vec<NodeFile>,
+    /// Read this value of the first node periodically (a name, path or address); can be repeated. On Modbus, at least one value is
+    /// required.
+    #[arg(long, value_name = "NAME")]
+    pub read: Vec<String>,
+    /// Time between two reads of the values, in milliseconds.
+    #[arg(long, value_name = "MS", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub period: u32,
+    /// End after this time, in milliseconds.
+    #[arg(long, value_name = "MS")]
+    pub duration: Option<u32>,
+    /// Maximum time for a reply, in milliseconds.
+    #[arg(long, value_name = "MS", default_value_t = 500, value_parser = clap::value_parser!(u16).range(1..))]
+    pub timeout: u16,
+    /// Output format.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = EventFormat::Text)]
+    pub format: EventFormat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EventFormat {
+    /// One line per message.
+    Text,
+    /// Table with the last value of each name, which updates on a terminal.
+    Table,
+    /// One line per value, with commas between time, node, kind, address, name and value.
+    Csv,
+    /// One JSON object per message and line.
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Decode {
+    /// Trace: the output of candump, with or without -L, or an ASC file.
+    #[arg(value_name = "TRACE")]
+    pub trace: PathBuf,
+    /// Nodes with their descriptions, as NODE=FILE.
+    #[arg(value_name = "NODE=FILE", value_parser = node_file)]
+    pub nodes: Vec<NodeFile>,
+    /// Output format.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = EventFormat::Text)]
+    pub format: EventFormat,
+}
+
+fn node_file(text: &str) -> Result<NodeFile, String> {
+    let (node, file) = text.split_once('=').ok_or("expected NODE=FILE")?;
+    let node = node.parse().ok().filter(|node| *node > 0).ok_or("the node must be a number from 1 to 255")?;
+    Ok(NodeFile { node, file: file.into() })
+}
+
+fn indices(text: &str) -> Result<std::ops::RangeInclusive<u16>, String> {
+    let number = |text: &str| u16::from_str_radix(text.trim_start_matches("0x"), 16).ok();
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    number(first)
+        .zip(number(last))
+        .map(|(first, last)| first..=last)
+        .ok_or_else(|| "expected 0x2000..0x5FFF".to_owned())
+}

@@ -1,0 +1,45 @@
+//! `lexibus decode`.
+
+use std::io::BufRead;
+
+use lexibus_device::monitor::Interpreter;
+use lexibus_device::trace::{Line, Reader};
+use lexibus_device::{Description, Network};
+
+use super::events::Output;
+use super::files;
+use crate::args::{Decode, NodeFile};
+use crate::{say, Failure};
+
+/// Reads the descriptions of nodes.
+pub(super) fn descriptions(nodes: &[NodeFile], network: Network) -> Result<Vec<(u8, Description)>, Failure> {
+    nodes.iter().map(|node| Ok((node.node, files::plain(&node.file, network)?))).collect()
+}
+
+pub(super) fn run(arguments: &Decode) -> Result<bool, Failure> {
+    let descriptions = descriptions(&arguments.nodes, Network::CanOpen)?;
+    let mut interpreter = Interpreter::new(descriptions.iter().map(|(node, description)| (*node, description)));
+    let unreadable =
+        |error: std::io::Error| Failure::Device(format!("cannot read {}: {error}", arguments.trace.display()));
+    let file = std::fs::File::open(&arguments.trace).map_err(unreadable)?;
+    let mut output = Output::new(std::io::BufWriter::new(std::io::stdout()), arguments.format)?;
+    let mut reader = Reader::new();
+    let (mut frames, mut unnamed, mut unknown) = (0_usize, 0_usize, 0_usize);
+    for line in std::io::BufReader::new(file).split(b'\n') {
+        let line = line.map_err(unreadable)?;
+        match reader.line(&String::from_utf8_lossy(&line)) {
+            Line::Frame(frame) => {
+                frames += 1;
+                match interpreter.interpret(&frame) {
+                    Some(event) => output.put(frame.time(), &event)?,
+                    None => unnamed += 1,
+                }
+            }
+            Line::Unknown => unknown += 1,
+            Line::Other => {}
+        }
+    }
+    output.finish()?;
+    say(&format!("{frames} frames; {unnamed} have no name in the descriptions; {unknown} lines could not be read"));
+    Ok(unknown == 0)
+}

@@ -1,0 +1,54 @@
+//! Description files and backups.
+
+use std::path::Path;
+
+use lexibus_codegen::compile::Options;
+use lexibus_codegen::selection::Selection;
+use lexibus_codegen::source::Source;
+use lexibus_device::backup::Backup;
+use lexibus_device::{Address, Description, Network};
+
+use crate::args::Described;
+use crate::Failure;
+
+/// Reads a description.
+pub(super) fn description(described: &Described, network: Network) -> Result<Description, Failure> {
+    let overlays = described.overlay.iter().map(|path| source(path)).collect::<Result<_, _>>()?;
+    let select = Selection { devices: described.device.iter().cloned().collect(), ..Selection::default() };
+    let options = Options { overlays, select, choices: described.option.clone(), ..Options::default() };
+    compiled(&described.file, network, &options)
+}
+
+/// Reads a description without options.
+pub(super) fn plain(path: &Path, network: Network) -> Result<Description, Failure> {
+    compiled(path, network, &Options::default())
+}
+
+fn compiled(path: &Path, network: Network, options: &Options) -> Result<Description, Failure> {
+    let found = Description::compile(source(path)?, network, options);
+    found.map_err(|error| Failure::Device(format!("{}: {error}", path.display())))
+}
+
+fn source(path: &Path) -> Result<Source, Failure> {
+    Source::read(path).map_err(|error| Failure::Device(format!("cannot read {}: {error}", path.display())))
+}
+
+/// Reads a backup: TOML, or a description with configured values.
+pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, Failure> {
+    let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    if is_toml {
+        let found = Backup::from_toml(source(path)?.text(), description);
+        return found.map_err(|error| Failure::Device(format!("{}: {error}", path.display())));
+    }
+    let backup = Backup::of_description(&plain(path, description.network())?);
+    match backup.entries.is_empty() {
+        true => Err(Failure::Device(format!("{} contains no configured values", path.display()))),
+        false => Ok(backup),
+    }
+}
+
+/// Returns the addresses of parameters that the user named.
+pub(super) fn addresses(names: &[String], description: &Description) -> Result<Vec<Address>, Failure> {
+    let found = names.iter().map(|name| description.find(name).map(|parameter| parameter.address()));
+    found.collect::<Result<_, _>>().map_err(|error| Failure::Usage(error.to_string()))
+}

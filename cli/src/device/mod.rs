@@ -1,0 +1,31 @@
+//! The subcommands that access devices on a bus.
+
+mod backup;
+mod bus;
+mod decode;
+mod events;
+mod files;
+mod monitor;
+mod question;
+mod restore;
+mod scan;
+mod value;
+mod verify;
+
+use super::args::DeviceCommand;
+use super::Failure;
+
+/// Runs a command. Returns whether it succeeded.
+pub(super) fn run(command: &DeviceCommand) -> Result<bool, Failure> {
+    match command {
+        DeviceCommand::Read(read) => value::read(read),
+        DeviceCommand::Write(write) => value::write(write),
+        DeviceCommand::Verify(verify) => verify::run(verify),
+        DeviceCommand::Backup(backup) => backup::run(backup),
+        DeviceCommand::Restore(restore) => restore::run(restore),
+        DeviceCommand::Compare(compare) => backup::compare(compare),
+        DeviceCommand::Scan(scan) => scan::run(scan),
+        DeviceCommand::Monitor(monitor) => monitor::run(monitor),
+        DeviceCommand::Decode(decode) => decode::run(decode),
+    }
+}

@@ -1,0 +1,63 @@
+//! `lexibus read` and `lexibus write`.
+
+use std::io::Write as _;
+
+use lexibus_codegen::text::printable;
+use lexibus_device::Write;
+
+use super::{bus, question};
+use crate::args::{Read, WriteCommand};
+use crate::interrupt::Deferred;
+use crate::{say, Failure};
+
+pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
+    let description = bus::description(&arguments.target)?;
+    let parameters = arguments.names.iter().map(|name| description.find(name));
+    let parameters = parameters.collect::<Result<Vec<_>, _>>().map_err(|error| Failure::Usage(error.to_string()))?;
+    let mut connection = bus::connect(&arguments.target, &description)?;
+    let mut is_ok = true;
+    for parameter in parameters {
+        match parameter.read(&mut connection) {
+            Ok(reading) => {
+                let line = format!("{parameter} = {reading}");
+                writeln!(std::io::stdout(), "{}", printable(&line))?;
+            }
+            Err(failure) => {
+                is_ok = false;
+                say(&format!("error: {parameter}: {failure}"));
+            }
+        }
+    }
+    Ok(is_ok)
+}
+
+pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
+    let description = bus::description(&arguments.target)?;
+    let parameter = description.find(&arguments.name).map_err(|error| Failure::Usage(error.to_string()))?;
+    let text = arguments.value.join(" ");
+    let write = Write::parse(parameter, &text, Some(arguments.target.node));
+    let write = write.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
+    let mut connection = bus::connect(&arguments.target, &description)?;
+    let old = match parameter.read_refusal() {
+        Some(refusal) => format!("not read: {refusal}"),
+        None => match parameter.read(&mut connection) {
+            Ok(reading) => reading.to_string(),
+            Err(failure) => format!("unknown: {failure}"),
+        },
+    };
+    say(&format!("{write} (now {old})"));
+    if let Some(protection) = parameter.protection() {
+        say(&format!("note: this parameter {protection}"));
+    }
+    if !question::confirm(arguments.yes, "Write this value?")? {
+        say("nothing was written");
+        return Ok(false);
+    }
+    // Ctrl-C during the transfer would leave open whether the device has the value.
+    let deferred = Deferred::new();
+    let result = write.execute(&mut connection);
+    drop(deferred);
+    result.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
+    say("written");
+    Ok(true)
+}

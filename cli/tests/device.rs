@@ -1,0 +1,218 @@
+//! The commands that access devices, with simulated devices: questions, exit codes, interruption.
+#![cfg(unix)]
+
+mod bus_support;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use bus_support::{adapter, modbus_server};
+use nix::sys::signal::{kill, Signal};
+use nix::unistd::Pid;
+
+fn dictionary(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries").join(name);
+    path.to_string_lossy().into_owned()
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("device").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn lexibus(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lexibus"));
+    command.args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    lexibus(arguments).output().expect("lexibus runs")
+}
+
+fn texts(output: &Output) -> (String, String) {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn nothing_is_written_without_a_confirmation() {
+    let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
+    let common = ["--bus", &bus, "--node", "5", &eds];
+    let output = run(&[&["write"], &common[..], &["Profile velocity", "20000"]].concat());
+    let (_, error) = texts(&output);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("0x6081:00 Profile velocity = 20000 (now 1000)"), "{error}");
+    assert!(error.contains("add `--yes`"), "{error}");
+    let read = || texts(&run(&[&["read"], &common[..], &["0x6081"]].concat())).0;
+    assert_eq!(read(), "0x6081:00 Profile velocity = 1000\n");
+    let output = run(&[&["write"], &common[..], &["Profile velocity", "20000", "--yes"]].concat());
+    assert!(output.status.success(), "{:?}", texts(&output));
+    assert_eq!(read(), "0x6081:00 Profile velocity = 20000\n");
+    // A value outside the range is not sent, and a read-only object is not written.
+    for (name, value, message) in [
+        ("Profile velocity", "600000", "above the maximum 500000; the range is 0 … 0x7A120"),
+        ("Statusword", "1", "the parameter is read-only"),
+        ("Profile speed", "1", "no parameter `Profile speed`"),
+    ] {
+        let output = run(&[&["write"], &common[..], &[name, value, "--yes"]].concat());
+        assert!(!output.status.success() && texts(&output).1.contains(message), "{:?}", texts(&output));
+    }
+}
+
+#[test]
+fn a_backup_of_each_format_is_restored() {
+    let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
+    let folder = folder("formats");
+    let common = ["--bus", &bus, "--node", "5", &eds];
+    for name in ["axis.dcf", "axis.toml"] {
+        let file = folder.join(name).to_string_lossy().into_owned();
+        let output = run(&[&["backup"], &common[..], &["--out", &file]].concat());
+        assert!(output.status.success(), "{:?}", texts(&output));
+        assert!(texts(&output).1.contains("left out: 0x1010:01"), "{:?}", texts(&output));
+        run(&[&["write"], &common[..], &["Profile velocity", "7", "--yes"]].concat());
+        let restore = [&["restore"], &common[..], &[&file]].concat();
+        let output = run(&[&restore[..], &["--dry-run"]].concat());
+        let (text, _) = texts(&output);
+        assert!(text.contains("write 0x6081:00 Profile velocity = 1000\n"), "{text}");
+        assert!(text.contains("nothing was written"), "{text}");
+        let output = run(&restore);
+        assert_eq!(output.status.code(), Some(2), "{:?}", texts(&output));
+        assert_eq!(texts(&run(&[&["read"], &common[..], &["0x6081"]].concat())).0, "0x6081:00 Profile velocity = 7\n");
+        let output = run(&[&restore[..], &["--yes"]].concat());
+        assert!(output.status.success(), "{:?}", texts(&output));
+        assert_eq!(
+            texts(&run(&[&["read"], &common[..], &["0x6081"]].concat())).0,
+            "0x6081:00 Profile velocity = 1000\n"
+        );
+    }
+    let [dcf, toml] = ["axis.dcf", "axis.toml"].map(|name| folder.join(name).to_string_lossy().into_owned());
+    let output = run(&["compare", &eds, &dcf, &toml]);
+    assert_eq!((output.status.code(), texts(&output).0.as_str()), (Some(0), "0 differences\n"), "{:?}", texts(&output));
+}
+
+#[test]
+fn an_interrupted_restore_reports_its_writes() {
+    let (bus, eds) = (format!("slcan:{}", adapter(Duration::from_millis(60))), dictionary("demo-drive.eds"));
+    let file = folder("interrupt").join("axis.toml").to_string_lossy().into_owned();
+    let common = ["--bus", &bus, "--node", "5", &eds];
+    let output = run(&[&["backup"], &common[..], &["--out", &file]].concat());
+    assert!(output.status.success(), "{:?}", texts(&output));
+    let mut restore = lexibus(&[&["restore"], &common[..], &[&file, "--yes"]].concat());
+    let child = restore.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("lexibus starts");
+    std::thread::sleep(Duration::from_millis(700));
+    kill(Pid::from_raw(child.id().try_into().expect("a process ID")), Signal::SIGINT).expect("a signal");
+    let output = child.wait_with_output().expect("lexibus ends");
+    let (_, error) = texts(&output);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains(": not written\n") && error.contains("interrupted: "), "{error}");
+    assert!(error.contains(" values written\n"), "{error}");
+}
+
+#[test]
+fn a_missing_device_and_a_missing_adapter_are_reported() {
+    let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
+    for (bus, message) in
+        [(bus.as_str(), "no reply within the timeout"), ("slcan:/dev/none", "cannot open the CAN adapter")]
+    {
+        let output = run(&["read", "--bus", bus, "--node", "9", "--timeout", "100", &eds, "0x6081"]);
+        assert!(!output.status.success() && texts(&output).1.contains(message), "{:?}", texts(&output));
+    }
+}
+
+#[test]
+fn registers_are_read_and_written_over_tcp() {
+    let bus = format!("tcp:127.0.0.1:{}", modbus_server());
+    let table = dictionary("aec-vector-step.toml");
+    let common = ["--bus", &bus, "--node", "1", &table];
+    let output = run(&[&["write"], &common[..], &["Rvel", "15.5 rev/s", "--yes"]].concat());
+    let (_, error) = texts(&output);
+    assert!(output.status.success() && error.contains("15.50 rev/s (raw 1550)"), "{error}");
+    let output = run(&[&["read"], &common[..], &["Rvel"]].concat());
+    assert!(texts(&output).0.contains("15.50 rev/s (raw 1550)"), "{:?}", texts(&output));
+    let file = folder("tcp").join("axis.toml").to_string_lossy().into_owned();
+    let output = run(&[&["backup"], &common[..], &["--out", &file]].concat());
+    let saved = std::fs::read_to_string(&file).expect("a backup");
+    assert!(saved.contains("value = 1550 }, # 15.50 rev/s (raw 1550)"), "{saved}\n{:?}", texts(&output));
+}
+
+const ASC: &str = "date Fri Jan 16 09:00:00.000 am 2026\nbase hex  timestamps absolute\n\
+    0.001000 1  705             Rx   d 1 7F\n0.002000 1  285             Rx   d 6 37 02 FE FF FF FF\n\
+    0.003000 1  123             Rx   d 1 00\nnot a frame\n";
+
+#[test]
+fn a_trace_is_decoded_in_each_format() {
+    let trace = folder("trace").join("trace.asc");
+    std::fs::write(&trace, ASC).expect("a trace");
+    let (trace, node) = (trace.to_string_lossy().into_owned(), format!("5={}", dictionary("demo-drive.eds")));
+    let decoded = |format: &str| {
+        let output = run(&["decode", &trace, &node, "--format", format]);
+        let (text, error) = texts(&output);
+        assert!(output.status.success() && error.contains("3 frames; 1 have no name"), "{error}");
+        text
+    };
+    let csv = decoded("csv");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert_eq!(rows[..2], ["time,node,kind,address,name,value", "0.001000,5,state,,state Pre-operational,"]);
+    assert!(rows[2].starts_with("0.002000,5,pdo,0x6041:00,Statusword,\"567 (ready to switch on, "), "{csv}");
+    assert_eq!(rows[3], "0.002000,5,pdo,0x6064:00,Position actual value,-2");
+    let json = decoded("json");
+    let lines: Vec<serde_json::Value> =
+        json.lines().map(|line| serde_json::from_str(line).expect("a JSON object")).collect();
+    assert_eq!((&lines[1]["kind"], &lines[1]["node"]), (&"pdo".into(), &5.into()));
+    assert_eq!(lines[1]["values"][1]["value"], "-2");
+    let table = decoded("table");
+    assert!(table.contains("  5  Position actual value  -2\n"), "{table}");
+}
+
+#[test]
+fn a_monitor_shows_states_and_values_until_it_is_interrupted() {
+    let bus = format!("slcan:{}", adapter(Duration::ZERO));
+    let node = format!("5={}", dictionary("demo-drive.eds"));
+    let mut monitor =
+        lexibus(&["monitor", "--bus", &bus, "--read", "0x6081", "--period", "100", "--format", "json", &node]);
+    let child = monitor.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("lexibus starts");
+    std::thread::sleep(Duration::from_millis(1500));
+    kill(Pid::from_raw(child.id().try_into().expect("a process ID")), Signal::SIGINT).expect("a signal");
+    let output = child.wait_with_output().expect("lexibus ends");
+    let (text, error) = texts(&output);
+    assert!(output.status.success(), "{error}");
+    assert!(text.contains("\"text\":\"state Pre-operational\"") && text.contains("\"value\":\"1000\""), "{text}");
+}
+
+#[test]
+fn a_report_is_written_in_each_format() {
+    let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
+    let common = ["verify", "--bus", &bus, "--node", "5", &eds];
+    let (text, _) = texts(&run(&[&common[..], &["--changed"]].concat()));
+    assert!(text.contains("changed: 0x1017:00 Producer heartbeat time: value: declared 0 ms, found 100 ms"), "{text}");
+    let (json, _) = texts(&run(&[&common[..], &["--format", "json"]].concat()));
+    let report: serde_json::Value = serde_json::from_str(&json).expect("a JSON object");
+    assert_eq!((&report["device"], report["findings"].as_array().map(Vec::len)), (&"Demo Drive".into(), Some(0)));
+    let page = folder("report").join("report.html");
+    let output = run(&[&common[..], &["--format", "html", "--out", &page.to_string_lossy()]].concat());
+    assert!(output.status.success(), "{:?}", texts(&output));
+    assert!(std::fs::read_to_string(page).expect("a page").starts_with("<!DOCTYPE html>"));
+    // The description of another device has deviations, and the exit code is 1.
+    let pump = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/examples/pump.eds");
+    let overlay = folder("overlay").join("found.toml");
+    let pump = pump.to_string_lossy().into_owned();
+    let arguments = ["verify", "--bus", &bus, "--node", "5", &pump, "--write-overlay", &overlay.to_string_lossy()];
+    let output = run(&arguments);
+    assert_eq!(output.status.code(), Some(1), "{:?}", texts(&output));
+    assert!(texts(&output).0.contains("different: 0x1018:"), "{:?}", texts(&output));
+    assert!(std::fs::read_to_string(overlay).expect("an overlay").starts_with("lexibus = 1\n"));
+}
+
+#[test]
+fn a_scan_reports_nodes_as_json() {
+    let bus = format!("slcan:{}", adapter(Duration::ZERO));
+    let output = run(&["scan", "--bus", &bus, "--format", "json", &dictionary("demo-drive.eds")]);
+    let (text, error) = texts(&output);
+    let node: serde_json::Value = serde_json::from_str(&text).unwrap_or_else(|_| panic!("{text}{error}"));
+    assert_eq!((&node["node_id"], &node["product_code"]), (&5.into(), &0x4021.into()));
+    assert!(node["files"][0].as_str().is_some_and(|file| file.ends_with("demo-drive.eds")), "{text}");
+}

@@ -1,0 +1,111 @@
+//! Reads the parameters of a device.
+
+use lexibus_codegen::ir::Storage;
+
+use super::entry::{Backup, Entry, Skipped};
+use super::relative::relative;
+use crate::address::Address;
+use crate::connection::Connection;
+use crate::description::Description;
+use crate::failure::Failure;
+use crate::parameter::Parameter;
+use crate::protection::Protection;
+
+/// Number of attempts to read a value if the device doesn't reply.
+const ATTEMPTS: usize = 3;
+
+/// Options of a backup.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Node-ID or Modbus address of the device.
+    pub node_id: Option<u8>,
+    /// Addresses of parameters that are saved although they are protected or volatile.
+    pub include: Vec<Address>,
+}
+
+/// Reads the parameters that belong to a backup. Nothing is written.
+///
+/// Parameters that the device refuses to transfer are in [`Backup::skipped`]. Such a backup is not
+/// [complete](Backup::is_complete).
+///
+/// # Errors
+///
+/// Fails if the bus fails, or if the device doesn't reply to three attempts to read a value.
+pub fn backup(
+    description: &Description,
+    connection: &mut impl Connection,
+    options: &Options,
+) -> Result<Backup, Failure> {
+    let mut backup = Backup { node_id: options.node_id, ..Backup::default() };
+    for parameter in description.parameters().filter(|parameter| parameter.access().writable()) {
+        match exclusion(&parameter).filter(|_| !options.include.contains(&parameter.address())) {
+            Some(reason) => backup.skipped.push(Skipped::new(&parameter, reason)),
+            None => save(&parameter, connection, &mut backup)?,
+        }
+    }
+    Ok(backup)
+}
+
+/// Returns the reason why a writable parameter doesn't belong to a backup.
+fn exclusion(parameter: &Parameter<'_>) -> Option<String> {
+    let refusal = parameter.read_refusal().map(|refusal| refusal.to_string());
+    let protection = parameter.protection().filter(|protection| !is_setting(*protection));
+    let storage = parameter.behavior().map(|behavior| &behavior.storage);
+    let volatile = (storage == Some(&Storage::Volatile)).then(|| "volatile".to_owned());
+    refusal.or_else(|| protection.map(|protection| protection.to_string())).or(volatile)
+}
+
+/// Returns whether a protected parameter is a setting that belongs to a backup.
+fn is_setting(protection: Protection) -> bool {
+    matches!(
+        protection,
+        Protection::NodeId
+            | Protection::BitRate
+            | Protection::SideEffect
+            | Protection::WriteOnce
+            | Protection::RefusesDownload
+    )
+}
+
+fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mut Backup) -> Result<(), Failure> {
+    match read(parameter, connection) {
+        Ok(Some(value)) => {
+            let value = match backup.node_id.filter(|_| parameter.address().object().is_some()) {
+                Some(node_id) => relative(parameter, value, node_id),
+                None => value,
+            };
+            backup.entries.push(Entry::new(parameter, value));
+        }
+        Ok(None) => backup.skipped.push(Skipped::failed(parameter, "the bytes are not a value of the type")),
+        Err(failure) if failure.is_missing() && is_optional(parameter) => {
+            backup.skipped.push(Skipped::new(parameter, "the device doesn't have the parameter"));
+        }
+        Err(failure) if failure.is_refusal() => backup.skipped.push(Skipped::failed(parameter, failure)),
+        Err(failure) => return Err(failure),
+    }
+    Ok(())
+}
+
+/// Returns whether some devices lack the parameter, such as entries above the number of mapped objects.
+fn is_optional(parameter: &Parameter<'_>) -> bool {
+    let is_mapping = parameter
+        .address()
+        .object()
+        .is_some_and(|object| object.sub_index > 0 && matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF));
+    is_mapping || parameter.item().is_optional || parameter.item().availability.is_some()
+}
+
+/// Reads a value, again after a timeout.
+pub(crate) fn read(
+    parameter: &Parameter<'_>,
+    connection: &mut impl Connection,
+) -> Result<Option<lexibus_codegen::ir::Value>, Failure> {
+    let mut result = Err(Failure::Timeout);
+    for _ in 0..ATTEMPTS {
+        result = parameter.read(connection).map(|reading| reading.value);
+        if !matches!(result, Err(Failure::Timeout)) {
+            break;
+        }
+    }
+    result
+}

@@ -1,0 +1,259 @@
+//! Descriptions of a device on one bus.
+
+use std::error::Error;
+use std::fmt;
+
+use lexibus_codegen::compile::{self, Options};
+use lexibus_codegen::facts::address;
+use lexibus_codegen::ir::{Catalog, Device, Format, Group, ObjectCode};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::text::similar;
+
+use crate::address::{Address, Network};
+use crate::parameter::Parameter;
+
+/// Maximum number of parameters with the same name that an error lists.
+const CANDIDATES: usize = 8;
+
+/// The description of a device, as the device appears on one bus.
+#[derive(Clone, Debug)]
+pub struct Description {
+    catalog: Catalog,
+    position: usize,
+    network: Network,
+}
+
+/// The reason why a description cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DescriptionError {
+    /// The file has errors. The text contains the first error.
+    Invalid(String),
+    /// The file describes no device.
+    NoDevice,
+    /// The file describes several devices. The list contains their names.
+    SeveralDevices(Vec<String>),
+    /// The device has no parameter on this network.
+    NotOnNetwork(Network),
+}
+
+impl fmt::Display for DescriptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            DescriptionError::Invalid(message) => f.write_str(message),
+            DescriptionError::NoDevice => f.write_str("the file describes no device"),
+            DescriptionError::SeveralDevices(names) => {
+                write!(f, "the file describes several devices; select one of: {}", names.join(", "))
+            }
+            DescriptionError::NotOnNetwork(Network::CanOpen) => f.write_str("the description has no CANopen objects"),
+            DescriptionError::NotOnNetwork(Network::Modbus) => f.write_str("the description has no Modbus registers"),
+        }
+    }
+}
+
+impl Error for DescriptionError {}
+
+/// The reason why a text doesn't identify a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FindError {
+    /// No parameter has this name or address. The second field is a similar name, if there is one.
+    Unknown(String, Option<String>),
+    /// Several parameters have this name. The list contains the addresses and paths of the first ones.
+    Ambiguous(String, Vec<String>),
+}
+
+impl fmt::Display for FindError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FindError::Unknown(text, None) => write!(f, "the description has no parameter `{text}`"),
+            FindError::Unknown(text, Some(similar)) => {
+                write!(f, "the description has no parameter `{text}`; did you mean `{similar}`?")
+            }
+            FindError::Ambiguous(text, candidates) => {
+                write!(f, "several parameters have the name `{text}`; use an address: {}", candidates.join(", "))
+            }
+        }
+    }
+}
+
+impl Error for FindError {}
+
+impl Description {
+    /// Reads and checks a description file. `options` selects the device if the file describes several.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the file has errors, or if it doesn't describe exactly one device on the network.
+    pub fn compile(source: Source, network: Network, options: &Options) -> Result<Self, DescriptionError> {
+        let compilation = compile::check(source, options);
+        match compilation.usable() {
+            Some(catalog) => Self::new(catalog.clone(), network),
+            None => {
+                let errors = compilation.diagnostics.list().iter();
+                let mut errors = errors.filter(|found| found.severity == lexibus_codegen::diagnostics::Severity::Error);
+                let first = errors.next().map(|error| compilation.one_line(error));
+                Err(DescriptionError::Invalid(
+                    first.unwrap_or_else(|| "the file is not a device description".to_owned()),
+                ))
+            }
+        }
+    }
+
+    /// Creates a description of the only device in `catalog`.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the catalog doesn't contain exactly one device on the network.
+    pub fn new(catalog: Catalog, network: Network) -> Result<Self, DescriptionError> {
+        let devices = catalog.devices.iter().enumerate().filter(|(_, device)| !device.dictionary_only);
+        let devices: Vec<(usize, String)> = devices.map(|(at, device)| (at, device.name.to_string())).collect();
+        let position = match devices.as_slice() {
+            [] => return Err(DescriptionError::NoDevice),
+            [(position, _)] => *position,
+            several => {
+                return Err(DescriptionError::SeveralDevices(several.iter().map(|(_, name)| name.clone()).collect()))
+            }
+        };
+        let description = Self { catalog, position, network };
+        let is_empty = description.parameters().next().is_none();
+        if is_empty {
+            Err(DescriptionError::NotOnNetwork(network))
+        } else {
+            Ok(description)
+        }
+    }
+
+    /// Returns the catalog that contains the device.
+    #[must_use]
+    pub fn catalog(&self) -> &Catalog {
+        &self.catalog
+    }
+
+    /// Returns the device.
+    #[must_use]
+    pub fn device(&self) -> &Device {
+        &self.catalog.devices[self.position]
+    }
+
+    /// Returns the position of the device in the catalog.
+    pub(crate) fn position(&self) -> usize {
+        self.position
+    }
+
+    /// Returns the network.
+    #[must_use]
+    pub fn network(&self) -> Network {
+        self.network
+    }
+
+    /// Returns the name of the description file.
+    #[must_use]
+    pub fn file_name(&self) -> &str {
+        self.catalog.files.first().map_or("", |file| &file.name)
+    }
+
+    /// Returns the format of the description file.
+    #[must_use]
+    pub fn format(&self) -> Option<Format> {
+        self.catalog.files.first().map(|file| file.format)
+    }
+
+    /// Returns the parameters that the device has on the network, in the order of the description. Definitions of data
+    /// types and reserved entries are not parameters.
+    pub fn parameters(&self) -> impl Iterator<Item = Parameter<'_>> {
+        let groups = self.device().groups.iter().filter(|group| is_data(group));
+        groups.flat_map(|group| {
+            let items = group.items.iter().filter(|item| !item.is_reserved);
+            items.filter_map(|item| Parameter::new(self, group, item))
+        })
+    }
+
+    /// Returns the parameter at an address.
+    #[must_use]
+    pub fn at(&self, address: Address) -> Option<Parameter<'_>> {
+        match address {
+            Address::Object(object) => self.object(object.index, object.sub_index),
+            Address::Register(_) => self.search(address),
+        }
+    }
+
+    fn search(&self, address: Address) -> Option<Parameter<'_>> {
+        self.parameters().find(|parameter| parameter.address() == address)
+    }
+
+    /// Returns the object at an index and sub-index.
+    pub(crate) fn object(&self, index: u16, sub_index: u8) -> Option<Parameter<'_>> {
+        let group = self.device().object(index).filter(|group| is_data(group));
+        match group {
+            Some(group) => Parameter::new(self, group, group.sub(sub_index)?),
+            None => self.search(Address::Object(lexibus::Object::new(index, sub_index))),
+        }
+    }
+
+    /// Returns the parameter with a name, a path or an address:
+    ///
+    /// - the name of the parameter, in any case: `Profile velocity`;
+    /// - the name of the object or chapter, a slash and the name of the parameter: `Identity object/Vendor-ID`;
+    /// - index and sub-index: `0x6081`, `0x1018:1`;
+    /// - the wire address of a register: `101`, or with its table `input register 101`, `coil 3`.
+    ///
+    /// # Errors
+    ///
+    /// Fails if no parameter or several parameters match.
+    pub fn find(&self, text: &str) -> Result<Parameter<'_>, FindError> {
+        let text = text.trim();
+        if let Some(parameter) = self.by_address(text) {
+            return Ok(parameter);
+        }
+        let matching =
+            |is: &dyn Fn(&Parameter<'_>) -> bool| self.parameters().filter(|parameter| is(parameter)).collect();
+        let by_path: Vec<Parameter<'_>> = matching(&|parameter| parameter.path().eq_ignore_ascii_case(text));
+        let by_name: Vec<Parameter<'_>> = matching(&|parameter| parameter.name().eq_ignore_ascii_case(text));
+        let found = if by_path.is_empty() { by_name } else { by_path };
+        match found.as_slice() {
+            [parameter] => Ok(*parameter),
+            [] => {
+                let names: Vec<String> =
+                    self.parameters().flat_map(|parameter| [parameter.name(), parameter.path()]).collect();
+                let similar = similar(text, names.iter().map(String::as_str)).map(str::to_owned);
+                Err(FindError::Unknown(text.to_owned(), similar))
+            }
+            several => {
+                let candidate =
+                    |parameter: &Parameter<'_>| format!("{} ({})", parameter.address_text(), parameter.path());
+                Err(FindError::Ambiguous(text.to_owned(), several.iter().take(CANDIDATES).map(candidate).collect()))
+            }
+        }
+    }
+
+    fn by_address(&self, text: &str) -> Option<Parameter<'_>> {
+        match self.network {
+            Network::CanOpen => {
+                let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
+                let index = u16::from_str_radix(hexadecimal(index)?, 16).ok()?;
+                let sub_index = match hexadecimal(sub_index) {
+                    Some(digits) => u8::from_str_radix(digits, 16).ok()?,
+                    None => u8::from_str_radix(sub_index, 16).ok()?,
+                };
+                self.object(index, sub_index)
+            }
+            Network::Modbus => {
+                let is_at = |parameter: &Parameter<'_>| {
+                    let full = address::number(parameter.binding());
+                    full.eq_ignore_ascii_case(text) || full.strip_prefix("register ") == Some(text)
+                };
+                self.parameters().find(is_at)
+            }
+        }
+    }
+}
+
+fn hexadecimal(text: &str) -> Option<&str> {
+    text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
+}
+
+/// Returns whether a group contains data, and is not the definition of a data type.
+fn is_data(group: &Group) -> bool {
+    !matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null))
+}

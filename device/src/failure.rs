@@ -1,0 +1,79 @@
+//! Errors of an access to a device.
+
+use std::error::Error;
+use std::fmt;
+
+use lexibus::AbortCode;
+
+/// The reason why an access to a device failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// The device aborted the SDO transfer with this code.
+    Abort(AbortCode),
+    /// The device refused the Modbus request with this exception code.
+    Exception(u8),
+    /// The device didn't reply in time.
+    Timeout,
+    /// The client has no request for this access, such as a value that is too long for a Modbus request. Nothing was sent.
+    Unsupported(String),
+    /// The bus or the client failed.
+    Bus(String),
+}
+
+impl Failure {
+    /// Returns whether the device refused the access, or the access is impossible. The bus and the device still work.
+    #[must_use]
+    pub fn is_refusal(&self) -> bool {
+        matches!(self, Failure::Abort(_) | Failure::Exception(_) | Failure::Unsupported(_))
+    }
+
+    /// Returns whether the device reports that it has no such object, sub-index or register.
+    #[must_use]
+    pub fn is_missing(&self) -> bool {
+        /// Illegal data address (MODBUS Application Protocol V1.1b3, 7).
+        const ILLEGAL_ADDRESS: u8 = 2;
+        match self {
+            Failure::Abort(code) => matches!(*code, AbortCode::NO_OBJECT | AbortCode::NO_SUB_INDEX),
+            Failure::Exception(code) => *code == ILLEGAL_ADDRESS,
+            _ => false,
+        }
+    }
+
+    /// Returns the abort code, if the device aborted an SDO transfer.
+    #[must_use]
+    pub fn abort_code(&self) -> Option<AbortCode> {
+        match self {
+            Failure::Abort(code) => Some(*code),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Abort(code) => write!(f, "the device aborted: {code}"),
+            Failure::Exception(code) => write!(f, "the device refused: Modbus exception {code} ({})", exception(*code)),
+            Failure::Timeout => f.write_str("no reply within the timeout"),
+            Failure::Unsupported(text) | Failure::Bus(text) => f.write_str(text),
+        }
+    }
+}
+
+impl Error for Failure {}
+
+/// Returns the name of an exception code (MODBUS Application Protocol V1.1b3, 7).
+fn exception(code: u8) -> &'static str {
+    match code {
+        1 => "illegal function",
+        2 => "illegal data address",
+        3 => "illegal data value",
+        4 => "server device failure",
+        5 => "acknowledge",
+        6 => "server device busy",
+        8 => "memory parity error",
+        10 => "gateway path unavailable",
+        11 => "gateway target device failed to respond",
+        _ => "unknown code",
+    }
+}

@@ -1,0 +1,91 @@
+//! Compares a device on a bus with its description, and reads, writes, saves and restores its values by name.
+//!
+//! The description can have any format that Lexibus reads. No Rust code is generated for it: a [`Description`] lists
+//! the [`Parameter`]s that the device has on a bus, and a [`Connection`] transfers their bytes.
+//!
+//! ```
+//! use lexibus::sim::Device;
+//! use lexibus::CanOpen;
+//! use lexibus_codegen::compile::Options;
+//! use lexibus_codegen::source::Source;
+//! use lexibus_device::{CanOpenConnection, Description, Network, Write};
+//! use lexibus_drives::demo_drive::ENTRIES;
+//!
+//! // A simulated drive replaces the bus here.
+//! let mut drive = Device::new(ENTRIES);
+//! let mut connection = CanOpenConnection::new(drive.client::<CanOpen>());
+//!
+//! let file = Source::read("../dictionaries/demo-drive.eds".as_ref())?;
+//! let description = Description::compile(file, Network::CanOpen, &Options::default())?;
+//! let velocity = description.find("Profile velocity")?;
+//!
+//! let write = Write::parse(velocity, "20000", None)?;
+//! write.execute(&mut connection)?;
+//! assert_eq!(velocity.read(&mut connection)?.to_string(), "20000");
+//!
+//! // 600,000 is above the maximum that the description declares, so nothing is sent.
+//! assert!(Write::parse(velocity, "600000", None).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | subject | items |
+//! |---|---|
+//! | a description on a bus | [`Description`], [`Parameter`], [`Address`] |
+//! | buses | [`Connection`], [`CanOpenConnection`], [`ModbusConnection`], [`BusAddress`] |
+//! | read and write by name | [`Parameter::read`], [`Write`] |
+//! | comparison with the description | [`verify`] |
+//! | save and restore | [`backup`], [`restore`] |
+//! | nodes of a bus | [`scan`] |
+//! | traffic by name | [`monitor`], [`trace`] |
+//!
+//! # Safety of the machine
+//!
+//! - A function writes only the values that its caller passes as a list of writes.
+//! - No function sends NMT commands, stores parameters (0x1010), or restores default parameters (0x1011).
+//! - Values that command a motion or an action are never part of a restore unless the caller names each of them
+//!   ([`Protection`]).
+//! - A function that writes several values reports which of them were written, also after an error.
+//!
+//! # Features
+//!
+//! All features are on by default.
+//!
+//! | feature | buses |
+//! |---|---|
+//! | `socketcan` | CAN interfaces of Linux |
+//! | `slcan` | CAN adapters on a serial line |
+//! | `modbus` | Modbus RTU and TCP |
+
+#![forbid(unsafe_code)]
+
+mod address;
+pub mod backup;
+mod bus;
+mod connection;
+mod description;
+mod failure;
+pub mod monitor;
+mod parameter;
+mod parse;
+mod port;
+mod protection;
+mod quote;
+pub mod restore;
+pub mod scan;
+pub mod slcan;
+#[cfg(test)]
+mod testing;
+pub mod trace;
+pub mod verify;
+mod write;
+
+pub use address::{Address, Network};
+pub use bus::{BusAddress, BusAddressError};
+pub use connection::{CanOpenConnection, Connection, ModbusConnection};
+pub use description::{Description, DescriptionError, FindError};
+pub use failure::Failure;
+pub use parameter::{Parameter, Reading};
+pub use parse::ParseError;
+pub use port::{AnyPort, NodeConnection};
+pub use protection::{Protection, ReadRefusal};
+pub use write::{Write, WriteError};

@@ -1,0 +1,192 @@
+//! Parses values that a person writes.
+
+use std::error::Error;
+use std::fmt;
+
+use lexibus_codegen::facts::types;
+use lexibus_codegen::ir::owner::Owner;
+use lexibus_codegen::ir::{Type, Value};
+
+use crate::parameter::Parameter;
+
+/// Unit that marks a raw value.
+const RAW: &str = "raw";
+
+/// The reason why a text isn't a value of a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ParseError {
+    /// The text isn't a value of the type. The second field is the type.
+    NoValue(String, String),
+    /// The parameter has a scale factor, so a number needs the unit or `raw`.
+    UnitNeeded(String),
+    /// The unit isn't that of the parameter. The first field is the unit of the parameter, which may be empty.
+    OtherUnit(String, String),
+    /// The physical value cannot be converted, because the scale depends on another parameter or on the model.
+    NoConversion,
+}
+
+impl fmt::Display for ParseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ParseError::NoValue(text, ty) => write!(f, "`{text}` is not a value of the type {ty}"),
+            ParseError::UnitNeeded(unit) if unit.is_empty() => {
+                f.write_str("the raw value is scaled; write `raw` after the number to set the raw value")
+            }
+            ParseError::UnitNeeded(unit) => {
+                write!(f, "the raw value is scaled; write the unit `{unit}` or `raw` after the number")
+            }
+            ParseError::OtherUnit(unit, given) if unit.is_empty() => write!(f, "the parameter has no unit `{given}`"),
+            ParseError::OtherUnit(unit, given) => write!(f, "the unit is `{unit}`, not `{given}`"),
+            ParseError::NoConversion => f.write_str(
+                "the physical value cannot be converted, because the scale depends on another value; write `raw` \
+                 after the number to set the raw value",
+            ),
+        }
+    }
+}
+
+impl Error for ParseError {}
+
+impl Parameter<'_> {
+    /// Parses a value: a number with the unit of the parameter, a raw value (`1550 raw`), a hexadecimal number, the name
+    /// of a value, a formula with `$NODEID`, a text, or bytes in hexadecimal.
+    ///
+    /// A physical value is rounded to the nearest raw value.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the text isn't a value of the parameter's type, or if the unit is missing or wrong.
+    pub fn parse(&self, text: &str) -> Result<Value, ParseError> {
+        let basic = self.basic();
+        match basic {
+            Type::VisibleString(_) | Type::UnicodeString(_) => Ok(Value::Text(text.into())),
+            Type::Boolean | Type::Integer(_) | Type::Unsigned(_) | Type::Real32 | Type::Real64 => {
+                self.named(text.trim()).map_or_else(|| self.number(text.trim()), Ok)
+            }
+            _ => bytes(text).ok_or_else(|| self.no_value(text)),
+        }
+    }
+
+    /// Returns the value with this name: a value of an enumeration, or a value with a special meaning.
+    fn named(&self, text: &str) -> Option<Value> {
+        let is = |name: &str| name.eq_ignore_ascii_case(text);
+        let sentinels = self.item().quantity.as_deref().map_or(&[][..], |quantity| &quantity.sentinels);
+        if let Some((value, _)) = sentinels.iter().find(|(_, meaning)| is(meaning)) {
+            return Some(value.clone());
+        }
+        let (values, _) = Owner::of_types(&self.description().device().types).enumeration(self.ty())?;
+        values.iter().find(|named| named.last.is_none() && is(&named.name)).map(|named| Value::Int(named.value))
+    }
+
+    fn number(&self, text: &str) -> Result<Value, ParseError> {
+        let (number, unit) = split(text);
+        let own = self.unit();
+        let is_scaled = self.physical().is_some();
+        match unit {
+            RAW => self.raw(number),
+            "" if is_scaled => match formula(number) {
+                Some(value) => Ok(value),
+                None => Err(ParseError::UnitNeeded(own.to_owned())),
+            },
+            "" => self.raw(number),
+            unit if unit != own => Err(ParseError::OtherUnit(own.to_owned(), unit.to_owned())),
+            _ => match self.physical() {
+                None => self.raw(number),
+                Some(_) if number.parse::<f64>().is_err() => Err(self.no_value(text)),
+                Some(physical) => physical.raw(number).ok_or(ParseError::NoConversion),
+            },
+        }
+    }
+
+    fn raw(&self, text: &str) -> Result<Value, ParseError> {
+        let value = match self.basic() {
+            Type::Boolean => match text {
+                "0" | "false" => Some(Value::Bool(false)),
+                "1" | "true" => Some(Value::Bool(true)),
+                _ => None,
+            },
+            Type::Real32 | Type::Real64 => text.parse().ok().map(Value::Real),
+            _ => integer(text).map(Value::Int).or_else(|| formula(text)),
+        };
+        value.ok_or_else(|| self.no_value(text))
+    }
+
+    fn no_value(&self, text: &str) -> ParseError {
+        let ty = types::name(&self.description().device().types, self.ty());
+        ParseError::NoValue(text.to_owned(), ty)
+    }
+}
+
+/// Splits a text into a number and a unit.
+fn split(text: &str) -> (&str, &str) {
+    match text.split_once(char::is_whitespace) {
+        Some((number, unit)) => (number, unit.trim()),
+        None => (text, ""),
+    }
+}
+
+/// Parses a decimal or hexadecimal integer.
+fn integer(text: &str) -> Option<i128> {
+    let (sign, digits) = text.strip_prefix('-').map_or((1, text), |digits| (-1, digits));
+    let number = match digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
+        Some(digits) => i128::from_str_radix(digits, 16).ok().filter(|_| !digits.starts_with(['+', '-']))?,
+        None => digits.parse().ok().filter(|_| !digits.starts_with(['+', '-']))?,
+    };
+    Some(sign * number)
+}
+
+/// Parses a formula: `$NODEID`, `$NODEID+0x180`.
+fn formula(text: &str) -> Option<Value> {
+    let rest = text.strip_prefix("$NODEID")?;
+    match rest.strip_prefix('+') {
+        Some(offset) => integer(offset.trim()).map(Value::NodeId),
+        None => rest.is_empty().then_some(Value::NodeId(0)),
+    }
+}
+
+/// Parses bytes in hexadecimal, with or without spaces: `0A 1B`.
+fn bytes(text: &str) -> Option<Value> {
+    let digits: Vec<char> = text.chars().filter(|letter| !letter.is_whitespace()).collect();
+    let byte = |pair: &[char]| u8::from_str_radix(&pair.iter().collect::<String>(), 16).ok();
+    let is_complete = digits.len().is_multiple_of(2) && digits.iter().all(char::is_ascii_hexdigit);
+    is_complete.then(|| digits.chunks(2).map(byte).collect::<Option<Vec<u8>>>())?.map(Value::Bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{pump, table};
+
+    #[test]
+    fn numbers_need_their_unit_if_they_are_scaled() {
+        let description = table();
+        let of = |name: &str, text: &str| description.find(name).expect("a parameter").parse(text);
+        assert_eq!(of("Temperature", "25.5 °C"), Ok(Value::Int(255)));
+        assert_eq!(of("Temperature", "255 raw"), Ok(Value::Int(255)));
+        assert_eq!(of("Temperature", "0xFF raw"), Ok(Value::Int(255)));
+        assert_eq!(of("Temperature", "25.5"), Err(ParseError::UnitNeeded("°C".into())));
+        assert_eq!(of("Temperature", "25.5 K"), Err(ParseError::OtherUnit("°C".into(), "K".into())));
+        assert_eq!(of("Temperature", "no sensor"), Ok(Value::Int(0x7FFF)));
+        assert_eq!(of("Speed", "1500"), Ok(Value::Int(1500)));
+        assert_eq!(of("Speed", "1500 rpm"), Ok(Value::Int(1500)));
+        assert_eq!(of("Speed", "-1"), Ok(Value::Int(-1)));
+        assert_eq!(of("Mode", "automatic"), Ok(Value::Int(1)));
+        assert_eq!(of("Mode", "2"), Ok(Value::Int(2)));
+        assert!(matches!(of("Mode", "fast"), Err(ParseError::NoValue(..))));
+        assert!(matches!(of("Speed", "--1"), Err(ParseError::NoValue(..))));
+        assert!(matches!(of("Temperature", "x °C"), Err(ParseError::NoValue(..))));
+    }
+
+    #[test]
+    fn formulas_texts_and_bytes() {
+        let description = pump();
+        let of = |name: &str, text: &str| description.find(name).expect("a parameter").parse(text);
+        assert_eq!(of("0x1800:1", "$NODEID+0x180"), Ok(Value::NodeId(0x180)));
+        assert_eq!(of("0x1800:1", "$NODEID"), Ok(Value::NodeId(0)));
+        assert_eq!(of("0x1800:1", "0x40000185"), Ok(Value::Int(0x4000_0185)));
+        assert_eq!(bytes("0A1b ff"), Some(Value::Bytes(vec![0x0A, 0x1B, 0xFF])));
+        assert_eq!(bytes("0A1"), None);
+        assert_eq!(bytes("+A"), None);
+    }
+}

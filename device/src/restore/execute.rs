@@ -1,0 +1,160 @@
+//! Executes a plan.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::plan::Plan;
+use crate::address::Address;
+use crate::connection::Connection;
+use crate::failure::Failure;
+use crate::write::{Write, WriteError};
+
+/// The state of a write after a restore.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The device confirmed the write.
+    Written,
+    /// The device refused the value, or a condition of the description doesn't hold. The old value remains.
+    Refused(WriteError),
+    /// The bus failed or the device didn't reply. The device has either the old or the new value.
+    Uncertain(Failure),
+    /// The condition for this write could not be checked, because the bus failed or the device didn't reply. Nothing was sent.
+    NotSent(Failure),
+    /// The restore ended before this write. The old value remains, unless an earlier write changed it.
+    NotWritten,
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Status::Written => f.write_str("written"),
+            Status::Refused(reason) => write!(f, "refused: {reason}"),
+            Status::Uncertain(failure) => write!(f, "uncertain, the device has the old or the new value: {failure}"),
+            Status::NotSent(failure) => write!(f, "not written: {failure}"),
+            Status::NotWritten => f.write_str("not written"),
+        }
+    }
+}
+
+/// The result of a restore.
+#[derive(Clone, Debug)]
+pub struct Outcome<'d> {
+    /// The state of every write, in the order of the plan.
+    pub states: Vec<(Write<'d>, Status)>,
+    /// Written parameters that have another value afterwards, with the value or the failure in words.
+    pub mismatches: Vec<(Write<'d>, String)>,
+    /// Number of confirmed values that could not be read back, because the bus failed or the device didn't reply.
+    pub unconfirmed: usize,
+}
+
+impl Outcome<'_> {
+    /// Returns whether the device has all values of the plan.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.mismatches.is_empty()
+            && self.unconfirmed == 0
+            && self.states.iter().all(|(_, status)| *status == Status::Written)
+    }
+
+    /// Returns the number of confirmed writes.
+    #[must_use]
+    pub fn written(&self) -> usize {
+        self.states.iter().filter(|(_, status)| *status == Status::Written).count()
+    }
+}
+
+impl fmt::Display for Outcome<'_> {
+    /// Writes one line for each write that was not confirmed, and a summary.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (write, status) in self.states.iter().filter(|(_, status)| *status != Status::Written) {
+            writeln!(f, "{write}: {status}")?;
+        }
+        for (write, actual) in &self.mismatches {
+            writeln!(f, "{write}: the device has another value after the write: {actual}")?;
+        }
+        if self.unconfirmed > 0 {
+            writeln!(f, "{} written values could not be read back", self.unconfirmed)?;
+        }
+        writeln!(f, "{} of {} values written", self.written(), self.states.len())
+    }
+}
+
+impl<'d> Plan<'d> {
+    /// Writes the values, and then reads them back.
+    ///
+    /// `proceed` is called before each write. If it returns false, the restore ends, and the remaining values are not
+    /// written. The restore also ends if the bus fails or the device doesn't reply. A value that the device refuses
+    /// doesn't end the restore. After a restore that ended early, the written values are read back too, because the device may have
+    /// restarted.
+    pub fn execute(
+        &self,
+        connection: &mut impl Connection,
+        proceed: &mut dyn FnMut(&Write<'d>) -> bool,
+    ) -> Outcome<'d> {
+        let mut states = Vec::with_capacity(self.writes.len());
+        let mut is_ended = false;
+        for write in &self.writes {
+            is_ended = is_ended || !proceed(write);
+            let status = if is_ended { Status::NotWritten } else { attempt(write, connection) };
+            is_ended = is_ended || matches!(status, Status::Uncertain(_) | Status::NotSent(_));
+            states.push((write.clone(), status));
+        }
+        let (mismatches, unconfirmed) = read_back(&states, connection);
+        Outcome { states, mismatches, unconfirmed }
+    }
+}
+
+fn attempt(write: &Write<'_>, connection: &mut impl Connection) -> Status {
+    if let Err(error) = write.check_conditions(connection) {
+        return match error {
+            WriteError::Failed(failure) if !failure.is_refusal() => Status::NotSent(failure),
+            error => Status::Refused(error),
+        };
+    }
+    match connection.write(write.parameter().address(), write.bytes()) {
+        Ok(()) => Status::Written,
+        Err(failure) if failure.is_refusal() => Status::Refused(failure.into()),
+        Err(failure) => Status::Uncertain(failure),
+    }
+}
+
+/// Reads the written values back. Returns those that differ from the last write of their address, and the number of values that could
+/// not be read. If the device didn't reply to a read, it may have restarted, so all values are read again.
+fn read_back<'d>(
+    states: &[(Write<'d>, Status)],
+    connection: &mut impl Connection,
+) -> (Vec<(Write<'d>, String)>, usize) {
+    /// Maximum number of attempts to read all values without a failure.
+    const ATTEMPTS: usize = 3;
+    let written = states.iter().filter(|(_, status)| *status == Status::Written).map(|(write, _)| write);
+    let last: BTreeMap<Address, &Write<'d>> = written.map(|write| (write.parameter().address(), write)).collect();
+    let readable: Vec<&Write<'d>> =
+        last.into_values().filter(|write| write.parameter().read_refusal().is_none()).collect();
+    let mut result = (Vec::new(), readable.len());
+    for _ in 0..ATTEMPTS {
+        result = read_all(&readable, connection);
+        if result.1 == 0 {
+            break;
+        }
+    }
+    result
+}
+
+/// Reads values once. Ends if the device doesn't reply to two reads.
+fn read_all<'d>(writes: &[&Write<'d>], connection: &mut impl Connection) -> (Vec<(Write<'d>, String)>, usize) {
+    const MOST_FAILURES: usize = 2;
+    let (mut mismatches, mut failures) = (Vec::new(), 0);
+    for (at, write) in writes.iter().enumerate() {
+        if failures == MOST_FAILURES {
+            return (mismatches, failures + writes.len() - at);
+        }
+        let expected = write.parameter().decode(write.bytes());
+        match write.parameter().read(connection) {
+            Ok(reading) if reading.bytes == write.bytes() || expected.is_some() && reading.value == expected => {}
+            Ok(reading) => mismatches.push(((*write).clone(), reading.to_string())),
+            Err(failure) if failure.is_refusal() => mismatches.push(((*write).clone(), failure.to_string())),
+            Err(_) => failures += 1,
+        }
+    }
+    (mismatches, failures)
+}

@@ -1,0 +1,41 @@
+//! Descriptions for unit tests.
+
+use lexibus_codegen::compile::Options;
+use lexibus_codegen::source::Source;
+
+use crate::address::Network;
+use crate::description::Description;
+
+const TABLE: &str = r#"
+lexibus = 1
+[device]
+name = "Heater"
+buses = ["modbus"]
+[spaces.register]
+modbus = { table = "holding", first = 0 }
+[[chapters]]
+title = "Values"
+defaults = { access = "rw" }
+[chapters.registers]
+Temperature = { reg = 0, type = "i16", unit = "°C", scale = 0.1, na = { 0x7FFF = "no sensor" } }
+Speed = { reg = 1, type = "i16", unit = "rpm", min = -3000, max = 3000 }
+Mode = { reg = 2, type = "u16", enum = "Mode" }
+[enums.Mode.values]
+0 = "manual"
+1 = "automatic"
+"#;
+
+/// A register table with a scaled value, a value with a unit, and an enumeration.
+pub(crate) fn table() -> Description {
+    described(Source::new("heater.toml", TABLE.into()), Network::Modbus)
+}
+
+/// The pump of the book.
+pub(crate) fn pump() -> Description {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples/pump.eds");
+    described(Source::read(path.as_ref()).expect("an example"), Network::CanOpen)
+}
+
+pub(crate) fn described(source: Source, network: Network) -> Description {
+    Description::compile(source, network, &Options::default()).unwrap_or_else(|error| panic!("{error}"))
+}

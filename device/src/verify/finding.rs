@@ -1,0 +1,158 @@
+//! Findings of a comparison.
+
+use std::fmt;
+
+use lexibus_codegen::facts::address;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::parameter::Parameter;
+
+/// The kind of a finding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FindingKind {
+    /// The description declares the parameter, but the device doesn't have it.
+    Missing,
+    /// The device has the object, but the description doesn't declare it.
+    Extra,
+    /// A fact of the device differs from the description.
+    Different,
+    /// The device didn't transfer the value.
+    Unreadable,
+    /// The fact cannot be verified without a write, or the parameter must not be read.
+    Unverifiable,
+    /// The value differs from the default value. This is no deviation.
+    Changed,
+}
+
+impl FindingKind {
+    /// All kinds, in the order of the report.
+    pub const ALL: [FindingKind; 6] = [
+        FindingKind::Missing,
+        FindingKind::Extra,
+        FindingKind::Different,
+        FindingKind::Unreadable,
+        FindingKind::Unverifiable,
+        FindingKind::Changed,
+    ];
+
+    /// Returns the name of the kind.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            FindingKind::Missing => "missing",
+            FindingKind::Extra => "extra",
+            FindingKind::Different => "different",
+            FindingKind::Unreadable => "unreadable",
+            FindingKind::Unverifiable => "unverifiable",
+            FindingKind::Changed => "changed",
+        }
+    }
+
+    /// Returns whether the device deviates from the description.
+    #[must_use]
+    pub fn is_deviation(self) -> bool {
+        !matches!(self, FindingKind::Unverifiable | FindingKind::Changed)
+    }
+}
+
+impl fmt::Display for FindingKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A fact that an overlay can state, as the device showed it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// The device doesn't have the parameter.
+    Nothing,
+    /// The value has this length in bytes.
+    Length(usize),
+    /// The parameter can be read, although it is declared as write-only.
+    Readable,
+    /// The parameter cannot be read, although it is declared as readable.
+    WriteOnly,
+    /// The device has an object that the description doesn't declare. The length of its value is known if it can be read.
+    Object(Option<usize>),
+    /// No fact that an overlay can state.
+    Other,
+}
+
+/// A finding about a parameter.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// Kind of the finding.
+    pub kind: FindingKind,
+    /// Address of the parameter.
+    pub address: String,
+    /// Name and path of the parameter; empty for an object that the description doesn't declare.
+    pub name: String,
+    /// What is different, in words.
+    pub message: String,
+    /// What the description declares.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub declared: Option<String>,
+    /// What the device has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub actual: Option<String>,
+    /// SDO abort code, if the device sent one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub abort_code: Option<u32>,
+    /// The fact as an overlay can state it.
+    #[serde(skip)]
+    pub found: Found,
+}
+
+impl Finding {
+    /// Creates a finding about a parameter.
+    pub(super) fn of(parameter: &Parameter<'_>, kind: FindingKind, message: impl Into<String>) -> Self {
+        let message = message.into();
+        let (address, name) = (parameter.address_text(), parameter.path());
+        Self { kind, address, name, message, declared: None, actual: None, abort_code: None, found: Found::Other }
+    }
+
+    /// Creates a finding about an object that the description doesn't declare.
+    pub(super) fn of_object(index: u16, sub_index: u8, message: impl Into<String>) -> Self {
+        Self {
+            kind: FindingKind::Extra,
+            address: address::object(index, sub_index),
+            name: String::new(),
+            message: message.into(),
+            declared: None,
+            actual: None,
+            abort_code: None,
+            found: Found::Other,
+        }
+    }
+
+    /// Adds what the description declares and what the device has.
+    pub(super) fn compared(self, declared: impl Into<String>, actual: impl Into<String>) -> Self {
+        Self { declared: Some(declared.into()), actual: Some(actual.into()), ..self }
+    }
+
+    pub(super) fn failed(self, failure: &Failure) -> Self {
+        Self { abort_code: failure.abort_code().map(|code| code.0), ..self }
+    }
+
+    pub(super) fn found(self, found: Found) -> Self {
+        Self { found, ..self }
+    }
+}
+
+impl fmt::Display for Finding {
+    /// Writes one line: `missing: 0x2001:00 Speed: the device has no such object`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.kind, self.address)?;
+        if !self.name.is_empty() {
+            write!(f, " {}", self.name)?;
+        }
+        write!(f, ": {}", self.message)?;
+        match (&self.declared, &self.actual) {
+            (Some(declared), Some(actual)) => write!(f, ": declared {declared}, found {actual}"),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The state of a running comparison.
+
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
+use super::finding::{Finding, FindingKind};
+use super::report::Report;
+use crate::connection::Connection;
+use crate::description::Description;
+use crate::failure::Failure;
+use crate::parameter::Parameter;
+
+/// Number of consecutive timeouts after which the comparison ends.
+const MOST_TIMEOUTS: usize = 5;
+
+/// Options of a comparison.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Node-ID of a CANopen device, for values that depend on it.
+    pub node_id: Option<u8>,
+    /// Indices in which undeclared objects are searched, in addition to the communication objects of CiA 301. Reading an
+    /// undeclared object may have effects that are unknown.
+    pub search: Vec<RangeInclusive<u16>>,
+}
+
+/// The state of a running comparison.
+pub(super) struct Run<'r, C> {
+    pub description: &'r Description,
+    pub connection: &'r mut C,
+    pub options: &'r Options,
+    pub report: Report,
+    /// Indices of the objects that the device doesn't have.
+    pub missing: BTreeSet<u16>,
+    timeouts: usize,
+}
+
+impl<'r, C: Connection> Run<'r, C> {
+    pub fn new(description: &'r Description, connection: &'r mut C, options: &'r Options) -> Self {
+        let report = Report::new(description);
+        Run { description, connection, options, report, missing: BTreeSet::new(), timeouts: 0 }
+    }
+
+    pub fn add(&mut self, finding: Finding) {
+        self.report.findings.push(finding);
+    }
+
+    /// Reads a parameter. The outer error ends the comparison, because the bus failed or the device doesn't reply any
+    /// more.
+    pub fn read(&mut self, parameter: &Parameter<'_>) -> Result<Result<Vec<u8>, Failure>, Failure> {
+        let result = parameter.read(self.connection).map(|reading| reading.bytes);
+        self.checked(result)
+    }
+
+    /// Reads an object that the description may not declare.
+    pub fn read_object(&mut self, index: u16, sub_index: u8) -> Result<Result<Vec<u8>, Failure>, Failure> {
+        let address = crate::address::Address::Object(lexibus::Object::new(index, sub_index));
+        let result = self.connection.read(address, 0);
+        self.checked(result)
+    }
+
+    fn checked(&mut self, result: Result<Vec<u8>, Failure>) -> Result<Result<Vec<u8>, Failure>, Failure> {
+        match &result {
+            Err(Failure::Timeout) => {
+                self.timeouts += 1;
+                if self.timeouts >= MOST_TIMEOUTS {
+                    return Err(Failure::Timeout);
+                }
+            }
+            Err(Failure::Bus(text)) => return Err(Failure::Bus(text.clone())),
+            _ => self.timeouts = 0,
+        }
+        Ok(result)
+    }
+}
+
+/// Lists a fact that cannot be verified.
+pub(super) fn unverifiable(parameter: &Parameter<'_>, message: &str) -> Finding {
+    Finding::of(parameter, FindingKind::Unverifiable, message)
+}

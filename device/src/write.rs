@@ -1,0 +1,173 @@
+//! Writes of single values.
+
+use std::error::Error;
+use std::fmt;
+
+use lexibus_codegen::facts::words::PLAIN;
+use lexibus_codegen::ir::{Condition, Value};
+
+use crate::connection::Connection;
+use crate::failure::Failure;
+use crate::parameter::Parameter;
+use crate::parse::ParseError;
+
+/// A checked write of a value to a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Write<'d> {
+    parameter: Parameter<'d>,
+    value: Value,
+    bytes: Vec<u8>,
+}
+
+/// The reason why a value isn't written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The text isn't a value of the parameter.
+    Parse(ParseError),
+    /// The parameter is read-only or constant.
+    ReadOnly,
+    /// The value isn't a value of the type, or depends on an unknown node-ID. The field is the type.
+    NoValue(String),
+    /// The value is outside the limits of the description. The fields are the reason and the range.
+    Excluded(String, String),
+    /// The description allows writing only while a condition holds, and the condition doesn't hold.
+    Condition(String),
+    /// The device or the bus didn't transfer the value.
+    Failed(Failure),
+}
+
+impl fmt::Display for WriteError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WriteError::Parse(error) => error.fmt(f),
+            WriteError::ReadOnly => f.write_str("the parameter is read-only"),
+            WriteError::NoValue(ty) => write!(f, "the value is not a value of the type {ty}"),
+            WriteError::Excluded(reason, range) if range.is_empty() => write!(f, "the value is {reason}"),
+            WriteError::Excluded(reason, range) => write!(f, "the value is {reason}; the range is {range}"),
+            WriteError::Condition(condition) => write!(f, "the value can be written only while {condition}"),
+            WriteError::Failed(failure) => failure.fmt(f),
+        }
+    }
+}
+
+impl Error for WriteError {}
+
+impl From<ParseError> for WriteError {
+    fn from(error: ParseError) -> Self {
+        WriteError::Parse(error)
+    }
+}
+
+impl From<Failure> for WriteError {
+    fn from(failure: Failure) -> Self {
+        WriteError::Failed(failure)
+    }
+}
+
+impl<'d> Write<'d> {
+    /// Parses and checks a value. `node_id` is the node-ID of the device, for formulas.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`Parameter::parse`] and [`Write::new`].
+    pub fn parse(parameter: Parameter<'d>, text: &str, node_id: Option<u8>) -> Result<Self, WriteError> {
+        Self::new(parameter, parameter.parse(text)?, node_id)
+    }
+
+    /// Checks the access rights, the type and the limits of a value. Nothing is sent.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the description doesn't allow this value.
+    pub fn new(parameter: Parameter<'d>, value: Value, node_id: Option<u8>) -> Result<Self, WriteError> {
+        if !parameter.access().writable() {
+            return Err(WriteError::ReadOnly);
+        }
+        let value = node_id.map_or_else(|| value.clone(), |node_id| value.resolved(node_id));
+        let no_value = || WriteError::NoValue(parameter.basic().with_length());
+        let bytes = parameter.encode(&value, node_id).ok_or_else(no_value)?;
+        if let Some(reason) = parameter.excluded(&value, node_id) {
+            return Err(WriteError::Excluded(reason, parameter.range()));
+        }
+        let writable = parameter.behavior().map_or(&[][..], |behavior| &behavior.writable_values);
+        if !writable.is_empty() && !writable.contains(&value) {
+            let values: Vec<String> = writable.iter().map(|value| parameter.text(value)).collect();
+            return Err(WriteError::Excluded("not a value that can be written".to_owned(), values.join(", ")));
+        }
+        Ok(Self { parameter, value, bytes })
+    }
+
+    /// Creates a write without a check of the limits, for values that were checked before.
+    pub(crate) fn unchecked(parameter: Parameter<'d>, value: Value, bytes: Vec<u8>) -> Self {
+        Self { parameter, value, bytes }
+    }
+
+    /// Returns the parameter.
+    #[must_use]
+    pub fn parameter(&self) -> Parameter<'d> {
+        self.parameter
+    }
+
+    /// Returns the value.
+    #[must_use]
+    pub fn value(&self) -> &Value {
+        &self.value
+    }
+
+    /// Returns the bytes of the value.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Reads the items that the conditions of the description name, and checks the conditions.
+    ///
+    /// # Errors
+    ///
+    /// Fails if a condition doesn't hold, or if an item of a condition cannot be read.
+    pub fn check_conditions(&self, connection: &mut impl Connection) -> Result<(), WriteError> {
+        let conditions = self.parameter.behavior().map_or(&[][..], |behavior| &behavior.write_when);
+        conditions.iter().try_for_each(|condition| self.check_condition(condition, connection))
+    }
+
+    fn check_condition(&self, condition: &Condition, connection: &mut impl Connection) -> Result<(), WriteError> {
+        let description = self.parameter.description();
+        let text = || WriteError::Condition(PLAIN.holds(condition));
+        let item = description.device().referred(&condition.item).ok_or_else(text)?;
+        let mut parameters = description.parameters();
+        let parameter = parameters.find(|parameter| std::ptr::eq(parameter.item(), item)).ok_or_else(text)?;
+        let value = parameter.read(connection)?.value.ok_or_else(text)?;
+        let masked = match (condition.mask, value.as_int()) {
+            (Some(mask), Some(number)) => Value::Int(number & i128::from(mask)),
+            (_, Some(number)) => Value::Int(number),
+            _ => value,
+        };
+        if condition.values.iter().any(|value| value.compare(&masked) == Some(std::cmp::Ordering::Equal)) {
+            Ok(())
+        } else {
+            Err(text())
+        }
+    }
+
+    /// Checks the conditions and writes the value.
+    ///
+    /// # Errors
+    ///
+    /// Returns the errors of [`check_conditions`](Self::check_conditions), or the reason why the device or the bus didn't
+    /// transfer the value.
+    pub fn execute(&self, connection: &mut impl Connection) -> Result<(), WriteError> {
+        self.check_conditions(connection)?;
+        Ok(connection.write(self.parameter.address(), &self.bytes)?)
+    }
+}
+
+impl fmt::Display for Write<'_> {
+    /// Writes the parameter and the value: `0x6081:00 Profile velocity = 20000`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.value {
+            Value::Bytes(bytes) => write!(f, "{} = {}", self.parameter, lexibus_codegen::facts::number::bytes(bytes)),
+            value => write!(f, "{} = {}", self.parameter, self.parameter.text(value)),
+        }
+    }
+}
