@@ -52,7 +52,7 @@ def section(name, table):
 
 
 dependencies = {name: value for name, value in manifest["dependencies"].items() if name != "lexibus-macros"}
-# Keep the feature `macros`, but drop the crate that it enables, because this crate needs the compiler.
+# Keep the feature `macros`, but drop its dependency `lexibus-macros`, because `lexibus-codegen` requires Rust 1.88.
 features = {**manifest["features"], "macros": []}
 text = section("package", {"name": "lexibus", "version": "0.1.0", "edition": "2021", "rust-version": version.removesuffix(".0")})
 text += "[workspace]\n" + section("features", features) + section("dependencies", dependencies)

@@ -1,7 +1,7 @@
 //! The baseline of `lexibus check`: a file with the diagnostics that are known and not reported.
 //!
 //! The file contains one JSON object per line, sorted, so that a change is easy to review. An entry has no line number: it
-//! consists of the path of the file, the code, the message and the marked line. Inserted lines therefore do not change an entry.
+//! identifies diagnostics by file path, code, message and marked line, and states their count. Inserted lines therefore do not change an entry.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

@@ -198,8 +198,9 @@ fn write(words: &[String], case: Case) -> String {
     name
 }
 
-/// Returns the words of a name in lower-case ASCII. A word ends at each character that is neither letter nor digit, and before each
-/// capital that starts a new word.
+/// Returns the words of a name in lower-case ASCII. A word ends at each character that is neither letter nor digit, and before a
+/// capital that follows a lower-case letter or a digit. The last capital of an abbreviation starts a new word if a lower-case letter
+/// follows, except for a plural `s`: `PDOMapping` has two words, and `RxPDOs` too.
 fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();

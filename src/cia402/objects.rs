@@ -1,4 +1,4 @@
-//! The objects of CiA 402 that a device has.
+//! Traits for the CiA 402 objects of a drive.
 
 use super::integer::{Absent, ReadInteger, WriteInteger};
 use crate::bus::Bus;

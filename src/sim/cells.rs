@@ -132,7 +132,7 @@ impl Cells {
         }
     }
 
-    /// Returns the words of a value's registers. Registers that don't exist contain 0.
+    /// Returns the words of a value's registers. Returns 0 for registers that don't exist.
     pub fn words(&self, register: Register) -> Vec<u16> {
         let held = |address| self.word(address).unwrap_or(0);
         let mut words: Vec<u16> = addresses(register).map(held).collect();

@@ -958,7 +958,7 @@ codes! {
     NET017 PDO_LENGTH Lint Deny "a PDO has an invalid length"
         "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the PDO that it receives, because the node \
         then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."
-    NET018 PDO_WITHOUT_PARTNER Lint Warn "no node receives or sends a PDO"
+    NET018 PDO_WITHOUT_PARTNER Lint Warn "a TPDO has no receiver, or an RPDO has no sender"
         "The master exchanges no PDOs (`pdos = false`), and no other node receives the TPDO or sends the RPDO. A TPDO \
         without a receiver only adds bus load. Disable the PDO, or declare its receiver with `cob_id`."
     NET019 COB_ID_CONFLICT Lint Deny "two senders use the same CAN-ID"

@@ -21,7 +21,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
         let span = place(node, pdo);
         let name = match pdo.direction {
             Direction::Transmit => format!("{} of `{}`", pdo.title(), node.name.value),
-            Direction::Receive => format!("the master with {} of `{}`", pdo.title(), node.name.value),
+            Direction::Receive => format!("{} of `{}` (sent by the master)", pdo.title(), node.name.value),
         };
         match senders.get(&pdo.can_id()) {
             Some(other) => {

@@ -11,7 +11,7 @@ use super::port::{AsyncCanPort, CanPort, BACKLOG};
 use crate::clock::elapsed;
 use crate::node_id::NodeId;
 
-/// Toggle bit of an answer, which alternates.
+/// Toggle bit of a guarding answer. The node inverts it in each answer.
 const TOGGLE: u8 = 1 << 7;
 
 /// Node guarding of one node, as NMT master. [`Node::guard`] runs one cycle.

@@ -51,7 +51,7 @@ struct Limit {
     polls: u32,
 }
 
-/// Limits of an exchange, and the limit of the transfer that the exchange belongs to. The timer pauses between polls.
+/// Limit of a mailbox exchange, and limit of the transfer that contains it. The client waits between polls if there is a timer.
 struct Deadline<'t, T> {
     timer: &'t mut T,
     clock: Option<fn() -> Duration>,

@@ -67,7 +67,7 @@ struct Known<'d> {
     others: [OnceCell<HashSet<&'d str>>; KINDS.len()],
 }
 
-/// Kinds of elements whose names are separate from the names of items.
+/// Kinds of elements that have their own namespace, except models, whose references can be glob patterns.
 const KINDS: [&str; 5] = ["constant", "given number", "message", "procedure", "state"];
 
 impl<'d> Known<'d> {

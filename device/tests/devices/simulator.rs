@@ -1,7 +1,6 @@
 //! The functions of the crate with simulated devices.
 
-mod support;
-
+use crate::support::{described, dictionary};
 use lexibus::sim::{CanFault, CanNode, Device, FaultyCan};
 use lexibus::{AbortCode, CanOpen, Modbus, NodeId, Object};
 use lexibus_device::backup::{backup, difference, Backup, Options};
@@ -11,7 +10,6 @@ use lexibus_device::{
     Address, CanOpenConnection, Connection, Description, Failure, ModbusConnection, Network, Protection, Write,
 };
 use lexibus_drives::{demo_drive, vector_step};
-use support::{described, dictionary};
 
 const NODE: u8 = 5;
 
@@ -35,7 +33,7 @@ fn save(description: &Description, connection: &mut impl Connection) -> Backup {
 fn change_all(description: &Description, saved: &Backup, connection: &mut impl Connection) -> usize {
     let parameters = saved.entries.iter().filter_map(|entry| description.at(entry.address));
     let restored = parameters.filter(|parameter| parameter.protection().is_none());
-    restored.filter(|parameter| support::change(parameter, NODE, connection)).count()
+    restored.filter(|parameter| crate::support::change(parameter, NODE, connection)).count()
 }
 
 fn restore<'d>(description: &'d Description, saved: &Backup, connection: &mut impl Connection) -> Outcome<'d> {

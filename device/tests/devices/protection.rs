@@ -1,14 +1,12 @@
 //! Parameters that must not be read or written: ObjFlags, conditions, commands, outputs, node-ID and bit rate.
 
-mod support;
-
 use std::collections::BTreeMap;
 
+use crate::support::{described, dictionary};
 use lexibus_device::backup::{backup, Backup, Options};
 use lexibus_device::restore::{Plan, Status};
 use lexibus_device::verify::{verify, FindingKind, Options as VerifyOptions};
 use lexibus_device::{Address, Connection, Description, Failure, Network, Protection, ReadRefusal, Write, WriteError};
-use support::{described, dictionary};
 
 const EDS: &str = "[FileInfo]\nFileName=flags.eds\nEDSVersion=4.0\n[DeviceInfo]\nVendorName=Example\nVendorNumber=1\n\
     ProductName=Flags\nProductNumber=2\nRevisionNumber=0\nNrOfRXPDO=0\nNrOfTXPDO=0\n\

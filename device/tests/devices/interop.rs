@@ -1,18 +1,15 @@
 //! The functions of the crate with independent programs: a node of the Python library `canopen` behind an slcan adapter
 //! on a pseudo-terminal, and servers of `pymodbus`.
-#![cfg(unix)]
-
 #[path = "../../../tests/interop/pty.rs"]
 #[allow(dead_code)]
 mod pty;
 #[path = "../../../tests/interop/python.rs"]
 #[allow(dead_code)]
 mod python;
-#[path = "../support/mod.rs"]
-mod support;
 
 use std::time::Duration;
 
+use crate::support::{dictionary, file, repository};
 use lexibus_device::backup::{backup, difference, Backup, Options, Skipped};
 use lexibus_device::restore::{Plan, Status};
 use lexibus_device::scan::{scan, Fit};
@@ -21,7 +18,6 @@ use lexibus_device::{BusAddress, Connection, Description, Network, Write};
 use pty::Cable;
 use python::{python, Script};
 use serde_json::{json, Value};
-use support::{dictionary, file, repository};
 
 const NODE: u8 = 5;
 const TIMEOUT: Duration = Duration::from_millis(500);
@@ -47,7 +43,7 @@ fn compare(description: &Description, bus: &BusAddress) -> Report {
 /// The script puts deviations into its node, and returns the address at which each has to be found.
 #[test]
 fn each_deviation_is_found_and_no_other() {
-    let Some((_cable, mut script, bus)) = node("device/tests/interop/deviations.py") else { return };
+    let Some((_cable, mut script, bus)) = node("device/tests/devices/deviations.py") else { return };
     let description = dictionary("demo-drive.eds", Network::CanOpen);
     let report = compare(&description, &bus);
     assert_eq!(report.deviations().count(), 0, "{}", report.text(false));
@@ -104,7 +100,7 @@ fn changed_and_restored(description: &Description, connection: &mut impl Connect
     let parameters = saved.entries.iter().filter_map(|entry| description.at(entry.address));
     let restorable = parameters.filter(|parameter| parameter.protection().is_none());
     let (changed, kept): (Vec<_>, Vec<_>) =
-        restorable.partition(|parameter| support::change(parameter, NODE, connection));
+        restorable.partition(|parameter| crate::support::change(parameter, NODE, connection));
     assert!(difference(description, &saved, &save(description, connection)).len() >= changed.len());
     let read = Backup::from_toml(&saved.toml(description), description).expect("a backup");
     let plan = Plan::new(description, &read, Some(NODE), &[]);

@@ -1,9 +1,8 @@
 //! Names and values of frames, and the search for nodes.
 
-mod support;
-
 use std::time::Duration;
 
+use crate::support::dictionary;
 use lexibus::clients::canopen::{CanFrame, CanPort, NmtCommand, Node};
 use lexibus::sim::{CanBus, CanNode, Device};
 use lexibus::{Client, NodeId, Object};
@@ -13,7 +12,6 @@ use lexibus_device::slcan::Decoder;
 use lexibus_device::trace::{Line, Reader};
 use lexibus_device::{AnyPort, Description, Network};
 use lexibus_drives::demo_drive;
-use support::dictionary;
 
 fn drive() -> Description {
     dictionary("demo-drive.eds", Network::CanOpen)

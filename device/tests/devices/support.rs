@@ -1,5 +1,4 @@
 //! Descriptions and changes of values for tests.
-#![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
 

@@ -1,10 +1,9 @@
 //! Backups and comparisons with the CANopen descriptions of the corpus. A simulated device behaves exactly as the description
 //! declares.
 
-mod support;
-
 use std::collections::BTreeMap;
 
+use crate::support::{described, repository};
 use lexibus::{AbortCode, Object};
 use lexibus_codegen::compile::Options as CompileOptions;
 use lexibus_codegen::ir::{Type, Value};
@@ -13,7 +12,6 @@ use lexibus_device::backup::{backup, difference, Backup, Options};
 use lexibus_device::restore::Plan;
 use lexibus_device::verify::{verify, Options as VerifyOptions};
 use lexibus_device::{Address, Connection, Description, Failure, Network, Parameter};
-use support::{described, repository};
 
 const NODE: u8 = 5;
 

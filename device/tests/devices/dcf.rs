@@ -1,11 +1,9 @@
 //! Backups as DCF: values that the export of a description has to keep.
 
-mod support;
-
+use crate::support::described;
 use lexibus::AbortCode;
 use lexibus_device::backup::{backup, Backup, Options};
 use lexibus_device::{Address, Connection, Failure, Network};
-use support::described;
 
 /// An EDS in which the PDO has no sections: its objects follow from NrOfTXPDO and CompactPDO.
 const EDS: &str =
