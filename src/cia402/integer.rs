@@ -40,7 +40,7 @@ pub trait WriteInteger<B: Bus>: Copy {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::OutOfRange`], and sends nothing, if the value doesn't fit the type or is outside the item's
+    /// Returns [`Error::OutOfRange`](crate::Error::OutOfRange), and sends nothing, if the value doesn't fit the type or is outside the item's
     /// range. Otherwise, returns the errors of the client.
     fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), AccessError<C::Error>>;
 
