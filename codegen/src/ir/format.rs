@@ -49,11 +49,8 @@ impl Format {
     /// feature `messages`.
     pub fn feature(self) -> &'static str {
         match self {
-            Format::Eds | Format::Dcf => "eds",
-            Format::Xdd => "xdd",
-            Format::Esi => "esi",
-            Format::Gsdml => "gsdml",
-            Format::Table => "table",
+            Format::Dcf => Format::Eds.name(),
+            other => other.name(),
         }
     }
 
