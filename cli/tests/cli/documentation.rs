@@ -53,7 +53,10 @@ fn pages_of_markdown() {
     let page = out.join("_compare/demo-drive-to-coupler-esi.md");
     let changes = std::fs::read_to_string(&page).expect("a comparison");
     let has = |text: &str| changes.contains(text);
-    assert!(has("# demo-drive → coupler.esi") && has("| breaks api, wire | Demo Drive: device | removed |"), "{changes}");
+    assert!(
+        has("# demo-drive → coupler.esi") && has("| breaks api, wire | Demo Drive: device | removed |"),
+        "{changes}"
+    );
     let first = std::fs::read_to_string(out.join("README.md")).expect("a list");
     assert!(first.contains("(_compare/demo-drive-to-coupler-esi.md)"), "{first}");
     assert_eq!(code(&call(&[])), 0);
