@@ -106,7 +106,7 @@ impl Parameter<'_> {
                 "1" | "true" => Some(Value::Bool(true)),
                 _ => None,
             },
-            Type::Real32 | Type::Real64 => text.parse().ok().map(Value::Real),
+            Type::Real32 | Type::Real64 => text.parse().ok().filter(|number: &f64| number.is_finite()).map(Value::Real),
             _ => integer(text).map(Value::Int).or_else(|| formula(text)),
         };
         value.ok_or_else(|| self.no_value(text))
@@ -140,7 +140,10 @@ fn integer(text: &str) -> Option<i128> {
 fn formula(text: &str) -> Option<Value> {
     let rest = text.strip_prefix("$NODEID")?;
     match rest.strip_prefix('+') {
-        Some(offset) => integer(offset.trim()).map(Value::NodeId),
+        Some(offset) => {
+            let is_short = |offset: &i128| offset.unsigned_abs() <= u64::MAX.into();
+            integer(offset.trim()).filter(is_short).map(Value::NodeId)
+        }
         None => rest.is_empty().then_some(Value::NodeId(0)),
     }
 }

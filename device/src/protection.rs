@@ -2,12 +2,13 @@
 
 use std::fmt;
 
+use lexibus::RegisterTable;
 use lexibus_codegen::facts::configuration::is_motion_command;
 use lexibus_codegen::facts::item::meaning;
 use lexibus_codegen::ir::{Access, Device, ElementId, Item, Shape, Storage, Trigger};
 use lexibus_codegen::resolve::is_device_of_number;
 
-use crate::address::Network;
+use crate::address::{Address, Network};
 use crate::parameter::Parameter;
 
 /// Bits of ObjFlags (CiA 306).
@@ -99,9 +100,9 @@ impl Parameter<'_> {
     #[must_use]
     pub fn read_refusal(&self) -> Option<ReadRefusal> {
         match () {
-            () if !self.access().readable() => Some(ReadRefusal::WriteOnly),
             () if self.flags() & REFUSES_READ != 0 => Some(ReadRefusal::RefusesScan),
             () if self.behavior().is_some_and(|behavior| behavior.self_clearing) => Some(ReadRefusal::Clears),
+            () if !self.access().readable() => Some(ReadRefusal::WriteOnly),
             () => None,
         }
     }
@@ -125,8 +126,7 @@ impl Parameter<'_> {
     }
 
     fn is_command(&self, device: &Device) -> bool {
-        let index = self.address().object().map(|object| object.index);
-        let is_object = index.is_some_and(is_command_object);
+        let is_object = self.item().object().is_some_and(|(index, _)| is_command_object(index));
         let clears = self.behavior().is_some_and(|behavior| behavior.self_clearing);
         is_object || clears || self.has_trigger(device) || stores_others(device, self.item())
     }
@@ -147,21 +147,22 @@ impl Parameter<'_> {
         let is_controlled = |machine: &lexibus_codegen::ir::StateMachine| {
             device.referred(&machine.control_item).is_some_and(|item| std::ptr::eq(item, self.item()))
         };
-        let index = self.address().object().map(|object| object.index);
-        let is_of_drive = || is_device_of_number(device, 402) && index.is_some_and(is_drive_command);
+        let object = self.item().object();
+        let is_of_drive =
+            || is_device_of_number(device, 402) && object.is_some_and(|(index, _)| is_drive_command(index));
         device.machines.iter().any(is_controlled) || is_of_drive()
     }
 
-    /// Returns whether RPDOs transfer the value by default, or the value is a process output.
+    /// Returns whether RPDOs transfer the value by default, or the value is a process output. An item of a Modbus device may also be an
+    /// object on another bus.
     fn is_output(&self, device: &Device) -> bool {
-        let Some(object) = self.address().object() else { return false };
+        let is_coil = matches!(self.address(), Address::Register(register) if register.table == RegisterTable::Coil);
+        let Some(object) = self.item().object() else { return is_coil };
         let receive = device.process_data.pdos.iter();
         let mut receive = receive.filter(|pdo| pdo.direction == lexibus_codegen::ir::Direction::Receive);
-        let is_mapped = receive.any(|pdo| {
-            pdo.entries.iter().any(|entry| (entry.index, entry.sub_index) == (object.index, object.sub_index))
-        });
-        let is_of_io_module = || is_device_of_number(device, 401) && is_io_output(object.index);
-        self.access() == Access::ReadWriteOutput || is_mapped || is_of_io_module()
+        let is_mapped = receive.any(|pdo| pdo.entries.iter().any(|entry| (entry.index, entry.sub_index) == object));
+        let is_of_io_module = || is_device_of_number(device, 401) && is_io_output(object.0);
+        is_coil || self.access() == Access::ReadWriteOutput || is_mapped || is_of_io_module()
     }
 
     fn is_node_id(&self) -> bool {

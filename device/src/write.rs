@@ -86,7 +86,8 @@ impl<'d> Write<'d> {
         }
         let value = node_id.map_or_else(|| value.clone(), |node_id| value.resolved(node_id));
         let no_value = || WriteError::NoValue(parameter.basic().with_length());
-        let bytes = parameter.encode(&value, node_id).ok_or_else(no_value)?;
+        let is_finite = !matches!(value, Value::Real(number) if !number.is_finite());
+        let bytes = parameter.encode(&value, node_id).filter(|_| is_finite).ok_or_else(no_value)?;
         if let Some(reason) = parameter.excluded(&value, node_id) {
             return Err(WriteError::Excluded(reason, parameter.range()));
         }

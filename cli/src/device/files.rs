@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use lexibus_codegen::compile::Options;
+use lexibus_codegen::ir::IdentityNumber;
 use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
 use lexibus_device::backup::Backup;
@@ -40,7 +41,17 @@ pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, F
         let found = Backup::from_toml(source(path)?.text(), description);
         return found.map_err(|error| Failure::Device(format!("{}: {error}", path.display())));
     }
-    let backup = Backup::of_description(&plain(path, description.network())?);
+    let configured = plain(path, description.network())?;
+    let differs = |number: &IdentityNumber| {
+        let [device, backup] = [description, &configured].map(|one| one.device().identity.number(*number));
+        device.zip(backup).is_some_and(|(device, backup)| device != backup)
+    };
+    if let Some(number) = [IdentityNumber::VendorId, IdentityNumber::ProductCode].into_iter().find(differs) {
+        let (path, name) = (path.display(), number.name());
+        let text = format!("{path} is for another product: its {name} differs from that of the description");
+        return Err(Failure::Device(text));
+    }
+    let backup = Backup::of_description(&configured);
     match backup.entries.is_empty() {
         true => Err(Failure::Device(format!("{} contains no configured values", path.display()))),
         false => Ok(backup),

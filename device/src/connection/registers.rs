@@ -32,11 +32,20 @@ pub trait ModbusFailure {
     fn into_failure(self) -> Failure;
 }
 
+/// Returns the failure for an exception code. With the codes 5 (acknowledge) and 11 (gateway target failed to respond), the device may
+/// have executed the request.
+fn exception_of(code: u8) -> Failure {
+    match code {
+        5 | 11 => Failure::Timeout,
+        code => Failure::Exception(code),
+    }
+}
+
 impl ModbusFailure for Fault {
     fn into_failure(self) -> Failure {
         match self {
             Fault::Abort(code) => Failure::Abort(code),
-            Fault::Exception(exception) => Failure::Exception(exception.code()),
+            Fault::Exception(exception) => exception_of(exception.code()),
             other => Failure::Bus(other.to_string()),
         }
     }
@@ -48,7 +57,7 @@ impl ModbusFailure for lexibus::clients::modbus::ModbusError {
         use lexibus::clients::modbus::tokio_modbus;
         use lexibus::clients::modbus::ModbusError;
         match self {
-            ModbusError::Exception(code) => Failure::Exception(code.into()),
+            ModbusError::Exception(code) => exception_of(code.into()),
             ModbusError::Bus(tokio_modbus::Error::Transport(error)) if error.kind() == std::io::ErrorKind::TimedOut => {
                 Failure::Timeout
             }

@@ -1,8 +1,9 @@
 //! Executes a plan.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use super::order::pdo;
 use super::plan::Plan;
 use crate::address::Address;
 use crate::connection::Connection;
@@ -93,9 +94,14 @@ impl<'d> Plan<'d> {
     ) -> Outcome<'d> {
         let mut states = Vec::with_capacity(self.writes.len());
         let mut is_ended = false;
+        // A PDO with a refused value stays disabled, because its mapping would be a mixture of old and new entries.
+        let mut failed_pdos = BTreeSet::new();
         for write in &self.writes {
-            is_ended = is_ended || !proceed(write);
-            let status = if is_ended { Status::NotWritten } else { attempt(write, connection) };
+            let pdo = write.parameter().address().object().and_then(|object| pdo(object.index));
+            let is_failed = pdo.is_some_and(|pdo| failed_pdos.contains(&pdo));
+            is_ended = is_ended || !(is_failed || proceed(write));
+            let status = if is_ended || is_failed { Status::NotWritten } else { attempt(write, connection) };
+            failed_pdos.extend(pdo.filter(|_| status != Status::Written));
             is_ended = is_ended || matches!(status, Status::Uncertain(_) | Status::NotSent(_));
             states.push((write.clone(), status));
         }
@@ -113,9 +119,15 @@ fn attempt(write: &Write<'_>, connection: &mut impl Connection) -> Status {
     }
     match connection.write(write.parameter().address(), write.bytes()) {
         Ok(()) => Status::Written,
+        // A value of several registers may be sent with several requests, of which the first ones may have succeeded.
+        Err(failure @ Failure::Exception(_)) if is_of_several_registers(write) => Status::Uncertain(failure),
         Err(failure) if failure.is_refusal() => Status::Refused(failure.into()),
         Err(failure) => Status::Uncertain(failure),
     }
+}
+
+fn is_of_several_registers(write: &Write<'_>) -> bool {
+    matches!(write.parameter().address(), Address::Register(register) if register.count > 1)
 }
 
 /// Reads the written values back. Returns those that differ from the last write of their address, and the number of values that could

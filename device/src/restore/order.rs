@@ -1,6 +1,6 @@
 //! The order in which a device accepts values.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lexibus_codegen::facts::configuration::{Configuration, LeftOut, Setting};
 use lexibus_codegen::facts::encoding;
@@ -10,11 +10,14 @@ use crate::address::{Address, Network};
 use crate::backup::{Backup, Skipped};
 use crate::description::Description;
 use crate::parameter::Parameter;
+use crate::protection::Protection;
 use crate::write::Write;
 
 /// Returns the writes of a CANopen device in the order of CiA 301: PDOs are disabled, the communication parameters and
-/// all other parameters are written, then the mappings and the parameters of PDOs, and PDOs are enabled again. The
-/// parameters that the caller named come last. Other devices get the values in the order of the description.
+/// all other parameters are written, then the mappings and the parameters of PDOs, and PDOs are enabled again. Other devices get the
+/// values in the order of the description. Protected parameters that the caller named come last, and of these, node-ID and bit rate.
+///
+/// A PDO is written as a whole or not at all: if a value is missing or was refused, the PDO keeps its configuration.
 ///
 /// `writes` contains the checked writes by address. Also returns the values that this order leaves out.
 pub(super) fn ordered<'d>(
@@ -26,29 +29,66 @@ pub(super) fn ordered<'d>(
 ) -> (Vec<Write<'d>>, Vec<Skipped>) {
     if description.network() == Network::Modbus {
         let parameters = description.parameters();
-        return (parameters.filter_map(|parameter| writes.remove(&parameter.address())).collect(), Vec::new());
+        let mut list: Vec<_> = parameters.filter_map(|parameter| writes.remove(&parameter.address())).collect();
+        list.sort_by_key(|write| rank(&write.parameter()));
+        return (list, Vec::new());
     }
     let mut chosen = backup.clone();
     chosen.entries.retain(|entry| writes.contains_key(&entry.address));
     let catalog = chosen.configured(description);
     let configuration = Configuration::of(&catalog.devices[description.position()]).unwrap_or_default();
+    let has = |parameter: &Parameter<'_>| !parameter.access().writable() || writes.contains_key(&parameter.address());
+    let settings: Vec<(Parameter<'d>, &Setting)> = phases(&configuration)
+        .filter_map(|setting| Some((description.object(setting.object.0, setting.object.1)?, setting)))
+        .collect();
+    let incomplete: BTreeSet<u16> = settings
+        .iter()
+        .filter(|(parameter, _)| !has(parameter))
+        .filter_map(|(_, setting)| pdo(setting.object.0))
+        .collect();
+    let is_incomplete = |index: u16| pdo(index).is_some_and(|pdo| incomplete.contains(&pdo));
     let mut ordered = Vec::new();
-    for setting in phases(&configuration) {
-        let Some(parameter) = description.object(setting.object.0, setting.object.1) else { continue };
+    for (parameter, setting) in settings.into_iter().filter(|(_, setting)| !is_incomplete(setting.object.0)) {
         ordered.extend(write(parameter, setting, node_id));
     }
+    ordered.sort_by_key(|write| rank(&write.parameter()));
     for write in &ordered {
         writes.remove(&write.parameter().address());
     }
     let mut left_out = Vec::new();
     for (address, write) in writes {
-        if include.contains(&address) {
+        if address.object().is_some_and(|object| is_incomplete(object.index)) {
+            left_out.push(Skipped::failed(
+                &write.parameter(),
+                "a value of the PDO is missing or refused, so the PDO is not changed",
+            ));
+        } else if include.contains(&address) {
             ordered.push(write);
         } else {
             left_out.push(Skipped::new(&write.parameter(), reason(&configuration, address)));
         }
     }
     (ordered, left_out)
+}
+
+/// Returns the index of the communication parameters of the PDO to which an object belongs.
+pub(super) fn pdo(index: u16) -> Option<u16> {
+    match index {
+        0x1400..=0x15FF | 0x1800..=0x19FF => Some(index),
+        0x1600..=0x17FF | 0x1A00..=0x1BFF => Some(index - 0x200),
+        _ => None,
+    }
+}
+
+/// Returns a number for sorting: protected parameters come last, and of these, those that change the address of the device. The order
+/// of the objects of a PDO doesn't change.
+fn rank(parameter: &Parameter<'_>) -> u8 {
+    let is_of_pdo = parameter.address().object().is_some_and(|object| pdo(object.index).is_some());
+    match parameter.protection().filter(|_| !is_of_pdo) {
+        Some(Protection::NodeId | Protection::BitRate) => 2,
+        Some(_) => 1,
+        None => 0,
+    }
 }
 
 /// Returns the reason why the order of writes leaves out a value.

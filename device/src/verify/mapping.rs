@@ -66,12 +66,21 @@ fn check_mapping<C: Connection>(run: &mut Run<'_, C>, group: &Group) -> Result<(
 fn read<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<Option<Vec<Entry>>, Failure> {
     /// Maximum number of entries. Greater numbers select a multiplexed PDO.
     const MAX_ENTRIES: u8 = 64;
+    let description = run.description;
+    let is_refused =
+        |sub_index| description.object(index, sub_index).is_some_and(|entry| entry.read_refusal().is_some());
+    if is_refused(0) {
+        return Ok(None);
+    }
     let count = match run.read_object(index, 0)?.as_deref() {
         Ok(&[count]) if count <= MAX_ENTRIES => count,
         _ => return Ok(None),
     };
     let mut entries = Vec::new();
     for sub_index in 1..=count {
+        if is_refused(sub_index) {
+            return Ok(None);
+        }
         let Ok(bytes) = run.read_object(index, sub_index)? else { return Ok(None) };
         let Ok(bytes) = <[u8; 4]>::try_from(bytes) else { return Ok(None) };
         entries.push(Entry::of(u32::from_le_bytes(bytes)));

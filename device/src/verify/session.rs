@@ -47,14 +47,14 @@ impl<'r, C: Connection> Run<'r, C> {
     /// Reads a parameter. The outer error ends the comparison, because the bus failed or the device doesn't reply any
     /// more.
     pub fn read(&mut self, parameter: &Parameter<'_>) -> Result<Result<Vec<u8>, Failure>, Failure> {
-        let result = parameter.read(self.connection).map(|reading| reading.bytes);
+        let result = retried(|| parameter.read(self.connection).map(|reading| reading.bytes));
         self.checked(result)
     }
 
     /// Reads an object that the description may not declare.
     pub fn read_object(&mut self, index: u16, sub_index: u8) -> Result<Result<Vec<u8>, Failure>, Failure> {
         let address = crate::address::Address::Object(lexibus::Object::new(index, sub_index));
-        let result = self.connection.read(address, 0);
+        let result = retried(|| self.connection.read(address, 0));
         self.checked(result)
     }
 
@@ -71,6 +71,18 @@ impl<'r, C: Connection> Run<'r, C> {
         }
         Ok(result)
     }
+}
+
+/// Reads up to three times if the reply is lost.
+fn retried(mut read: impl FnMut() -> Result<Vec<u8>, Failure>) -> Result<Vec<u8>, Failure> {
+    let mut result = read();
+    for _ in 1..3 {
+        if result != Err(Failure::Timeout) {
+            break;
+        }
+        result = read();
+    }
+    result
 }
 
 /// Lists a fact that cannot be verified.

@@ -240,3 +240,83 @@ fn files_that_are_no_backups_are_refused() {
     let plan = Plan::new(&description, &saved, None, &[]);
     assert!(plan.writes.is_empty() && plan.refused[0].is_failure, "{plan}");
 }
+
+/// Items of a Modbus device that are also objects on another bus have the protection of the objects.
+#[test]
+fn registers_that_are_also_commands_of_a_drive_are_protected() {
+    let description = dictionary("eco.toml", Network::Modbus);
+    let protection = |name: &str| description.find(name).unwrap_or_else(|error| panic!("{error}")).protection();
+    for name in ["modes_of_operation", "target_velocity", "target_position"] {
+        assert_eq!(protection(name), Some(Protection::Control), "{name}");
+    }
+    assert_eq!(protection("control_word"), Some(Protection::Command));
+}
+
+/// A protected parameter that the user named is written after all others, and the slave address last.
+#[test]
+fn the_address_of_the_device_is_written_last() {
+    let description = valve();
+    let entries =
+        ["Slave_address", "Zero", "Plain"].map(|name| format!("{{ name = \"{name}\", value = 1 }}")).join(", ");
+    let saved =
+        Backup::from_toml(&format!("lexibus-backup = 1\nparameters = [{entries}]"), &description).expect("a backup");
+    let included = ["Slave_address", "Zero"].map(|name| description.find(name).expect("a parameter").address());
+    let mut device = Recorder::default();
+    assert!(Plan::new(&description, &saved, None, &included).execute(&mut device, &mut |_| true).is_complete());
+    assert_eq!(names(&description, &device.writes), ["Plain", "Zero", "Slave_address"]);
+}
+
+const PDO: [(&str, &str); 3] = [("0x1800:01", "\"$NODEID+0x180\""), ("0x1A00:00", "1"), ("0x1A00:01", "0x60640020")];
+
+fn backup_of_pdo(description: &Description, values: &[(&str, &str)]) -> Backup {
+    let entries: Vec<String> =
+        values.iter().map(|(address, value)| format!("{{ address = \"{address}\", value = {value} }}")).collect();
+    let text = format!("lexibus-backup = 1\nparameters = [{}]", entries.join(", "));
+    Backup::from_toml(&text, description).expect("a backup")
+}
+
+/// A backup with some values of a PDO must not enable the PDO with the default COB-ID or mapping.
+#[test]
+fn a_pdo_is_restored_as_a_whole_or_not_at_all() {
+    let description = dictionary("demo-drive.eds", Network::CanOpen);
+    let plan = |values: &[(&str, &str)]| Plan::new(&description, &backup_of_pdo(&description, values), Some(5), &[]);
+    assert!(!plan(&PDO).writes.is_empty());
+    for left_out in 0..PDO.len() {
+        let values: Vec<(&str, &str)> =
+            PDO.iter().enumerate().filter(|(at, _)| *at != left_out).map(|(_, value)| *value).collect();
+        let plan = plan(&values);
+        let of_pdo =
+            |write: &&Write<'_>| write.parameter().address().object().is_some_and(|object| object.index == 0x1800);
+        assert_eq!(plan.writes.iter().filter(of_pdo).count(), 0, "{left_out}: {plan}");
+        assert!(left_out == 1 || plan.refused.iter().any(|refused| refused.is_failure), "{plan}");
+    }
+}
+
+/// A device that refuses a mapping entry keeps the PDO disabled.
+#[test]
+fn a_pdo_with_a_refused_entry_stays_disabled() {
+    struct Refusing(Recorder, Address);
+    impl Connection for Refusing {
+        fn network(&self) -> Network {
+            Network::CanOpen
+        }
+        fn read(&mut self, address: Address, length: usize) -> Result<Vec<u8>, Failure> {
+            self.0.read(address, length)
+        }
+        fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure> {
+            if address == self.1 {
+                return Err(Failure::Abort(lexibus::AbortCode::NOT_MAPPABLE));
+            }
+            self.0.write(address, data)
+        }
+    }
+    let description = dictionary("demo-drive.eds", Network::CanOpen);
+    let address = |text: &str| description.find(text).expect("an object").address();
+    let recorder = Recorder { is_canopen: true, ..Recorder::default() };
+    let mut device = Refusing(recorder, address("0x1A00:01"));
+    let plan = Plan::new(&description, &backup_of_pdo(&description, &PDO), Some(5), &[]);
+    let outcome = plan.execute(&mut device, &mut |_| true);
+    assert!(!outcome.is_complete());
+    assert_eq!(device.0.values[&address("0x1800:01")][3] & 0x80, 0x80, "the PDO is disabled");
+    assert_eq!(outcome.states.last().map(|(_, status)| status.clone()), Some(Status::NotWritten));
+}

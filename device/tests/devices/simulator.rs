@@ -322,8 +322,8 @@ fn deviations_of_a_simulated_device_are_found() {
 fn values_of_other_tools_without_a_place_are_left_out() {
     let (description, mut device) = (drive_description(), drive());
     let text = "lexibus-backup = 1\nparameters = [{ address = \"0x1000:00\", value = 1 }, \
-        { address = \"0x1A01:00\", value = 1 }, { address = \"0x1A01:01\", value = 0x60410010 }, \
-        { address = \"0x1A01:02\", value = 0 }]";
+        { address = \"0x1801:01\", value = \"$NODEID+0x280\" }, { address = \"0x1A01:00\", value = 1 }, \
+        { address = \"0x1A01:01\", value = 0x60410010 }, { address = \"0x1A01:02\", value = 0 }]";
     let saved = Backup::from_toml(text, &description).expect("a backup");
     let plan = Plan::new(&description, &saved, Some(NODE), &[]);
     let refused: Vec<String> = plan.refused.iter().map(ToString::to_string).collect();
