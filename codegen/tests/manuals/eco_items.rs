@@ -46,7 +46,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("B15", &["The node numbers"], &[]),
     ("B16", &["The manual does not state the", "One section describes"], &[]),
     ("C1", &["The parameter table marks c8"], &[]),
-    ("C2", &["Keypad parameters are"], &[]),
+    ("C2", &["The names of some keypad parameters"], &[]),
     // The numbers of the next item are addresses of parameters.
     ("C3", &["F4 and O4 are reserved", "The parameter E4", "The parameter I7", "The addresses 23"], &[54, 56, 68, 84, 91]),
     ("C4", &["The name of H3", "Most rows describe"], &[38]),
