@@ -286,7 +286,7 @@ fn the_book_has_each_limit() {
         ("`writable`", limits::MAX_LISTED_VALUES as usize),
         ("depth of folders", limits::MAX_FOLDER_DEPTH),
         ("unknown keys of a section", limits::MAX_COMPARED_EXTENSIONS),
-        ("item names that `TAB025` compares", limits::MAX_SEARCHED_NAMES),
+        ("names of items, objects and chapters that `TAB025` compares", limits::MAX_SEARCHED_NAMES),
         ("different words in the texts", limits::MAX_SEARCHED_WORDS),
         ("bits of a PDO entry", limits::MAX_FIELD_BITS as usize),
         ("length in bytes of a PROFINET record", limits::MAX_RECORD_BYTES as usize),
