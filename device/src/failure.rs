@@ -62,6 +62,17 @@ impl fmt::Display for Failure {
 
 impl Error for Failure {}
 
+/// Reads up to three times if the device doesn't reply.
+pub(crate) fn retried<T>(mut read: impl FnMut() -> Result<T, Failure>) -> Result<T, Failure> {
+    for _ in 1..3 {
+        match read() {
+            Err(Failure::Timeout) => {}
+            result => return result,
+        }
+    }
+    read()
+}
+
 /// Returns the name of an exception code (MODBUS Application Protocol V1.1b3, 7).
 fn exception(code: u8) -> &'static str {
     match code {

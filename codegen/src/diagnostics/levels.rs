@@ -20,7 +20,7 @@ pub enum Level {
 /// Levels of all codes in one compilation.
 ///
 /// The level of a code takes precedence over the mode. If a level is set twice, the last setting applies. The name `warnings`
-/// means all codes that are warnings by default, except codes with a level of their own and, in strict mode, repairs.
+/// means all codes that are warnings by default, except codes whose level is set and, in strict mode, repairs.
 #[derive(Clone, Debug, Default)]
 pub struct Levels {
     strict: bool,

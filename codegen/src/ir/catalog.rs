@@ -164,7 +164,7 @@ impl Doubt {
     }
 }
 
-/// The consequence of a wrong assumption. The variants are sorted from the most to the least serious consequence.
+/// The consequence of a wrong assumption. The variants are sorted from the most serious to the mildest consequence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]

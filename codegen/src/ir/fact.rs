@@ -198,7 +198,7 @@ impl FactOrigins {
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
         self.0.retain(|(recorded, _)| *recorded != fact);
         if let Some(origin) = origin {
-            // This saves memory: most items have one or two origins, but a growing vector allocates room for four.
+            // This saves memory: most items have one or two origins, but a growing vector allocates memory for four.
             self.0.reserve_exact(1);
             self.0.push((fact, origin));
         }

@@ -63,7 +63,7 @@ impl<T: Eq> Eq for SharedList<T> {}
 
 impl<T> From<Vec<T>> for SharedList<T> {
     fn from(mut list: Vec<T>) -> Self {
-        // This saves memory: most lists have one element, but a growing vector allocates room for four.
+        // This saves memory: most lists have one element, but a growing vector allocates memory for four.
         list.shrink_to_fit();
         SharedList((!list.is_empty()).then(|| Arc::new(list)))
     }

@@ -209,7 +209,7 @@ impl Source {
         ends.filter(|&end| bytes[end] == b'\n' || bytes.get(end + 1) != Some(&b'\n')).map(|end| end + 1)
     }
 
-    /// Returns the greatest multiple of [`STRIDE`] up to `offset`, and the counts before this multiple.
+    /// Returns the largest multiple of [`STRIDE`] up to `offset`, and the counts before this multiple.
     fn counts_before(&self, offset: usize) -> (usize, Counts) {
         let entry = (offset / STRIDE).min(self.counts().len() - 1);
         (entry * STRIDE, self.counts()[entry])

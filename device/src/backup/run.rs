@@ -7,12 +7,9 @@ use super::relative::relative;
 use crate::address::Address;
 use crate::connection::Connection;
 use crate::description::Description;
-use crate::failure::Failure;
+use crate::failure::{retried, Failure};
 use crate::parameter::Parameter;
 use crate::protection::Protection;
-
-/// Number of attempts to read a value if the device doesn't reply.
-const ATTEMPTS: usize = 3;
 
 /// Options of a backup.
 #[derive(Clone, Debug, Default)]
@@ -100,12 +97,5 @@ pub(crate) fn read(
     parameter: &Parameter<'_>,
     connection: &mut impl Connection,
 ) -> Result<Option<lexibus_codegen::ir::Value>, Failure> {
-    let mut result = Err(Failure::Timeout);
-    for _ in 0..ATTEMPTS {
-        result = parameter.read(connection).map(|reading| reading.value);
-        if !matches!(result, Err(Failure::Timeout)) {
-            break;
-        }
-    }
-    result
+    retried(|| parameter.read(connection).map(|reading| reading.value))
 }

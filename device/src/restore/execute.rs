@@ -85,7 +85,7 @@ impl<'d> Plan<'d> {
     ///
     /// `proceed` is called before each write. If it returns false, the restore ends, and the remaining values are not
     /// written. The restore also ends if the bus fails or the device doesn't reply. A value that the device refuses
-    /// doesn't end the restore. After a restore that ended early, the written values are read back too, because the device may have
+    /// doesn't end the restore, but the remaining values of its PDO are not written. After a restore that ended early, the written values are read back too, because the device may have
     /// restarted.
     pub fn execute(
         &self,

@@ -7,7 +7,7 @@ use super::finding::{Finding, FindingKind};
 use super::report::Report;
 use crate::connection::Connection;
 use crate::description::Description;
-use crate::failure::Failure;
+use crate::failure::{retried, Failure};
 use crate::parameter::Parameter;
 
 /// Number of consecutive timeouts after which the comparison ends.
@@ -71,18 +71,6 @@ impl<'r, C: Connection> Run<'r, C> {
         }
         Ok(result)
     }
-}
-
-/// Reads up to three times if the reply is lost.
-fn retried(mut read: impl FnMut() -> Result<Vec<u8>, Failure>) -> Result<Vec<u8>, Failure> {
-    let mut result = read();
-    for _ in 1..3 {
-        if result != Err(Failure::Timeout) {
-            break;
-        }
-        result = read();
-    }
-    result
 }
 
 /// Lists a fact that cannot be verified.

@@ -1,6 +1,5 @@
 //! Bit fields: integers with named bits.
 
-use crate::facts::number::hex;
 use std::collections::HashSet;
 
 use super::code::{call, seq, Doc};
@@ -14,6 +13,7 @@ use super::method_names::{method_allow, unused_name};
 use super::naming::types::{value_names, NamedType, View};
 use super::options::{Presence, RustOptions};
 use super::value_type::native;
+use crate::facts::number::hex;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Value};
 use crate::names::{self, Case, NameRequest};
 
@@ -170,7 +170,7 @@ pub(super) fn model(
         if bits != 0 {
             docs.extend([
                 String::new(),
-                format!("A write to an item sets the reserved bits {} to {number}.", hexadecimal(bits)),
+                format!("A write to an item sets the reserved bits {} to {number}.", hex(bits)),
             ]);
         }
     }
@@ -199,7 +199,7 @@ pub(super) fn model(
         cut: if mask(bits) == mask(generator.native_bits()) {
             "raw".into()
         } else {
-            format!("raw & {}", hexadecimal(mask(bits)))
+            format!("raw & {}", hex(mask(bits)))
         },
         written: written(zeros, ones),
         flags: flags(&entries, views.is_empty()),
@@ -280,27 +280,23 @@ fn flags(entries: &[&BitFieldEntry], has_no_views: bool) -> Option<String> {
         entry.bits == 1 && matches!(entry.meaning, BitMeaning::Flag { inverted: false }) && entry.when.is_none()
     };
     (has_no_views && !entries.is_empty() && entries.iter().all(is_flag))
-        .then(|| hexadecimal(entries.iter().fold(0, |mask, entry| mask | 1 << entry.offset)))
+        .then(|| hex(entries.iter().fold(0, |mask, entry| mask | 1 << entry.offset)))
 }
 
 fn written(zeros: u64, ones: u64) -> Option<String> {
     match (zeros, ones) {
         (0, 0) => None,
-        (zeros, 0) => Some(format!("self.0 & !{}", hexadecimal(zeros))),
-        (0, ones) => Some(format!("self.0 | {}", hexadecimal(ones))),
-        (zeros, ones) => Some(format!("(self.0 & !{}) | {}", hexadecimal(zeros), hexadecimal(ones))),
+        (zeros, 0) => Some(format!("self.0 & !{}", hex(zeros))),
+        (0, ones) => Some(format!("self.0 | {}", hex(ones))),
+        (zeros, ones) => Some(format!("(self.0 & !{}) | {}", hex(zeros), hex(ones))),
     }
-}
-
-fn hexadecimal(number: u64) -> String {
-    hex(number)
 }
 
 fn hexadecimal_or_zero(number: u64) -> String {
     if number == 0 {
         "0".to_owned()
     } else {
-        hexadecimal(number)
+        hex(number)
     }
 }
 
@@ -387,7 +383,7 @@ impl Fields<'_, '_> {
 
     fn code(&self, entry: &BitFieldEntry) -> Code {
         let bits = u32::from(entry.bits);
-        let mask = hexadecimal(mask(bits) << entry.offset);
+        let mask = hex(mask(bits) << entry.offset);
         if let (BitMeaning::Flag { inverted }, 1) = (&entry.meaning, bits) {
             let not = if *inverted { "!" } else { "" };
             return Code {

@@ -1,6 +1,5 @@
 //! Enumerations for the codes of code tables. With these enumerations, programs match alarms by name.
 
-use crate::facts::number::hex;
 use std::collections::{BTreeMap, HashSet};
 
 use super::doc_table;
@@ -8,6 +7,7 @@ use super::docs;
 use super::docs::WORDS;
 use super::options::RustOptions;
 use crate::facts::code;
+use crate::facts::number::hex;
 use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::names::{self, Case, NameRequest};
 

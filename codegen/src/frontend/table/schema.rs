@@ -108,7 +108,7 @@ pub(super) fn types(schema: &mut Schema) {
 }
 
 /// Allows a non-negative integer, a text that matches `grammar`, or a text that begins with `$` and a lower-case
-/// letter. In the grammar, `#` stands for a number.
+/// letter. In the grammar, `#` means a number.
 pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| {
         let grammar = format!(r"^ *({}|\$[a-z].*) *$", grammar.replace('#', NUMBER));
@@ -124,7 +124,7 @@ pub(super) fn notation(grammar: &'static str) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// Allows only keys that match `grammar`. In the grammar, `#` stands for a number.
+/// Allows only keys that match `grammar`. In the grammar, `#` means a number.
 pub(super) fn keys(grammar: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| grammar_of_keys(schema, &format!("^{}$", grammar.replace('#', NUMBER)))
 }

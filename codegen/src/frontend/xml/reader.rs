@@ -22,7 +22,7 @@ pub trait Format {
     const STANDARD: &'static str;
     /// Diagnostic code for an element or attribute that the standard does not define.
     const UNKNOWN: &'static Code;
-    /// Pairs of an element and an attribute that the standard defines, but for which the IR has no field. Such an
+    /// Pairs of an element and an attribute that the standard defines and for which the IR has no field. Such an
     /// attribute becomes an extension, and is not reported as unknown.
     const KEPT: &'static [(&'static str, &'static str)] = &[];
     /// Elements whose contents the front end reads. A similar unknown name is reported as misspelled.

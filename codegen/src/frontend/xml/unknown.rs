@@ -41,6 +41,9 @@ impl<'a, F: Format> Reader<'a, '_, F> {
     /// Reports an unknown name that differs in one letter from one of `names`, or in two letters if it has more than eight.
     /// A name of up to four letters is not compared. Returns whether the name is similar.
     pub(super) fn misspelled(&mut self, name: &str, span: Span, names: &[&str]) -> bool {
+        if !self.diagnostics.wants(&codes::MISSPELLED_NAME) {
+            return false;
+        }
         let limit = match name.len() {
             0..=4 => return false,
             5..=8 => 1,

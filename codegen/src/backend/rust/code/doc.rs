@@ -1,7 +1,8 @@
 //! Documents: the code of a construct with marked positions for line breaks.
 
-use crate::facts::number::hex16;
 use compact_str::CompactString;
+
+use crate::facts::number::hex16;
 
 /// Code of one construct: its text on one line, with marked positions for line breaks.
 ///
