@@ -64,7 +64,7 @@ pub(crate) struct Described {
 /// A device on a bus, with its description.
 #[derive(Debug, Args)]
 pub(crate) struct Target {
-    /// Bus: can:NAME, slcan:PATH[@500k], tcp:HOST[:PORT] or rtu:PATH[@19200-8E1].
+    /// Bus, such as can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.1.5:502 or rtu:/dev/ttyUSB0@19200-8E1.
     #[arg(long, value_name = "BUS")]
     pub bus: BusAddress,
     /// Node-ID on CANopen, or server address on Modbus.
@@ -188,7 +188,7 @@ pub(crate) struct Compare {
 
 #[derive(Debug, Args)]
 pub(crate) struct Scan {
-    /// Bus: can:NAME or slcan:PATH[@500k].
+    /// CAN bus, such as can:can0 or slcan:/dev/ttyACM0@500k.
     #[arg(long, value_name = "BUS")]
     pub bus: BusAddress,
     /// Time to wait for replies, in milliseconds.
@@ -219,7 +219,7 @@ pub(crate) struct NodeFile {
 
 #[derive(Debug, Args)]
 pub(crate) struct Monitor {
-    /// Bus: can:NAME, slcan:PATH[@500k], tcp:HOST[:PORT] or rtu:PATH[@19200-8E1].
+    /// Bus, such as can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.1.5:502 or rtu:/dev/ttyUSB0@19200-8E1.
     #[arg(long, value_name = "BUS")]
     pub bus: BusAddress,
     /// Nodes with their descriptions, as NODE=FILE.
