@@ -23,7 +23,7 @@ macro_rules! codes {
                 pub const $name: Self = Self($code);
             )*
 
-            /// Returns the standard's description of the code, or `None` if the standard doesn't define the code.
+            /// Returns a description of the code, or `None` if the standard doesn't define the code.
             #[must_use]
             pub const fn text(self) -> Option<&'static str> {
                 match self.0 {

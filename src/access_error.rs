@@ -59,7 +59,7 @@ enum Access {
     /// A write whose value isn't stored, for example because it isn't a number.
     Write,
     WriteNumber,
-    /// A write of a number outside the range of the item.
+    /// A write of a number that is outside the range of the item, or in a gap of the range.
     OutOfRange,
     /// A write of a physical value whose raw value doesn't fit the type of the item or has a special meaning.
     Unscalable,
@@ -93,13 +93,13 @@ impl<E> AccessError<E> {
         Self { error, name: place.0, address: place.1, access, form, numbers }
     }
 
-    /// Creates the error of a read.
+    /// Creates the error for a failed read.
     #[inline(always)]
     pub(crate) fn read(error: Error<E>, place: Place) -> Self {
         Self::new(error, place, Access::Read, Form::Unsigned, [0; 3])
     }
 
-    /// Creates the error of a write. `value` is `None` if the value isn't a number.
+    /// Creates the error for a failed write. `value` is `None` if the value isn't a number.
     #[inline(always)]
     pub(crate) fn write(error: Error<E>, place: Place, value: Option<RawValue>) -> Self {
         match value.map(bits) {
@@ -113,7 +113,7 @@ impl<E> AccessError<E> {
         Self { numbers: [count as u64, 0, 0], ..self }
     }
 
-    /// Creates the error of a write whose value is outside the range of the item.
+    /// Creates the error for a write whose value is not in the range of the item, or doesn't fit its type.
     #[inline(always)]
     pub(crate) fn out_of_range(place: Place, value: Option<RawValue>, limits: Option<[RawValue; 2]>) -> Self {
         let error = OutOfRange.into();
@@ -122,7 +122,7 @@ impl<E> AccessError<E> {
         Self::new(error, place, Access::OutOfRange, form, [value, bits(limits[0]).1, bits(limits[1]).1])
     }
 
-    /// Creates the error of a write whose physical value has no raw value.
+    /// Creates the error for a write whose physical value has no raw value.
     #[inline(always)]
     pub(crate) fn unscalable(place: Place, physical: f64, limits: Option<[RawValue; 2]>) -> Self {
         let error = OutOfRange.into();
@@ -146,9 +146,9 @@ impl<E> AccessError<E> {
         self.address
     }
 
-    /// Returns the number of other items that the failed request reads or writes. It is 0 unless the request belongs to a
-    /// [block](crate::modbus::RegisterClient::read_block). The [address](Self::address) of such a request is that of
-    /// all its registers.
+    /// Returns the number of other items that the failed request reads or writes. The number is 0 unless the request
+    /// belongs to a [block](crate::modbus::RegisterClient::read_block). In a block, the [address](Self::address) covers
+    /// all registers of the request.
     #[must_use]
     pub const fn others(&self) -> usize {
         match self.access {
@@ -184,8 +184,8 @@ impl<E> AccessError<E> {
     }
 
     /// Returns the minimum and the maximum of the item as raw values, if the access failed because of the written
-    /// value. The value is outside the range of the item, is in a gap of the range, or is a [physical
-    /// value](Self::physical) without a raw value.
+    /// value. The written value is then outside the range, in a gap of the range, or a [physical value](Self::physical)
+    /// without a raw value.
     #[must_use]
     pub fn range(&self) -> Option<(RawValue, RawValue)> {
         match self.access {

@@ -10,7 +10,7 @@ pub trait BitField: Enumeration
 where
     <Self::Base as Value>::Native: Into<u64>,
 {
-    /// Names and masks of the fields, in the format of the argument `layout` of [`debug_bits`].
+    /// Name of the type, and names and masks of its fields, in the format of the argument `layout` of [`debug_bits`].
     const LAYOUT: &'static str;
 
     /// Returns the names of the flags that are set, in the order of the device description. An active-low flag is set
@@ -73,8 +73,8 @@ fn fields(layout: &str) -> (&str, &str) {
 ///
 /// `layout` is the name of the type, followed by `name:mask` for every field, separated by spaces. Masks are
 /// hexadecimal. A field with a mask of one bit is a flag, and a field with a mask of several bits is a number.
-/// `!name:mask` is a flag that is set if its bit is 0. `?name:mask` formats the next element of `values` instead of the
-/// bits.
+/// `!name:mask` is a flag that is set if its bit is 0. For `?name:mask`, the output contains the next element of
+/// `values` instead of the bits.
 ///
 /// # Errors
 ///
@@ -147,7 +147,7 @@ macro_rules! bits {
         $(
             #[doc(hidden)]
             pub mod $module {
-                /// Returns whether any bit of the mask is set.
+                /// Returns whether at least one bit of the mask is set in `bits`.
                 #[inline]
                 pub const fn flag(bits: $native, mask: $native) -> bool {
                     bits & mask != 0
@@ -164,7 +164,8 @@ macro_rules! bits {
                     }
                 }
 
-                /// Returns the number in the bits of the mask. The bits of the mask must be adjacent.
+                /// Returns the number in those bits of `bits` that the mask selects. The bits of the mask must be
+                /// adjacent.
                 #[inline]
                 pub const fn field(bits: $native, mask: $native) -> $native {
                     (bits & mask) >> (mask.trailing_zeros() & ($native::BITS - 1))

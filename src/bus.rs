@@ -36,7 +36,7 @@ buses! {
     Modbus: Register, "Modbus";
     /// PROFINET: acyclic records.
     Profinet: Record, "PROFINET";
-    /// A serial protocol that reads and writes numbered parameters.
+    /// A serial protocol for access to numbered parameters.
     Serial: Parameter, "serial";
     /// A fixed process image, such as the cyclic data of PROFINET. The fields of the image have fixed bit offsets.
     ProcessImage: ImageField, "process image";
@@ -45,7 +45,7 @@ buses! {
     Esc: EscMemory, "EtherCAT slave controller";
 }
 
-/// Address of an entry of an object dictionary. `Display` writes index and sub-index in hexadecimal, for example
+/// Address of an entry in an object dictionary. `Display` writes index and sub-index in hexadecimal, for example
 /// `0x6040:00`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Object {

@@ -12,7 +12,7 @@ use crate::register::Register;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BusAddress {
-    /// Entry of an object dictionary, on CANopen or on CANopen over EtherCAT.
+    /// Entry in an object dictionary, on CANopen or on CANopen over EtherCAT.
     Object(Object),
     /// Modbus register, coil or discrete input.
     Register(Register),

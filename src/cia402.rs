@@ -2,15 +2,15 @@
 //! positioning with handshake, velocity, quick stop, halt, and monitoring of cyclic set-points.
 //!
 //! The method `cia402` of a generated device returns a [`Drive`]. The compiler generates the method for each device
-//! that has the controlword, the statusword, and the requested and active mode of operation. Some methods of the drive
-//! exist only if the device has the objects that they need: see [`Positioning`], [`Velocity`] and [`Homing`]. For a
-//! device with several axes, call `axis` first: `device.axis(2).cia402()`.
+//! that has the CiA 402 state machine, and the requested and active mode of operation (0x6060 and 0x6061). Some methods
+//! of the drive exist only if the device has the objects that they need: see [`Positioning`], [`Velocity`] and
+//! [`Homing`]. For a device with several axes, call `axis` first: `device.axis(2).cia402()`.
 //!
-//! - No operation enables a drive. Before an operation other than `quick_stop`, `set_mode` and `mode`, bring the drive
-//!   to "Operation enabled" with the generated method `walk`. In any other state, these operations return
-//!   [`MotionError::NotEnabled`] or [`MotionError::Fault`], and write nothing. If the drive leaves "Operation enabled"
-//!   during an operation, the operation returns the same errors. The operation then clears at most bit 4 of the
-//!   controlword, and only if the write cannot change the state.
+//! - No operation enables a drive. All operations except `quick_stop`, `set_mode` and `mode` need the state "Operation
+//!   enabled": call the generated method `walk` first. In any other state, they return [`MotionError::NotEnabled`] or
+//!   [`MotionError::Fault`], and write nothing. If the drive leaves "Operation enabled" during such an operation, the
+//!   operation returns the same errors. It then clears at most bit 4 of the controlword, and only if the write cannot
+//!   change the state.
 //! - Operations change only those bits of the controlword that their documentation names.
 //! - If the drive receives the controlword in process data, use a [`Cyclic`] and a [`Walker`](crate::Walker) instead,
 //!   because process data would overwrite the controlword.

@@ -7,7 +7,7 @@ use crate::bus::Bus;
 use crate::clock::{Clock, DefaultClock};
 use crate::error::Error;
 
-/// Reads and writes the items of one device. Each call blocks until the device replies.
+/// Reads and writes the items of one device. Each call blocks until the device replies or the access fails.
 ///
 /// The bytes of a value are in little-endian order, as in CANopen. If the bus uses a different byte order, the client
 /// converts the value.
@@ -68,7 +68,7 @@ pub trait Client {
     /// Error type of the bus library.
     type Error;
 
-    /// Reads the value at `address` to the start of `buffer` and returns its length in bytes.
+    /// Reads the value at `address` into the start of `buffer`, and returns the length of the value in bytes.
     ///
     /// For a value of a fixed size, `buffer` has exactly the length of the value. If the bus doesn't transmit lengths,
     /// fill the whole buffer. If the device sends a value that is longer than `buffer`, return the length of this
@@ -78,6 +78,7 @@ pub trait Client {
     ///
     /// - [`Error::Client`] if the bus fails.
     /// - [`Error::Abort`] if the device refuses the access.
+    /// - [`Error::Timeout`] if the device doesn't reply in time.
     /// - [`Error::UnexpectedReply`] or [`Error::Length`] if the reply doesn't match the request.
     fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
@@ -88,8 +89,8 @@ pub trait Client {
     /// Returns the errors of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
-    /// Writes two values in the order of `writes`. Buses with a process image can send both values in one cycle. The
-    /// default implementation writes one value after the other.
+    /// Writes two values in the order of `writes`. A client of a bus with a process image can send both values in one
+    /// cycle. The default implementation writes one value after the other.
     ///
     /// # Errors
     ///
@@ -101,8 +102,8 @@ pub trait Client {
     /// Waits for at least `time`.
     ///
     /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). The default
-    /// implementation sleeps if the feature `std` is enabled, and otherwise returns an error. [`Timed`] adds a clock to
-    /// any client.
+    /// implementation sleeps if the feature `std` is enabled, and otherwise returns an error. [`Timed`] adds a delay
+    /// function to any client.
     ///
     /// # Errors
     ///
@@ -113,9 +114,9 @@ pub trait Client {
     }
 
     /// Returns the time since a fixed moment, or `None` if the client has no clock. Operations with a deadline, such as
-    /// [`Machine::walk`](crate::Machine::walk), measure the time with this clock. Without a clock, they count only their
-    /// pauses between two accesses, so that accesses that take long prolong the operation. The default implementation
-    /// returns the time of the [`DefaultClock`].
+    /// [`Machine::walk`](crate::Machine::walk), measure the time with this clock. Without a clock, these operations
+    /// count only their pauses between two accesses: slow accesses then prolong the operation. The default
+    /// implementation returns the time of the [`DefaultClock`].
     fn now(&mut self) -> Option<Duration> {
         DefaultClock.now()
     }
@@ -185,8 +186,8 @@ pub trait AsyncClient {
         Ok(())
     }
 
-    /// Waits for `time`, as [`Client::wait`] does. The default implementation returns an error, because the clock
-    /// depends on the executor.
+    /// Waits for `time`, as [`Client::wait`] does. The default implementation returns an error, because a timer depends
+    /// on the executor.
     ///
     /// # Errors
     ///
@@ -208,8 +209,8 @@ pub trait AsyncClient {
     }
 }
 
-/// Adds a clock to a client, for accesses that have to [wait](Client::wait). `D` is a function that waits for the given
-/// time, or returns a future that is ready after this time.
+/// Adds a delay function to a client, for accesses that have to [wait](Client::wait). The delay function `D` waits for
+/// the given time, or returns a future that is ready after this time.
 ///
 /// ```
 /// use core::time::Duration;
@@ -226,7 +227,7 @@ pub trait AsyncClient {
 /// # impl Delay { fn delay_us(&mut self, time: u32) { self.0 += time; } }
 /// # let (line, mut delay) = (Line, Delay(0));
 ///
-/// // `embedded_hal::delay::DelayNs` is also a clock. An async client can use `embassy_time::Timer::after`.
+/// // `delay` is an `embedded_hal::delay::DelayNs`. An async client can use `embassy_time::Timer::after`.
 /// let mut client = Timed::new(line, |time: Duration| delay.delay_us(time.as_micros() as u32));
 /// client.wait(Duration::from_millis(3))?;
 /// # drop(client);
@@ -258,7 +259,7 @@ impl<C, D> Timed<C, D> {
         &mut self.client
     }
 
-    /// Returns the wrapped client and drops the clock.
+    /// Returns the wrapped client, and drops the delay function and the clock.
     pub fn into_client(self) -> C {
         self.client
     }
@@ -268,7 +269,7 @@ impl<C, D> Timed<C, D> {
     }
 }
 
-/// Defines the clients that forward all calls, or all except `wait`, to another client; blocking and async.
+/// Defines the clients that forward calls to another client, `Timed` and `&mut T`, blocking and async.
 macro_rules! forwarding {
     ($Client:ident [$($future:tt)*] $($async:ident $await:ident)?) => {
         impl<C: $Client, D: FnMut(Duration) $($future)*> $Client for Timed<C, D> {

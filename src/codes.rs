@@ -36,8 +36,7 @@ pub enum Cell {
     Text(&'static str),
 }
 
-/// A code of a table, represented by an enumeration. The compiler generates one enumeration per table, which implements
-/// this trait.
+/// Enumeration of the codes of a table. The compiler generates one enumeration per table, which implements this trait.
 ///
 /// ```
 /// use lexibus::codes::{Code, CodeTable};

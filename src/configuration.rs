@@ -24,7 +24,8 @@ use crate::pdo::SdoWrite;
 /// - [`writes`](Self::writes) returns the writes for any other purpose. [`of`](Self::of) returns the write of one object.
 ///
 /// The writes are grouped in [phases](Phase). While a PDO is disabled, the device accepts changes to the mapping and
-/// the communication parameters of the PDO (CiA 301 7.5.2.36 and 7.5.2.38).
+/// the communication parameters of the PDO (CiA 301 7.5.2.36 and 7.5.2.38). The first phase therefore disables the PDOs
+/// that the configuration changes.
 ///
 /// ```
 /// use lexibus::{Configuration, NodeId, SdoWrite, Setting};

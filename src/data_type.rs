@@ -5,7 +5,8 @@ use core::fmt;
 /// A basic or extended data type of CiA 301 (7.1.4 and 7.1.6), [`Bits`](DataType::Bits) or
 /// [`Opaque`](DataType::Opaque).
 ///
-/// `Display` writes the name in the standard, for example `INTEGER32`.
+/// `Display` writes the name in the standard, for example `INTEGER32`. For [`Opaque`](DataType::Opaque), `Display`
+/// writes `OPAQUE`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DataType {
@@ -43,9 +44,9 @@ pub enum DataType {
     Unsigned56,
     /// An unsigned integer of 64 bits.
     Unsigned64,
-    /// An IEEE 754 number of 32 bits (CiA 301 7.1.4.7).
+    /// An IEEE 754 floating-point number of 32 bits (CiA 301 7.1.4.7).
     Real32,
-    /// An IEEE 754 number of 64 bits.
+    /// An IEEE 754 floating-point number of 64 bits.
     Real64,
     /// ISO 646 text, one byte per character (CiA 301 7.1.6.3).
     VisibleString,
@@ -59,7 +60,8 @@ pub enum DataType {
     TimeDifference,
     /// A block of bytes of any length (CiA 301 7.1.6.7).
     Domain,
-    /// An integer of 1 to 16 bits that shares its bytes with other values in a PDO (BIT1 … BIT16 of ETG.1000.6).
+    /// An unsigned integer of 1 to 16 bits that shares its bytes with other values, for example in a PDO (BIT1 … BIT16
+    /// of ETG.1000.6).
     Bits(u8),
     /// Bytes whose meaning is not in the device description.
     Opaque,

@@ -2,7 +2,7 @@
 
 use crate::codes::CodeTable;
 
-/// An emergency message: the error that a device reports (CiA 301 7.2.7).
+/// An emergency message, in which a device reports that an error has occurred or has been cleared (CiA 301 7.2.7).
 ///
 /// ```
 /// use lexibus::Emergency;
@@ -48,7 +48,7 @@ impl Emergency {
         self.code <= 0xFF
     }
 
-    /// Returns the code as a variant of the code table `T`. For example, `T` is the generated type `codes::Emergency`.
+    /// Returns the code as a variant of the code table `T`, a generated type such as `codes::Emergency`.
     #[must_use]
     pub fn alarm<T: CodeTable>(&self) -> T
     where

@@ -8,8 +8,8 @@ use crate::value_error::{LengthError, OutOfRange};
 
 /// An integer with named values. Bit fields, whose bits have names, also implement this trait.
 ///
-/// Generated enumerations have a variant for all other values, so a value that isn't in the device description can
-/// still be read. A type with this trait can be the [`Value`] of an item:
+/// A generated enumeration has the variant `Unknown` unless every value of the integer has a name. A value that isn't
+/// in the device description can therefore be read. A type with this trait can be the [`Value`] of an item:
 ///
 /// ```
 /// use lexibus::{Enumeration, Fixed};
@@ -48,7 +48,7 @@ pub trait Enumeration: Copy + 'static {
     /// Type of the integer.
     type Base: Fixed;
 
-    /// Returns the variant for an integer.
+    /// Creates the enumeration or bit field from an integer.
     fn from_native(native: <Self::Base as Value>::Native) -> Self;
 
     /// Returns the integer to write to an item. Reserved bits of a bit field have the values that the device requires.
@@ -78,7 +78,7 @@ impl<E: Enumeration> Fixed for E {
         <E::Base as Fixed>::decode(bytes).map(E::from_native)
     }
 
-    /// Returns whether the integer of the value is within the limits.
+    /// Returns whether the integer of the value is within `range`.
     #[inline]
     fn in_range(value: E, range: &Range<E>) -> bool {
         // The comparison is not a recursive call, because the compiler could neither inline it nor evaluate a constant

@@ -16,7 +16,8 @@ use crate::value_error::{LengthError, OutOfRange, TextError};
 pub enum Error<E> {
     /// The client returned an error, for example because the bus failed.
     Client(E),
-    /// The device refused the access, with an SDO abort code (CiA 301 7.2.4.3.17) or the equivalent of another bus.
+    /// The device refused the access, with an SDO abort code (CiA 301 7.2.4.3.17) or an equivalent error of another
+    /// bus.
     Abort(AbortCode),
     /// The mailbox of an EtherCAT device rejected the request, with an error code (ETG.1000.4 5.6): 1 syntax, 2
     /// unsupported protocol, 3 invalid channel, 4 unsupported service, 5 invalid header, 6 too short, 7 no memory, 8
@@ -26,13 +27,13 @@ pub enum Error<E> {
     Refused,
     /// The reply of the device doesn't match the request.
     UnexpectedReply,
-    /// The protocol has no message for this access to the parameter. Nothing was sent.
+    /// The parameter doesn't exist, or the protocol has no message for this access to the parameter. Nothing was sent.
     NoMessage,
     /// The device didn't reply in time, or the bus was busy.
     Timeout,
-    /// The access needs a clock or a pause, for example because the device needs time before it has the value, but the
-    /// client has no clock or cannot wait ([`Client::wait`](crate::Client::wait)). Use [`Timed`](crate::Timed) to add a
-    /// clock to the client.
+    /// The access needs a clock or a pause, but the client has no clock or cannot wait
+    /// ([`Client::wait`](crate::Client::wait)). For example, the device needs time before it has the value. Use
+    /// [`Timed`](crate::Timed) to add a clock to the client.
     NoClock,
     /// The device marks its cyclic data as invalid (PROFINET provider status "bad").
     InvalidData,

@@ -30,7 +30,7 @@ pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
 
 use crate::identity::Identity;
 
-/// Description of a slave, used by the master.
+/// Description of a slave, for use by the master.
 #[derive(Clone, Copy, Debug)]
 pub struct Device {
     /// Identity: vendor, product and revision.
@@ -67,10 +67,11 @@ impl Device {
         self.sync_managers.iter().find(|manager| manager.number == number)
     }
 
-    /// Returns the number of the sync manager for a PDO, or `None` if the device has no sync manager for the PDO. This
-    /// is the default sync manager of the PDO, if it has one. Otherwise, this is the first sync manager for the PDO's
-    /// direction that the PDO doesn't exclude. If the description lists no sync managers, this is the default sync
-    /// manager of another PDO with the same direction.
+    /// Returns the number of the sync manager for a PDO, or `None` if the device has no sync manager for the PDO. If
+    /// the PDO has a default sync manager, the function returns the number of this sync manager. Otherwise, the
+    /// function returns the number of the first sync manager that has the PDO's direction and that the PDO doesn't
+    /// exclude. If the description lists no sync managers, the function returns the default sync manager of another PDO
+    /// with the same direction.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {
@@ -88,7 +89,7 @@ impl Device {
 }
 
 impl Device {
-    /// Returns the default sync manager of the first PDO with this direction that has one.
+    /// Returns the default sync manager of a PDO: of the first PDO that has this direction and a default sync manager.
     fn named_by_others(&self, direction: Direction) -> Option<u8> {
         self.pdos.iter().filter(|pdo| pdo.direction == direction).find_map(|pdo| pdo.sync_manager)
     }

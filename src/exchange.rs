@@ -11,7 +11,7 @@ use crate::value_error::LengthError;
 /// Sends a request to one device and blocks until the reply arrives. Clients of request-reply protocols use this trait.
 ///
 /// Requests and replies contain the data of a message, without framing. The feature `serial` provides an implementation
-/// for any byte stream. This example implements the trait for a test:
+/// for byte streams of `embedded-io`. This example implements the trait for a test:
 ///
 /// ```
 /// use lexibus::{Error, Exchange, LengthError};
@@ -49,8 +49,8 @@ pub trait Exchange {
     /// [`Error::Length`] if `request` is too long for the protocol or the reply is longer than `reply`.
     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notifies the transport that the last reply doesn't belong to its request. The correct reply may still arrive,
-    /// and the next exchange should discard it. The default implementation does nothing.
+    /// Notifies the transport that the last reply doesn't belong to the last request. The correct reply may still
+    /// arrive, and the next exchange should discard it. The default implementation does nothing.
     fn unsettle(&mut self) {}
 }
 
@@ -82,7 +82,7 @@ pub trait AsyncExchange {
     /// Returns the errors of [`Exchange::exchange`].
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
-    /// Notifies the transport that the last reply doesn't belong to its request, as [`Exchange::unsettle`] does.
+    /// Notifies the transport that the last reply doesn't belong to the last request, as [`Exchange::unsettle`] does.
     fn unsettle(&mut self) {}
 }
 
@@ -167,11 +167,12 @@ pub trait ParameterMessages {
     fn write_reply<E>(&self, parameter: Parameter, request: &[u8], reply: &[u8]) -> Result<(), Error<E>>;
 }
 
-/// Client for a device with a request-reply protocol. The client sends messages through the exchange `X`. `N` is the
-/// maximum length of a message in bytes.
+/// Client for a device with a request-reply protocol. The client sends the messages of the protocol `M` through the
+/// exchange `X`. `N` is the maximum length of a message in bytes.
 ///
 /// The client implements [`Client`] or [`AsyncClient`] for the bus [`Serial`] if `M` implements [`ParameterMessages`].
-/// The client implements [`MessageClient`] if `M` is a [`Station`].
+/// The client implements [`MessageClient`] or [`AsyncMessageClient`] if `M` implements [`Station`]. The asynchronous
+/// traits need an [`AsyncExchange`].
 #[derive(Clone, Debug)]
 pub struct Parameters<X, M, const N: usize> {
     exchange: X,
@@ -181,7 +182,7 @@ pub struct Parameters<X, M, const N: usize> {
 }
 
 impl<X, M, const N: usize> Parameters<X, M, N> {
-    /// Creates the client that sends `messages` through `exchange`.
+    /// Creates a client for the protocol `messages`. The client sends the messages through `exchange`.
     pub const fn new(exchange: X, messages: M) -> Self {
         Self { exchange, messages, request: [0; N], reply: [0; N] }
     }

@@ -1,6 +1,6 @@
 //! Error conversions.
 
-/// Implements `From` for an error type: one implementation for each variant that wraps another error type.
+/// Implements `From` for error types: one implementation for each listed variant, which wraps another error.
 macro_rules! from {
     ($($error:ident => $target:ident::$variant:ident $(<$parameter:ident>)?;)*) => {$(
         impl $(<$parameter>)? From<$error> for $target $(<$parameter>)? {

@@ -1,6 +1,7 @@
 //! Identity of a device: vendor, product and revision.
 
-/// Identity of a device, as its device description declares it. On the device, object 0x1018 contains the IDs.
+/// Identity of a device, as its device description declares it. A CANopen or CoE device contains the vendor-ID, the
+/// product code and the revision number in object 0x1018.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
     /// Vendor-ID (0x1018:01).

@@ -65,13 +65,13 @@ impl ImageField {
         Self { is_output: true, bit, bits, order: ImageOrder::BigEndian }
     }
 
-    /// Returns the same field with another byte order.
+    /// Returns the field with the byte order `order`.
     #[must_use]
     pub const fn ordered(self, order: ImageOrder) -> Self {
         Self { order, ..self }
     }
 
-    /// Returns the length of the value in bytes, as [`get`](Self::get) and [`put`](Self::put) use it.
+    /// Returns the length of the value that [`get`](Self::get) and [`put`](Self::put) transfer, in bytes.
     #[must_use]
     pub const fn byte_len(&self) -> usize {
         match self.order {
@@ -103,7 +103,7 @@ impl ImageField {
     }
 
     /// Reads the field from `image` and writes the value to the start of `buffer`. In `buffer`, the least significant
-    /// byte of a number comes first. Returns the length of the value in bytes.
+    /// byte of a number comes first. Returns the length of the value in bytes, even if `buffer` is shorter.
     ///
     /// # Errors
     ///

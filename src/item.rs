@@ -82,7 +82,7 @@ impl<V: Value, A, L> Item<V, A, L> {
         self.flags
     }
 
-    /// Returns the item with another range and initial value, for a model of the device whose values differ.
+    /// Returns the item with another range and initial value, for a model of the device in which they differ.
     #[must_use]
     pub const fn of_model(self, range: Range<V::Native>, initial: Initial<V::Native>) -> Self
     where
@@ -113,8 +113,8 @@ impl<V: Quantity<Other = ()>, A, L> Item<V, A, L> {
     ///
     /// # Errors
     ///
-    /// Returns [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special
-    /// meaning.
+    /// Returns [`OutOfRange`] if the raw value is outside the item's range, doesn't fit the item's type, or has a
+    /// special meaning.
     pub fn raw(&self, physical: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, ())?)
     }
@@ -132,8 +132,8 @@ impl<V: Quantity<Other = f64>, A, L> Item<V, A, L> {
     ///
     /// # Errors
     ///
-    /// Returns [`OutOfRange`] if the raw value is outside the item's range, doesn't fit its type, or has a special
-    /// meaning.
+    /// Returns [`OutOfRange`] if the raw value is outside the item's range, doesn't fit the item's type, or has a
+    /// special meaning.
     pub fn raw_by(&self, physical: f64, other: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, other)?)
     }
@@ -144,9 +144,9 @@ where
     Exponential<B, BASE, BITS>: Quantity<Native = B::Native, Other = f64>,
     B: Value,
 {
-    /// Converts a physical value to a mantissa and an exponent. Tries `exponents` in order and returns the first
-    /// exponent whose mantissa is in the item's range. The lowest exponent gives the highest resolution. Write the
-    /// mantissa to this item, and the exponent to the item that contains the exponent.
+    /// Converts a physical value to a mantissa and an exponent. Tries `exponents` in order, and returns the first
+    /// exponent whose mantissa is in the item's range, with this mantissa. The lowest exponent gives the highest
+    /// resolution. Write the mantissa to this item, and the exponent to the item that contains the exponent.
     ///
     /// ```
     /// use lexibus::{Exponential, Flags, Initial, Item, OnSerial, OutOfRange, Range, Rw};

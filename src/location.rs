@@ -138,7 +138,7 @@ location! {
     pub struct OnProfinet { profinet: Profinet => Record }
 }
 location! {
-    /// Location of an item that exists only on a serial protocol.
+    /// Location of an item that exists only as a parameter of a serial protocol.
     pub struct OnSerial { serial: Serial => Parameter }
 }
 location! {

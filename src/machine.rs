@@ -44,8 +44,9 @@ const MAX_TRANSITIONS: usize = 128;
 impl<C: Copy> Step<C> {
     /// Returns the first step of the shortest path from `state` to `target`.
     ///
-    /// The path enters no energized state, and no fault state from a state without a fault, unless this state is
-    /// `target`. If several paths have the same length, a path that starts with a command is preferred.
+    /// The path enters an energized state only if this state is the target. A transition from a state without a fault
+    /// to a fault state is part of the path only if the fault state is the target. If several paths have the same
+    /// length, a path that starts with a command is preferred.
     #[must_use]
     pub fn toward<S: MachineState<Command = C>>(state: S, target: S) -> Self
     where
@@ -98,8 +99,8 @@ impl<C: Copy> Step<C> {
 mod tests {
     use super::*;
 
-    /// State 0 changes to state 1 automatically. The commands `u`, `U`, `d` and `D` change between the states 1 to 3. The
-    /// command `r` changes state 4 to state 0. No transition leads to state 4.
+    /// State 0 changes to state 1 automatically. The commands `u`, `U`, `d` and `D` lead from one of the states 1 to 3
+    /// to another. The command `r` changes state 4 to state 0. No transition leads to state 4.
     const TRANSITIONS: &[Transition<char>] = &[
         Transition::new(0, 1, None),
         Transition::new(1, 2, Some('u')),

@@ -95,8 +95,8 @@ pub trait Message {
     ///
     /// # Errors
     ///
-    /// Returns an error if a field is outside its limits, if a parameter doesn't exist, or if the data don't fit into
-    /// the buffer.
+    /// Returns an error if a field is outside its limits, if a parameter doesn't exist, if a value has the wrong
+    /// length, or if the data don't fit into the buffer.
     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
@@ -113,8 +113,9 @@ pub trait Reply<'r>: Sized {
     ///
     /// # Errors
     ///
-    /// Returns an error if a field is outside its limits, if a parameter doesn't exist, if the data don't fit into the
-    /// buffer, or if a part that the reply repeats is missing or different in the request.
+    /// Returns an error if a field is outside its limits, if a parameter doesn't exist, if a value has the wrong
+    /// length, if the data don't fit into the buffer, or if a part that the reply repeats is missing or different in
+    /// the request.
     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
 }
 
@@ -142,7 +143,7 @@ impl<'r> Reply<'r> for &'r [u8] {
     }
 }
 
-/// Decodes a [`Message`] in a simulated device or a test.
+/// A [`Message`] that a simulated device or a test can decode.
 pub trait Request<'r>: Message + Sized {
     /// Decodes the station address and the request. Returns `None` if the data contain another request. The station
     /// address is 0 if the protocol has no station addresses.
@@ -169,10 +170,10 @@ pub enum Completion {
     Immediate,
     /// The device sends the reply when the request is completed, which may take a long time.
     Reply,
-    /// A field of a later reply, or an item, indicates whether the request is completed. Replies with such a field have
-    /// the method `is_complete`.
+    /// A field of a reply, or an item, indicates whether the request is completed. Replies with such a field have the
+    /// method `is_complete`.
     Polled,
-    /// The device completes the request after this time in milliseconds.
+    /// The device has completed the request after this number of milliseconds.
     Delayed(u32),
 }
 

@@ -1,4 +1,4 @@
-//! Values with names: texts of generated enumerations.
+//! Conversion between the values of generated enumerations and their names.
 
 use core::error;
 use core::fmt;

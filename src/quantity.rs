@@ -14,7 +14,7 @@ mod sealed {
 
 /// A native integer or floating-point type. This trait is sealed.
 pub trait Number: Copy + sealed::Sealed {
-    /// Converts the number to `f64`. Integers above 2⁵³ lose their lowest bits.
+    /// Converts the number to `f64`. Integers with a magnitude above 2⁵³ are rounded.
     #[must_use]
     fn real(self) -> f64;
 
@@ -23,7 +23,7 @@ pub trait Number: Copy + sealed::Sealed {
     fn integer(self) -> i128;
 
     /// Returns the number of this type that is nearest to `real`. An integer type rounds halves away from zero. Returns
-    /// `None` if `real` is NaN or outside the limits of the type.
+    /// `None` if `real` is NaN, or if the rounded number is outside the limits of the type.
     #[must_use]
     fn nearest(real: f64) -> Option<Self>;
 }
@@ -145,7 +145,7 @@ pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 /// ```
 pub struct Exponential<B, const BASE: u32 = 10, const BITS: u32 = 0>(PhantomData<B>);
 
-/// A quantity in which the raw value `RAW` isn't a number. For example, 0xFFFF can mean "no sensor".
+/// A quantity whose raw value `RAW` doesn't represent a physical value. For example, 0xFFFF can mean "no sensor".
 pub struct OrNone<V, const RAW: i128>(PhantomData<V>);
 
 /// Implements `Value` and `Fixed` with the encoding of the base type `B`.

@@ -42,7 +42,7 @@ pub enum WordOrder {
     Bytes,
 }
 
-/// A bit field in a register.
+/// A bit field of a number in one or more registers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RegisterPart {
     /// Bit offset; bit 0 is the least significant bit.
@@ -53,7 +53,7 @@ pub struct RegisterPart {
 
 /// One or more consecutive registers or bits of a Modbus table.
 ///
-/// A [`Client`](crate::Client) uses bytes, the least significant byte first. Modbus transmits words.
+/// A [`Client`](crate::Client) transfers a number as bytes, the least significant byte first. Modbus transmits words.
 /// [`Register::decode`] and [`Register::encode`] convert between the two forms:
 ///
 /// ```
@@ -92,7 +92,7 @@ pub struct Register {
 }
 
 impl Register {
-    /// Creates a number in `count` registers or bits, with the most significant word first.
+    /// Creates the address of a number in `count` registers or bits, with the most significant word first.
     #[must_use]
     pub const fn new(table: RegisterTable, address: u16, count: u16) -> Self {
         Self {
@@ -107,19 +107,19 @@ impl Register {
         }
     }
 
-    /// Creates a value in one holding register.
+    /// Creates the address of a value in one holding register.
     #[must_use]
     pub const fn holding(address: u16) -> Self {
         Self::new(RegisterTable::Holding, address, 1)
     }
 
-    /// Creates a number in `count` holding registers, with the most significant word first.
+    /// Creates the address of a number in `count` holding registers, with the most significant word first.
     #[must_use]
     pub const fn high_first(address: u16, count: u16) -> Self {
         Self::new(RegisterTable::Holding, address, count)
     }
 
-    /// Creates a number in `count` holding registers, with the least significant word first.
+    /// Creates the address of a number in `count` holding registers, with the least significant word first.
     #[must_use]
     pub const fn low_first(address: u16, count: u16) -> Self {
         Self { order: WordOrder::LowFirst, ..Self::new(RegisterTable::Holding, address, count) }

@@ -11,20 +11,20 @@ pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// Methods that return the address of a route, for tools such as the simulator. A route through a window has no
-/// address.
+/// Methods that return the address of a route, and whether the route converts the width, for tools such as the
+/// simulator. A route through a window has no address.
 pub trait Route {
     /// Returns the entry of the object dictionary, on CANopen or on CANopen over EtherCAT; `None` for all other routes.
     fn object(&self) -> Option<Object> {
         None
     }
 
-    /// Returns the Modbus register.
+    /// Returns the Modbus register; `None` if the route has none.
     fn register(&self) -> Option<Register> {
         None
     }
 
-    /// Returns whether the value has a different width on this bus than in the item.
+    /// Returns whether a [`Resized`] route converts the width of the value between the bus and the item.
     fn is_resized(&self) -> bool {
         false
     }
@@ -57,14 +57,15 @@ pub trait Direct<B: Bus>: Copy {
     fn address(self) -> B::Address;
 }
 
-/// A route that can read a value. Every address is a route. [`Split`], [`Resized`], [`Limited`] and [`Through`] are
-/// routes that contain other routes.
+/// A route that can read a value. Every address is a route. [`Split`], [`Resized`] and [`Limited`] are routes that
+/// contain other routes. [`Through`] is a route through a window.
 #[diagnostic::on_unimplemented(
     message = "this item cannot be read on `{B}`",
     label = "the client's bus has no route that reads this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
-    /// Returns the address that error messages name, or `None` if the route has no address.
+    /// Returns the address, or the number of a value in a window, for error messages. The default implementation
+    /// returns `None`.
     #[inline]
     fn read_address(&self) -> Option<BusAddress> {
         None
@@ -96,7 +97,8 @@ pub trait ReadRoute<B: Bus>: Copy {
     label = "the client's bus has no route that writes this item"
 )]
 pub trait WriteRoute<B: Bus>: Copy {
-    /// Returns the address that error messages name, or `None` if the route has no address.
+    /// Returns the address, or the number of a value in a window, for error messages. The default implementation
+    /// returns `None`.
     #[inline]
     fn write_address(&self) -> Option<BusAddress> {
         None

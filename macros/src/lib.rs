@@ -64,9 +64,10 @@ use syn::LitStr;
 ///   several options, repeat `option`.
 /// - `runtime: "crate::rt"` sets the path of the runtime crate in the generated code. The default is `::lexibus`.
 ///
-/// Diagnostics are reported at the path argument and quote the line of the description. A macro on stable Rust cannot
-/// report warnings, so a warning appears as the use of a deprecated constant. If your crate denies warnings, put
-/// `#[allow(deprecated)]` on the module. Cargo and editors detect changes to the description file.
+/// The compiler reports diagnostics at the path argument. An error quotes the line of the description; a warning
+/// contains the file name, the line and the column. A macro on stable Rust cannot report warnings, so a warning appears
+/// as the use of a deprecated constant. If your crate denies warnings, put `#[allow(deprecated)]` on the module. Cargo
+/// and editors detect changes to the description file, to the files that it references, and to the overlays.
 #[proc_macro]
 pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let call = syn::parse_macro_input!(input as Call);
@@ -110,8 +111,8 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
     })
 }
 
-/// Reads a file. Diagnostics and the header contain the path from the call, because an absolute path would depend on
-/// the machine.
+/// Reads a file. Diagnostics and the header of the generated code contain the path from the call, because an absolute
+/// path would depend on the machine.
 fn read(path: &LitStr) -> syn::Result<Source> {
     let place = absolute(&path.value());
     let fail = |error| syn::Error::new(path.span(), format!("cannot read {}: {error}", place.display()));
@@ -126,7 +127,7 @@ fn absolute(path: &str) -> PathBuf {
     folder.join(Path::new(path))
 }
 
-/// Maximum number of diagnostics that are shown individually.
+/// Maximum number of errors, and of warnings, that are shown individually.
 const MAX_SHOWN: usize = 16;
 
 /// Returns code that uses one deprecated constant for each of the first [`MAX_SHOWN`] warnings, and one for the number
@@ -185,7 +186,8 @@ mod tests {
         "../codegen/tests/quirks_eds/everything.dcf",
     ];
 
-    /// The test `cli/tests/cli` compares the output of the command line with the output of the build script.
+    /// Compares the output of the macro with the output of the build script. The test `cli/tests/cli` compares the
+    /// output of the command line with the output of the build script.
     #[test]
     fn the_macro_and_the_build_script_give_the_same_bytes() {
         for path in DICTIONARIES {

@@ -34,8 +34,8 @@ macro_rules! scaled {
         $write_scaled_by:ident $($async:ident $await:ident)?
     ) => {
         impl<C, V: Quantity<Other = ()>, A: Readable, L> Accessor<'_, C, V, A, L> {
-            /// Reads the physical value in the item's unit. The type is `f64`, or `Option<f64>` if the item has raw
-            /// values with a special meaning. `None` means that the device sent a raw value with a special meaning.
+            /// Reads the physical value in the item's unit. Returns an `f64`, or an `Option<f64>` if raw values of the
+            /// item have a special meaning. `None` means that the device sent such a raw value.
             ///
             /// # Errors
             ///

@@ -57,7 +57,7 @@ macro_rules! texts {
             /// # Errors
             ///
             /// Returns [`Error::Length`] if the text is longer than `buffer`, or [`Error::Text`] if the text isn't
-            /// UTF-16.
+            /// valid UTF-16.
             pub $($async)? fn $read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, AccessError<C::Error>>
             where
                 C: $Client,

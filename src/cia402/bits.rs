@@ -19,7 +19,7 @@ pub(super) const OF_MODE: u16 = START | IMMEDIATELY | RELATIVE | 1 << 9;
 
 /// Statusword: "target reached".
 pub(super) const REACHED: u16 = 1 << 10;
-/// Statusword: "set-point acknowledge", "homing attained" or "drive follows the command value".
+/// Statusword: "set-point acknowledge", "homing attained" or "drive follows the command value", depending on the mode.
 pub(super) const CONFIRMED: u16 = 1 << 12;
-/// Statusword: "following error", "max slippage error" or "homing error".
+/// Statusword: "following error", "max slippage error" or "homing error", depending on the mode.
 pub(super) const FAILED: u16 = 1 << 13;

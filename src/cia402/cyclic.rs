@@ -12,8 +12,8 @@ use crate::machine::StateWord;
 /// process data, and the outputs to the process data.
 ///
 /// - The drive follows the command values if bit 12 of the statusword is 1 in "Operation enabled" and in this mode.
-///   Otherwise, the set-point is the actual position, or 0 for a velocity and a torque. The first cycle in which the
-///   drive follows still has this set-point, so that the axis doesn't jump: start the trajectory at this set-point.
+///   Otherwise, the set-point is the actual position in CSP, and 0 in CSV and CST. The first cycle in which the drive
+///   follows still has this set-point, so that the axis doesn't jump: start the trajectory at this set-point.
 /// - If the drive has followed and then leaves "Operation enabled" or the mode, the cycle returns an error.
 /// - The cycle also returns an error if the drive reports a following error (bit 13 of the statusword in CSP), or if
 ///   the absolute value of the actual following error (0x60F4) is above the limit of the program.
@@ -21,7 +21,7 @@ use crate::machine::StateWord;
 ///   [`Walker`](crate::Walker) enables the drive.
 ///
 /// After an error, the program decides how the axis stops: for example, a walker can bring the drive to "Switched on".
-/// [`Self::hold`] returns a set-point without motion.
+/// [`Self::hold`] returns the set-point that doesn't move the axis.
 ///
 /// ```
 /// use lexibus::cia402::{Cyclic, CycleError, Inputs};
@@ -60,7 +60,7 @@ pub struct Inputs<S> {
     /// Active mode (0x6061), or `None` if the mode isn't part of the process data. In this case, activate the mode
     /// before the first cycle, for example with [`Drive::set_mode`](super::Drive::set_mode).
     pub mode: Option<i8>,
-    /// Actual position (0x6064) as raw value. CSV and CST ignore this value.
+    /// Actual position (0x6064) as raw value. Not used in CSV and CST.
     pub actual: i32,
     /// Actual following error (0x60F4) as raw value, if it is part of the process data.
     pub following_error: Option<i32>,
@@ -73,7 +73,8 @@ pub struct Cycle<W> {
     pub control: W,
     /// Target position (0x607A), target velocity (0x60FF) or target torque (0x6071), as raw value.
     pub target: i32,
-    /// True if the drive follows the command values, so that `target` is the set-point of the program.
+    /// True if the drive follows the command values. From the second such cycle on, `target` is the set-point of the
+    /// program.
     pub is_following: bool,
 }
 
@@ -141,7 +142,7 @@ impl Cyclic {
         self.mode
     }
 
-    /// Returns the set-point that doesn't move the axis: the actual position, or 0 for a velocity and a torque.
+    /// Returns the set-point that doesn't move the axis: the actual position in CSP, and 0 in CSV and CST.
     #[must_use]
     pub const fn hold<S: StateWord>(&self, inputs: &Inputs<S>) -> i32 {
         match self.mode {
@@ -151,14 +152,14 @@ impl Cyclic {
     }
 
     /// Returns the outputs of a cycle. `control` is the controlword that the program would send, for example from a
-    /// [`Walker`](crate::Walker), and `target` is the set-point of the program. In the first cycle in which the drive
-    /// follows again, the set-point is still that of [`hold`](Self::hold): start the trajectory at this set-point.
+    /// [`Walker`](crate::Walker), and `target` is the set-point of the program. When the drive starts to follow, the
+    /// set-point of the first cycle is still that of [`hold`](Self::hold): start the trajectory at this set-point.
     ///
     /// # Errors
     ///
-    /// Returns an error once if the drive has followed the command values and then leaves "Operation enabled" or the
-    /// mode. Returns an error in each cycle in which the operation is enabled, the mode is active, and the drive
-    /// reports a following error or the following error is above the limit.
+    /// Returns an error once if the drive leaves "Operation enabled" or the mode after it has followed the command
+    /// values. Returns an error in each cycle in which the operation is enabled, the mode is active, and the drive
+    /// reports a following error or the actual following error is above the limit.
     pub fn cycle<S: StateWord, W: StateWord>(
         &mut self,
         inputs: Inputs<S>,

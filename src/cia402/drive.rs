@@ -21,7 +21,7 @@ use crate::remaining::Remaining;
 /// determines the [`Objects`] of the device.
 ///
 /// Methods without a suffix need a [`Client`]. Methods with the suffix `_async` need an [`AsyncClient`] and don't
-/// block. Each method that waits has a deadline, and polls the drive every 5 ms. It pauses with
+/// block. Each method that waits has a deadline, and polls the drive every 5 ms. Such a method pauses with
 /// [`Client::wait`](crate::Client::wait), and returns [`MotionError::Wait`] if the client fails to wait. If a future is
 /// dropped before it completes, bit 4 of the controlword can remain set.
 ///
@@ -93,8 +93,8 @@ macro_rules! operations {
 
             /// Waits until the axis has reached its target, which bit 10 of the statusword reports. Use this method in
             /// modes 1 (profile position), 3 (profile velocity) and 4 (profile torque). If bit 10 is already 1 at the
-            /// first poll, the method waits until it has been 1 for 100 ms, because the bit can still refer to the
-            /// previous target.
+            /// first poll, the bit can still refer to the previous target. The method then waits until 100 ms have
+            /// passed, or until the bit has changed to 0 and back to 1.
             ///
             /// # Errors
             ///
@@ -105,7 +105,8 @@ macro_rules! operations {
             /// - [`MotionError::WrongMode`] if another mode is active, [`MotionError::Halted`] if the "halt" bit is 1,
             ///   [`MotionError::OtherSource`] if another source controls the drive, or [`MotionError::Access`] if an
             ///   access fails.
-            /// - [`MotionError::Deadline`] if the axis hasn't reached the target. The axis continues to move.
+            /// - [`MotionError::Deadline`] if the axis hasn't reached the target before the deadline. The axis
+            ///   continues to move.
             pub $($async)? fn $wait_reached(&mut self, deadline: Duration) -> Result<(), MotionError<C::Error>> {
                 let mut remaining = Remaining::new(self.client.now(), deadline);
                 let mode = self.$mode()$(.$await)??;
@@ -240,7 +241,7 @@ macro_rules! operations {
             }
 
             /// Sets the homing method and executes homing. `method` is the raw value of object 0x6098 (CiA 402-2
-            /// 13.3.2), which the drive keeps after homing.
+            /// 13.3.2). The drive keeps this value after homing.
             ///
             /// # Errors
             ///
@@ -373,8 +374,7 @@ macro_rules! operations {
             }
 
             /// Waits until the drive acknowledges a set-point. If bit 12 was already 1 before the start, the method
-            /// waits for at least 100 ms, because the drive must have detected the rising edge of bit 4 within this
-            /// time.
+            /// waits for at least 100 ms. It assumes that the drive detects the rising edge of bit 4 within this time.
             $($async)? fn $acknowledged(
                 &mut self,
                 is_confirmed: bool,

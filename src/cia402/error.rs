@@ -67,7 +67,7 @@ pub enum MotionError<E> {
 }
 
 impl<E> MotionError<E> {
-    /// Returns whether the drive has a fault.
+    /// Returns true for [`Fault`](Self::Fault).
     pub const fn is_fault(&self) -> bool {
         matches!(self, Self::Fault { .. })
     }

@@ -40,8 +40,8 @@ pub trait WriteInteger<B: Bus>: Copy {
     ///
     /// # Errors
     ///
-    /// Returns [`Error::OutOfRange`](crate::Error::OutOfRange), and sends nothing, if the value doesn't fit the type or is outside the item's
-    /// range. Otherwise, returns the errors of the client.
+    /// Returns [`Error::OutOfRange`](crate::Error::OutOfRange), and sends nothing, if the value doesn't fit the item's
+    /// type or is outside its range. Also returns the errors of the client.
     fn write<C: Client<Bus = B>>(self, client: &mut C, value: i32) -> Result<(), AccessError<C::Error>>;
 
     /// Writes the raw value without blocking.
@@ -57,7 +57,7 @@ pub trait WriteInteger<B: Bus>: Copy {
     ) -> Result<(), AccessError<C::Error>>;
 }
 
-/// An object that the device doesn't have. A read returns [`AbortCode::NO_OBJECT`] without a bus access.
+/// An object that the device doesn't have. A read fails with [`AbortCode::NO_OBJECT`], without a bus access.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Absent;
 

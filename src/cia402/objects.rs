@@ -4,8 +4,8 @@ use super::integer::{Absent, ReadInteger, WriteInteger};
 use crate::bus::Bus;
 
 /// The objects that every operation of a [`Drive`](super::Drive) needs, on bus `B`. The compiler implements this trait
-/// for each generated device type that has these objects, for example `Eco<()>`. Implement the trait by hand for items
-/// without generated code:
+/// for each generated device type that has these objects, for example `DemoDrive<()>`. Implement the trait by hand for
+/// items without generated code:
 ///
 /// ```
 /// use lexibus::cia402::{Objects, ReadInteger, WriteInteger};
@@ -38,24 +38,24 @@ use crate::bus::Bus;
     label = "the client's bus has no controlword, statusword or mode of operation of this device"
 )]
 pub trait Objects<B: Bus> {
-    /// Returns the controlword (0x6040, CiA 402-2 10.3.1).
+    /// Returns the item of the controlword (0x6040, CiA 402-2 10.3.1).
     fn controlword() -> impl ReadInteger<B> + WriteInteger<B>;
 
-    /// Returns the statusword (0x6041, CiA 402-2 10.3.2).
+    /// Returns the item of the statusword (0x6041, CiA 402-2 10.3.2).
     fn statusword() -> impl ReadInteger<B>;
 
-    /// Returns the requested mode of operation (0x6060, CiA 402-2 10.3.8).
+    /// Returns the item of the requested mode of operation (0x6060, CiA 402-2 10.3.8).
     fn modes_of_operation() -> impl WriteInteger<B>;
 
-    /// Returns the active mode of operation (0x6061, CiA 402-2 10.3.9).
+    /// Returns the item of the active mode of operation (0x6061, CiA 402-2 10.3.9).
     fn modes_of_operation_display() -> impl ReadInteger<B>;
 
-    /// Returns the error code (0x603F, CiA 402-2 9.3.2, or 0x1003:01 of CiA 301), or [`Absent`].
+    /// Returns the item of the error code (0x603F, CiA 402-2 9.3.2, or 0x1003:01 of CiA 301), or [`Absent`].
     fn error_code() -> impl ReadInteger<B> {
         Absent
     }
 
-    /// Returns the actual following error (0x60F4), or [`Absent`].
+    /// Returns the item of the actual following error (0x60F4), or [`Absent`].
     fn following_error() -> impl ReadInteger<B> {
         Absent
     }
@@ -67,7 +67,7 @@ pub trait Objects<B: Bus> {
     label = "the client's bus has no target position of this device"
 )]
 pub trait Positioning<B: Bus>: Objects<B> {
-    /// Returns the target position (0x607A, CiA 402-2 12.3.1).
+    /// Returns the item of the target position (0x607A, CiA 402-2 12.3.1).
     fn target_position() -> impl WriteInteger<B>;
 }
 
@@ -77,7 +77,7 @@ pub trait Positioning<B: Bus>: Objects<B> {
     label = "the client's bus has no target velocity of this device"
 )]
 pub trait Velocity<B: Bus>: Objects<B> {
-    /// Returns the target velocity (0x60FF, CiA 402-2 16).
+    /// Returns the item of the target velocity (0x60FF, CiA 402-2 16).
     fn target_velocity() -> impl WriteInteger<B>;
 }
 
@@ -87,6 +87,6 @@ pub trait Velocity<B: Bus>: Objects<B> {
     label = "the client's bus has no homing method of this device"
 )]
 pub trait Homing<B: Bus>: Objects<B> {
-    /// Returns the homing method (0x6098, CiA 402-2 13.3.2).
+    /// Returns the item of the homing method (0x6098, CiA 402-2 13.3.2).
     fn homing_method() -> impl WriteInteger<B>;
 }

@@ -21,8 +21,8 @@ macro_rules! stops {
         impl<C: $Client, O: Objects<C::Bus>> Drive<'_, C, O> {
             /// Stops the axis with the "quick stop" command (transition 11), and waits until the axis has stopped. The
             /// quick stop option code (0x605A) selects the ramp and the final state, which the method returns:
-            /// [`State::SwitchOnDisabled`] (0 to 4) or [`State::QuickStopActive`] (5 to 8). To continue, use the
-            /// generated method `walk`.
+            /// [`State::SwitchOnDisabled`] (codes 0 to 4) or [`State::QuickStopActive`] (codes 5 to 8). To continue,
+            /// use the generated method `walk`.
             ///
             /// The method writes the command at once and in every state, because the drive can change its state at any
             /// time. All other bits of the controlword are written as 0: "halt", the mode-specific bits, and the
@@ -33,9 +33,9 @@ macro_rules! stops {
             /// the drive wasn't in "operation enabled" when it received the command.
             ///
             /// In "quick stop active", the axis has stopped when bit 10 of the statusword is 1 (CiA 402-2 10.3.2). If
-            /// bit 10 is 1 at the first poll in this state, the method waits until it has been 1 for 100 ms, because
-            /// the bit can still refer to the previous target. A deadline of less than 100 ms can therefore pass even
-            /// if the axis is at a standstill.
+            /// bit 10 is 1 at the first poll in this state, the bit can still refer to the previous target. The method
+            /// then waits until 100 ms have passed since the command, or until the bit has changed to 0 and back to 1.
+            /// A deadline of less than 100 ms can therefore pass even if the axis is at a standstill.
             ///
             /// # Errors
             ///
@@ -75,9 +75,10 @@ macro_rules! stops {
             ///
             /// In modes 1 (profile position), 3 (profile velocity), 4 (profile torque), 6 (homing, which the drive
             /// aborts) and 7 (interpolated position), bit 10 reports that the axis has stopped. If bit 10 is 1 at the
-            /// first poll, the method waits until it has been 1 for 100 ms, because the bit can still refer to the
-            /// previous target. A deadline of less than 100 ms can therefore pass even if the axis is at a standstill.
-            /// In other modes, bit 8 also stops most drives, but the method can return [`MotionError::Deadline`].
+            /// first poll, the bit can still refer to the previous target. The method then waits until 100 ms have
+            /// passed, or until the bit has changed to 0 and back to 1. A deadline of less than 100 ms can therefore
+            /// pass even if the axis is at a standstill. In other modes, bit 8 also stops most drives, but the method
+            /// can return [`MotionError::Deadline`].
             ///
             /// If an error occurs after the write of bit 8, the bit stays set. `move_to`, `home`, `set_velocity` and
             /// `wait_reached` then return [`MotionError::Halted`] until `resume` clears the bit, even if a fault was

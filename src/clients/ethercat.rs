@@ -88,7 +88,7 @@ use crate::identity::Identity;
 use crate::pdo::SdoWriteError;
 use crate::value_error::LengthError;
 
-/// Default timeout of a mailbox exchange, and of a transfer with one message.
+/// Default timeout of a mailbox exchange, and of a transfer that needs only one exchange.
 pub const TIMEOUT: Duration = Duration::from_secs(1);
 
 /// Returns whether a SubDevice matches a description: vendor and product code are equal, unless the description omits
@@ -115,8 +115,8 @@ pub fn is_a(subdevice: &SubDevice, identity: &Identity) -> bool {
 /// # Pauses between polls
 ///
 /// The client polls the mailbox until it contains the reply. `T` is the [`Timer`] that pauses between two polls, for
-/// half a millisecond. The default timer doesn't pause, because a timer depends on the executor. Without a pause, each
-/// poll takes one frame round trip:
+/// half a millisecond. The default timer doesn't pause, because a timer depends on the executor. Without a pause, the
+/// client polls the mailbox continuously, once in each frame round trip. Set a timer to avoid this:
 ///
 /// ```no_run
 /// # use ethercrab::{MainDevice, SubDevice};

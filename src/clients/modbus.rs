@@ -120,7 +120,8 @@ impl<T> ModbusClient<T> {
         Self { context, limits: Limits::STANDARD, single: true }
     }
 
-    /// Sets the limits of the device: the requests that it supports.
+    /// Sets the limits of the device: the functions that it supports, and the maximum number of registers or bits in a
+    /// request.
     #[must_use]
     pub fn with_limits(self, limits: Limits) -> Self {
         Self { limits, ..self }
@@ -153,7 +154,7 @@ pub enum ModbusError {
     /// Input registers and discrete inputs are read-only. Nothing was sent.
     ReadOnly,
     /// Devices don't reply to a broadcast, so a broadcast cannot read. The read was not sent. If
-    /// [`RegisterClient::exchange`] doesn't use function 23, its write was sent before.
+    /// [`RegisterClient::exchange`] doesn't use function 23, the write was sent before this error occurred.
     Broadcast,
     /// The device doesn't support the function for this access. The request was not sent.
     Function {
@@ -216,8 +217,8 @@ impl From<ModbusError> for Error<ModbusError> {
 }
 
 impl ModbusError {
-    /// Returns whether another attempt may succeed: after an error of the transport, and after exceptions 6 (server
-    /// device busy) and 11 (gateway target device failed to respond).
+    /// Returns whether another attempt may succeed. This is the case after [`Bus`](Self::Bus), and after the exceptions
+    /// 6 (server device busy) and 11 (gateway target device failed to respond).
     #[must_use]
     pub const fn is_transient(&self) -> bool {
         use ExceptionCode::{GatewayTargetDevice, ServerDeviceBusy};

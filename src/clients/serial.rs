@@ -30,11 +30,11 @@
 //! A blocking line limits the time of an exchange in two ways. The stream has its own timeout for each read. If a read
 //! times out, the exchange returns the error of the stream. The timeout of the line, by default [`TIMEOUT`], limits the
 //! time of the whole exchange, even if noise arrives continuously. The timeout of the line needs a clock. With the
-//! feature `std`, the line has a clock. Without `std`, set a clock with [`SerialLine::with_time`]; without a clock, an
-//! exchange ends after 4096 bytes of noise.
+//! feature `std`, the line has a clock. Without `std`, set a clock with [`SerialLine::with_time`]; without a clock,
+//! only the [number of received bytes](SerialLine) limits an exchange.
 //!
 //! Async streams have no timeout, so an async line needs a timer. Without a timer, an async exchange waits for the reply
-//! forever:
+//! forever. Set the timeout of a line as follows:
 //!
 //! ```
 //! use core::time::Duration;
@@ -186,7 +186,8 @@ impl<S, F: Framing, const N: usize, T> SerialLine<S, F, N, T> {
 }
 
 impl<S, F: Framing, const N: usize> Line<S, F, N> {
-    /// Returns the decoder for the next bytes. The decoder does not mistake the rest of a truncated reply for a reply.
+    /// Returns the decoder for the next bytes. After an invalid reply whose end wasn't received, the decoder doesn't
+    /// mistake the rest of this reply for a new one.
     fn decoder(&mut self) -> F::Decoder {
         self.within.take().unwrap_or_else(|| self.framing.decoder())
     }
@@ -320,8 +321,8 @@ macro_rules! exchanges {
                 Err(Error::Timeout)
             }
 
-            /// Discards bytes up to the end of a frame, or until `is_late` returns true. `blocks` is false if a read may
-            /// wait forever.
+            /// Discards bytes up to the end of a frame, or until `is_late` returns true. If `blocks` is false, a read
+            /// may wait forever: the method then reads only when a read returns at once.
             $($async)? fn $discard(
                 &mut self,
                 blocks: bool,

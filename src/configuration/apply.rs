@@ -10,20 +10,20 @@ use crate::error::Error;
 use crate::node_id::NodeId;
 use crate::pdo::SdoWrite;
 
-/// Progress of a configuration, after each write.
+/// Progress of a configuration, reported after each write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Phase of the write.
     pub phase: Phase,
     /// The write that the device accepted.
     pub write: SdoWrite,
-    /// Number of writes that are done.
+    /// Number of completed writes, including this write.
     pub done: usize,
     /// Number of all writes.
     pub total: usize,
 }
 
-/// A write of a configuration failed.
+/// A write of a configuration that failed, with the error of the client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ApplyError<E> {
     /// Phase of the write.
@@ -93,7 +93,7 @@ impl Configuration {
         Ok(())
     }
 
-    /// Returns the progress after each write.
+    /// Returns the writes of the configuration in order, each with the progress after this write.
     pub(crate) fn steps(self, node_id: NodeId) -> impl Iterator<Item = Progress> {
         let total = self.settings().count();
         self.settings().zip(1..).map(move |((phase, setting), done)| Progress {
@@ -106,7 +106,7 @@ impl Configuration {
 }
 
 impl Progress {
-    /// Returns the error of the write.
+    /// Adds the phase and the write to an error of the client.
     pub(crate) fn failed<E>(self, error: Error<E>) -> ApplyError<E> {
         ApplyError { phase: self.phase, write: self.write, error }
     }

@@ -45,7 +45,7 @@ impl Configuration {
         Ok(part)
     }
 
-    /// Returns the bytes of the [concise DCF](Self::concise_dcf) one after the other, for a program without a buffer.
+    /// Returns an iterator over the bytes of the [concise DCF](Self::concise_dcf). The iterator needs no buffer.
     pub fn concise_dcf_bytes(self, node_id: NodeId) -> impl Iterator<Item = u8> {
         let count = (self.settings().count() as u32).to_le_bytes();
         count.into_iter().chain(self.writes(node_id).flat_map(entry))

@@ -1,4 +1,4 @@
-//! A configuration for tests, and a client of a device that stores its objects.
+//! A configuration for tests, and a simulated device that stores the written values.
 
 use std::vec::Vec;
 

@@ -10,7 +10,7 @@ use crate::node_id::NodeId;
 use crate::pdo::{Hexadecimal, SdoWrite};
 use crate::value_error::LengthError;
 
-/// An object whose value differs from the configuration or could not be read.
+/// An object whose value differs from the configuration or cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference<'d, E> {
     /// The object and its configured value.
@@ -40,7 +40,7 @@ impl Configuration {
     /// # Errors
     ///
     /// Returns the error of the client if the bus fails or the device doesn't reply in time. Any other error, for
-    /// example if the device refuses an access, is part of the difference.
+    /// example a refused access, is reported in [`Difference::found`].
     pub fn verify<C: Client>(
         self,
         client: &mut C,
@@ -95,8 +95,8 @@ impl Configuration {
             .map(move |(_, setting)| setting.resolve(node_id))
     }
 
-    /// Returns whether no later setting writes to the same object. Only COB-IDs and numbers of mapped objects are written
-    /// twice.
+    /// Returns whether no later setting writes to the same object. Only the COB-ID of a PDO and sub-index 0 of a
+    /// mapping object are written twice.
     fn is_last(&self, phase: Phase, setting: &'static Setting) -> bool {
         let is_same = |other: &&Setting| other.write.object() == setting.write.object();
         match phase {
@@ -114,7 +114,7 @@ fn value_buffer(buffer: &mut [u8], expected: SdoWrite) -> Result<&mut [u8], Leng
 }
 
 /// Compares the result of reading an object with its configured value. Calls `report` and returns true if the values
-/// differ or the object cannot be read.
+/// differ or the object cannot be read. Returns an error if the bus fails or the device doesn't reply in time.
 fn compare<E>(
     expected: SdoWrite,
     result: Result<usize, Error<E>>,

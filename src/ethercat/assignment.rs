@@ -1,4 +1,5 @@
-//! PDO assignments: the PDOs that are exchanged, the resulting process image, and the commands that configure it.
+//! PDO assignments: the PDOs that are exchanged, the resulting process image, and the commands that configure the
+//! slave.
 
 use core::fmt;
 
@@ -42,13 +43,13 @@ pub struct Assignment<const N: usize = 32> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AssignmentError {
-    /// The device has no PDO with this index.
+    /// The device has no PDO with this index, or the PDO isn't assigned.
     Unknown(u16),
     /// The list of PDOs contains this PDO more than once.
     Twice(u16),
     /// One of the two PDOs excludes the other one.
     Conflict(u16, u16),
-    /// A mandatory PDO is not assigned.
+    /// This mandatory PDO is not assigned.
     Missing(u16),
     /// The device has no sync manager for this PDO.
     NoSyncManager(u16),
@@ -63,7 +64,7 @@ pub enum AssignmentError {
     },
     /// More than `N` PDOs are assigned, or more than 255 PDOs to one sync manager.
     TooMany,
-    /// The mapping of this PDO is read-only.
+    /// The mapping of this PDO, or every mapping of the device, is read-only.
     Fixed(u16),
 }
 
@@ -93,7 +94,8 @@ impl<const N: usize> Assignment<N> {
     ///
     /// # Errors
     ///
-    /// Returns an [`AssignmentError`] if the device description contradicts itself, or if `N` is too small.
+    /// Returns an [`AssignmentError`] if the default assignment in the device description is invalid, or if `N` is too
+    /// small.
     pub fn by_default(device: &'static Device) -> Result<Self, AssignmentError> {
         Self::new(device, device.default_pdos)
     }
@@ -122,7 +124,7 @@ impl<const N: usize> Assignment<N> {
     /// # Errors
     ///
     /// - [`AssignmentError::Unknown`] if the PDO isn't assigned.
-    /// - [`AssignmentError::Fixed`] if the mapping of this PDO is read-only, or if all mappings of the device are.
+    /// - [`AssignmentError::Fixed`] if the mapping of this PDO, or every mapping of the device, is read-only.
     /// - [`AssignmentError::TooLong`] if the process data exceed the maximum length of the sync manager.
     pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
         let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);
@@ -209,8 +211,8 @@ impl<const N: usize> Assignment<N> {
 
     /// Returns the SDO writes that configure the assignment (ETG.1000.6 5.6.7.4). Send the writes in Pre-Operational.
     ///
-    /// The writes clear the assignment, write all writable mappings, and then write the assignment. Writes to read-only
-    /// objects are left out.
+    /// The writes clear the assignment, write the writable mappings of the assigned PDOs, and then write the
+    /// assignment. Writes to read-only objects are left out.
     pub fn commands(&self) -> impl Iterator<Item = SdoWrite> + '_ {
         let coe = self.device.mailbox.coe;
         let assigns = coe.is_some_and(|coe| coe.pdo_assign);
@@ -242,7 +244,7 @@ impl super::SyncManager {
         matches!(self.purpose, super::SyncManagerPurpose::Outputs | super::SyncManagerPurpose::Inputs)
     }
 
-    /// Returns the index of the object that lists the assigned PDOs.
+    /// Returns the index of the object that lists the PDOs assigned to this sync manager.
     #[must_use]
     pub const fn assignment(&self) -> u16 {
         ASSIGN + self.number as u16

@@ -1,7 +1,7 @@
 //! Dependency of object and PDO indices on the slot of a module.
 
-/// Dependency of the index of a module's object or PDO on the slot (`DependOnSlot` and `DependOnSlotGroup` of
-/// ETG.2000).
+/// Specifies whether the index of a module's object or PDO depends on the slot and the slot group (`DependOnSlot` and
+/// `DependOnSlotGroup` of ETG.2000).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DependsOn {
     /// The index is the same in every slot.

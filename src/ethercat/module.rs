@@ -76,14 +76,14 @@ pub struct PdoGroup {
     pub tx_pdo: Option<u16>,
 }
 
-/// A module. Its slot-dependent indices are the indices in slot 0 and slot group 0.
+/// A module. Slot-dependent indices are given for slot 0 and slot group 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
     /// Module ident.
     pub ident: u32,
     /// Name of the module.
     pub name: &'static str,
-    /// Class of the module, which a slot can accept with [`Fit::Class`]; empty if the module has no class.
+    /// Class of the module, used by [`Fit::Class`]; empty if the module has no class.
     pub class: &'static str,
     /// Index of the module's group in [`Slots::pdo_groups`].
     pub pdo_group: u16,

@@ -38,7 +38,7 @@ pub struct PdoInfo {
 }
 
 impl PdoInfo {
-    /// Returns whether one of the two PDOs excludes the other one.
+    /// Returns whether this PDO excludes `other`, or `other` excludes this PDO.
     #[must_use]
     pub fn conflicts_with(&self, other: &PdoInfo) -> bool {
         self.excludes.contains(&other.index) || other.excludes.contains(&self.index)

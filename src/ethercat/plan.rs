@@ -1,4 +1,4 @@
-//! Slot plans: the plugged modules, the resulting process image, and the commands that configure it.
+//! Slot plans: the plugged modules, the resulting process image, and the commands that configure the device.
 
 use core::fmt;
 
@@ -11,7 +11,7 @@ use super::startup::StartupCommand;
 use super::{Device, SyncManager};
 use crate::pdo::{MappedEntry, SdoWrite};
 
-/// Index of the configured module ident list (ETG.5001.1).
+/// Index of the object that lists the idents of the configured modules (ETG.5001.1).
 const MODULE_IDENTS: u16 = 0xF030;
 
 /// Assigns modules to the slots of a modular device. The device has at most `N` slots.
@@ -85,12 +85,12 @@ impl fmt::Display for PlanError {
 
 impl core::error::Error for PlanError {}
 
-/// A PDO of a modular device and its position in the process image of its sync manager.
+/// A PDO of a modular device, or padding, and its position in the process image of a sync manager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlotPdo {
-    /// Slot of the module; `None` if the PDO belongs to the device itself.
+    /// Slot of the module; `None` for padding, and for a PDO of the device itself.
     pub slot: Option<u16>,
-    /// Index of the PDO in this slot.
+    /// Index of the PDO in this slot; 0 for padding without a PDO.
     pub index: u16,
     /// Number of the sync manager.
     pub sync_manager: u8,
@@ -124,7 +124,7 @@ impl<const N: usize> SlotPlan<N> {
         }
     }
 
-    /// Creates a plan with the default module of each slot.
+    /// Creates a plan with the default module of each slot. Slots without a default module stay empty.
     ///
     /// # Errors
     ///
@@ -162,19 +162,19 @@ impl<const N: usize> SlotPlan<N> {
         }
     }
 
-    /// Removes the module from a slot. Returns this module, or `None` if the slot was empty.
+    /// Removes the module from a slot. Returns this module, or `None` if the slot was empty or doesn't exist.
     pub fn unplug(&mut self, slot: u16) -> Option<&'static Module> {
         self.modules.get_mut(usize::from(slot))?.take()
     }
 
-    /// Returns the module in a slot, or `None` if the slot is empty.
+    /// Returns the module in a slot, or `None` if the slot is empty or doesn't exist.
     #[must_use]
     pub fn module(&self, slot: u16) -> Option<&'static Module> {
         self.modules.get(usize::from(slot)).copied().flatten()
     }
 
-    /// Checks that every series of slots has its minimum number of modules. Also checks that all data fit into their
-    /// sync managers and list objects.
+    /// Checks that every series of slots has its minimum number of modules. Also checks the length of the process data
+    /// of each sync manager, and the number of entries of each list object.
     ///
     /// # Errors
     ///
@@ -201,15 +201,15 @@ impl<const N: usize> SlotPlan<N> {
     }
 
     /// Returns the offset that a slot adds to the object index `index` of its module. `index` is the object's index in
-    /// slot 0. Returns `None` if the slot is empty.
+    /// slot 0. Returns `None` if the slot is empty or doesn't exist.
     #[must_use]
     pub fn index_offset(&self, slot: u16, index: u16) -> Option<u16> {
         let depends_on = self.module(slot)?.depends_on(index);
         Some(self.objects(slot).of(depends_on))
     }
 
-    /// Returns the PDOs of a sync manager in the order of the process image. The default PDOs of the device come first.
-    /// The PDOs of the modules follow, sorted by group and slot.
+    /// Returns the PDOs and the padding of a sync manager in the order of the process image. The default PDOs of the
+    /// device come first. The PDOs of the modules follow, sorted by group and slot.
     pub fn pdos(&self, sync_manager: u8) -> impl Iterator<Item = SlotPdo> + '_ {
         let manager = self.device.sync_manager(sync_manager);
         let pdos = manager.into_iter().flat_map(move |manager| {
@@ -228,8 +228,8 @@ impl<const N: usize> SlotPlan<N> {
         })
     }
 
-    /// Returns a PDO of the module in a slot, or `None` if the slot is empty or the module has no such PDO. `index` is
-    /// the PDO's index in slot 0, as in the device description.
+    /// Returns a PDO of the module in a slot, or `None` if the slot has no module or the module has no such PDO.
+    /// `index` is the PDO's index in slot 0, as in the device description.
     #[must_use]
     pub fn pdo(&self, slot: u16, index: u16) -> Option<SlotPdo> {
         let is_it = |placed: &SlotPdo| match placed.content {
@@ -390,8 +390,8 @@ impl<const N: usize> SlotPlan<N> {
 }
 
 impl SlotPdo {
-    /// Returns the writes of the PDO's mapping, or no writes if the mapping cannot be written. The mapping of padding
-    /// depends only on the length of the padding.
+    /// Returns the writes of the mapping, or no writes if the mapping cannot be written or the padding has no PDO. The
+    /// mapping of padding depends only on the length of the padding.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
         let (index, bits) = (self.index, self.bits);
         let writes = match self.content {

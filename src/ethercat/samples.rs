@@ -116,8 +116,8 @@ pub(crate) static INPUTS: Module = Module {
 pub(crate) static WIDE: Module =
     Module { ident: 3, name: "Wide", class: "", pdo_group: 0, pdos: &[], init_commands: &[], objects: &[] };
 
-/// A coupler with two kinds of slots: one slot for output modules, and five slots of group 2 for modules of both
-/// classes.
+/// A coupler with two kinds of slots: one slot for an output module, and five slots of group 2 for input and output
+/// modules.
 pub(crate) static COUPLER: Device = Device {
     identity: NOBODY,
     sync_managers: &[manager(2, SyncManagerPurpose::Outputs, None), manager(3, SyncManagerPurpose::Inputs, None)],

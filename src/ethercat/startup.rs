@@ -22,9 +22,9 @@ pub struct StartupCommand {
 /// The value of a [`StartupCommand`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartupData {
-    /// An integer of at most 8 bytes.
+    /// The value of an SDO write.
     Number(SdoWrite),
-    /// The bytes of a value, as the device description declares them.
+    /// The bytes of an initialization command, as the device description declares them.
     Bytes(&'static [u8]),
 }
 
@@ -47,7 +47,7 @@ impl StartupCommand {
         }
     }
 
-    /// Returns the write, without the information about complete access.
+    /// Returns the command as an SDO write, without the information about complete access.
     #[must_use]
     pub const fn write(&self) -> SdoWrite {
         match self.data {
@@ -87,8 +87,8 @@ impl StartupCommand {
     }
 }
 
-/// Creates a command for the transition from Pre-Operational to Safe-Operational. The generated constant `STARTUP` is a
-/// list of such writes.
+/// Converts an SDO write into a command for the transition from Pre-Operational to Safe-Operational. The generated
+/// constant `STARTUP` is a list of SDO writes.
 impl From<SdoWrite> for StartupCommand {
     fn from(write: SdoWrite) -> Self {
         Self::of_write(Transition::PS, write)

@@ -22,7 +22,7 @@ pub struct SyncManager {
     pub purpose: SyncManagerPurpose,
     /// Start address in the memory of the slave controller.
     pub start_address: u16,
-    /// Default length in bytes; 0 if it depends on the assigned PDOs.
+    /// Default length in bytes; 0 if the length depends on the assigned PDOs.
     pub default_size: u16,
     /// Minimum length in bytes.
     pub min_size: Option<u16>,
@@ -45,7 +45,7 @@ pub enum FmmuPurpose {
     Inputs,
     /// Status of the mailbox.
     MailboxState,
-    /// The purpose is not in the device description.
+    /// Any other purpose, or no purpose in the device description.
     Other,
 }
 

@@ -1,6 +1,6 @@
 //! Error detection codes at the end of a frame.
 
-/// Error detection code after the data of a frame. The parameter of each variant is the initial value of the code.
+/// Error detection code after the data of a frame. The parameter of a variant is the initial value of the code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Check {
@@ -11,8 +11,8 @@ pub enum Check {
     Xor(u8),
     /// One byte: the low eight bits of the sum of the data.
     Sum(u8),
-    /// One byte: the two's complement of the low eight bits of the sum of the data. With the initial value 0, the data
-    /// and the code add up to 0 (modulo 256).
+    /// One byte: the two's complement of the sum of the data (modulo 256). With the initial value 0, the data and the
+    /// code add up to 0 (modulo 256).
     Lrc(u8),
     /// Two bytes, the low byte first: a reflected CRC with the polynomial 0x8005. Modbus RTU uses this CRC with the
     /// initial value 0xFFFF.

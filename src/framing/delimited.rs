@@ -5,9 +5,8 @@ use crate::value_error::LengthError;
 
 /// Framing with an end byte, and usually a start byte: start, data, checksum, end.
 ///
-/// If frames have a start byte, bytes between frames are ignored. Start and end byte may be equal. If both are equal,
-/// one byte can be both the end of a frame and the start of the next frame. In this case, frames without data are
-/// ignored.
+/// If the start byte differs from the end byte, bytes between frames are ignored. If both are equal, one byte can be
+/// both the end of a frame and the start of the next frame. In this case, frames without data are ignored.
 ///
 /// An unescaped checksum can contain the end byte. Therefore, the decoder ends a frame at the first end byte that
 /// follows a matching checksum. In rare cases, the data contain a matching checksum, followed by an end byte. The
@@ -247,8 +246,8 @@ impl Delimited {
         Ok(None)
     }
 
-    /// Decodes a byte in a frame whose checksum isn't escaped. A byte is interpreted only when it can no longer be a
-    /// part of the checksum.
+    /// Decodes a byte in a frame whose checksum isn't escaped. An end byte after a matching checksum ends the frame.
+    /// Any other byte is interpreted when it can no longer be a part of the checksum.
     fn inside_raw(
         &self,
         decoder: &mut DelimitedDecoder,

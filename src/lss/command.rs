@@ -1,4 +1,4 @@
-//! Command specifiers of LSS messages: their first byte (CiA 305).
+//! Command specifiers: the first bytes of LSS messages (CiA 305).
 
 pub(super) const SWITCH_GLOBAL: u8 = 0x04;
 pub(super) const CONFIGURE_NODE_ID: u8 = 0x11;

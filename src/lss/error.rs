@@ -17,7 +17,7 @@ pub enum LssError<E = Infallible> {
     Timeout,
     /// The slave refused the service.
     Refused(Refusal),
-    /// More than one answer arrived: several slaves are in the state Configuration, or one slave answered twice.
+    /// More than one answer arrived: several slaves executed the service, or one slave answered twice.
     SeveralAnswers,
     /// The answers to a fastscan contradict each other, because an answer was lost or late. Repeat the scan.
     Inconclusive,

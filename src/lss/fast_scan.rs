@@ -48,7 +48,7 @@ enum Step {
 
 /// Search for one slave in the state Waiting that has no node-ID, by binary search over its address (CiA 305).
 ///
-/// Send the message that [`next`](Self::next) returns, pass all answers within a fixed time to
+/// Send the message that [`next`](Self::next) returns, pass all answers that arrive within a fixed time to
 /// [`handle`](Self::handle), then call [`time_out`](Self::time_out). Wait for the full time after each message, because
 /// several slaves may answer, and a missing answer is a valid result. A scan that finds a slave takes 133 times the
 /// fixed time, and switches this slave to Configuration.
@@ -110,7 +110,7 @@ impl FastScan {
         self.is_answered |= is_identified(message);
     }
 
-    /// Ends the current step, because the time for answers has passed.
+    /// Ends the current step. Call this method when the time for answers has passed.
     pub fn time_out(&mut self) {
         self.is_sent = false;
         self.step = match (self.step, self.is_answered) {

@@ -1,10 +1,10 @@
 //! Layer setting services (LSS, CiA 305) as state machines that perform no I/O.
 //!
-//! LSS assigns node-IDs and bit rates to devices that have none. Each device is identified by its [`LssAddress`], which
-//! consists of the four numbers of object 0x1018. [`Transaction`] is the master side of one service, [`FastScan`] finds
-//! a device with an unknown address, and [`Slave`] is the device side. The caller sends the messages that `next` returns,
-//! passes received messages to `handle`, and measures the time. `clients::canopen::LssMaster` does this for any CAN
-//! interface.
+//! LSS sets the node-ID and the bit rate of a device through the CAN bus. Each device is identified by its
+//! [`LssAddress`], which consists of the four numbers of object 0x1018. [`Transaction`] is the master side of one
+//! service, [`FastScan`] finds a device with an unknown address, and [`Slave`] is the device side. The caller sends the
+//! messages that `next` returns, passes received messages to `handle`, and measures the time.
+//! `clients::canopen::LssMaster` does this for any CAN interface.
 //!
 //! ```
 //! use lexibus::lss::{FastScan, LssAddress, LssState, NoHost, Service, Slave, Transaction};

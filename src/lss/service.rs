@@ -11,7 +11,7 @@ pub type Message = [u8; 8];
 /// State of an LSS slave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LssState {
-    /// The slave takes part in fastscan and waits for a switch to Configuration.
+    /// The slave waits for a switch to Configuration. A slave without a node-ID takes part in fastscan.
     Waiting,
     /// The slave answers inquiries and accepts a node-ID and a bit timing.
     Configuration,
@@ -27,7 +27,7 @@ impl LssState {
     }
 }
 
-/// An LSS service of the master, except for fastscan.
+/// An LSS service of the master, except fastscan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Service {
     /// Switches all slaves to a state. Slaves don't answer.
@@ -45,7 +45,8 @@ pub enum Service {
     },
     /// Activates the bit timing of all slaves in Configuration. Slaves don't answer.
     ActivateBitTiming {
-        /// Delay in milliseconds until the bit timing changes. After the change, nodes must not send for the same time.
+        /// Delay in milliseconds until the bit timing changes. After the change, nodes must not send for another
+        /// `delay` milliseconds.
         delay: u16,
     },
     /// Stores node-ID and bit timing in the non-volatile memory of the slave in Configuration.
@@ -129,13 +130,15 @@ impl Service {
         matches!(self, Self::IdentifyUnconfigured)
     }
 
-    /// Returns whether the service changes or stores the settings of the slave in Configuration.
+    /// Returns whether the service configures or stores settings of the slave in Configuration. The answer to such a
+    /// service contains an error code.
     #[cfg(feature = "canopen")]
     pub(crate) const fn is_change(self) -> bool {
         matches!(self, Self::ConfigureNodeId(_) | Self::ConfigureBitTiming { .. } | Self::Store)
     }
 
-    /// Returns the value in an answer: a number of the address, a node-ID, or 0 if the answer has no value.
+    /// Returns the value in an answer: a number of the address, a node-ID, or 0 if the answer has no value. Returns an
+    /// error if the slave refuses the service or if the node-ID is invalid.
     pub(super) fn value(self, answer: &Message) -> Result<u32, LssError> {
         let [_, code, specific, ..] = *answer;
         match self {

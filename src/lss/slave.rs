@@ -18,8 +18,8 @@ pub trait Host {
     /// timing.
     fn configure_bit_timing(&mut self, table: u8, index: u8) -> Result<(), Refusal>;
 
-    /// Activates the bit timing after `delay` milliseconds. After the change, the device must not send for the same
-    /// time.
+    /// Activates the bit timing after `delay` milliseconds. After the change, the device must not send for another
+    /// `delay` milliseconds.
     fn activate_bit_timing(&mut self, delay: u16);
 
     /// Stores the node-ID (`None` if there is none) and the bit timing in the non-volatile memory.

@@ -12,7 +12,7 @@ use super::service::{Message, Service};
 #[derive(Clone, Debug)]
 pub struct Transaction {
     service: Service,
-    /// Number of messages that have been returned.
+    /// Number of messages that [`next`](Self::next) has returned.
     step: u8,
     answer: Option<Message>,
     result: Option<Result<u32, LssError>>,
@@ -61,7 +61,7 @@ impl Transaction {
         self.answer.is_some()
     }
 
-    /// Ends the transaction, because the time for an answer or for further answers has passed.
+    /// Ends the transaction. Call this method when the time for an answer or for further answers has passed.
     pub fn time_out(&mut self) {
         if self.result.is_none() {
             let answer = self.answer.ok_or(LssError::Timeout);

@@ -15,7 +15,8 @@ use crate::remaining::Remaining;
 use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Fixed;
 
-/// The items of a state machine: the status item `V` and the control item `W`, with their access rights and locations.
+/// The items of a state machine: the status item of type `V` and the control item of type `W`, with their access rights
+/// and locations.
 pub struct Machine<V: Fixed, A, L, W: Fixed, B, M> {
     status: Item<V, A, L>,
     control: Item<W, B, M>,
@@ -38,7 +39,8 @@ pub enum WalkError<S, E> {
         /// the device has no error code, or if the code could not be read.
         code: Option<u16>,
     },
-    /// No path that a [`Walker`] may use leads from this state to the target state.
+    /// No path that a [`Walker`] may use leads from this state to the target state. The conversion from
+    /// [`Stopped::Left`] also returns this variant.
     Unreachable {
         /// State of the device.
         state: S,

@@ -46,9 +46,11 @@ pub trait MachineState: Copy + 'static {
 ///   walker clears the bit for one cycle before it sends the command.
 /// - The walker waits for automatic transitions of the device.
 /// - The walker resets a fault that is active at the start. A fault that occurs later stops the walker.
-/// - The walker chooses no transition from a state without a fault to a fault state, unless the state is its target.
+/// - The walker chooses no transition from a state without a fault to a fault state, unless the fault state is the
+///   target.
 /// - The walker enters an energized state, such as "Operation enabled", only if the state is its target.
-/// - In the target state, the control word contains no command that leads to another state.
+/// - In the target state, the walker replaces a command that leads to another state with a command that leads to the
+///   target state, if there is one.
 /// - A device that leaves the target state without a command stops the walker. To continue, create a new walker.
 /// - The walker doesn't change bits of the control word that belong to no command.
 ///
@@ -80,17 +82,16 @@ pub trait MachineState: Copy + 'static {
 #[derive(Clone, Copy, Debug)]
 pub struct Walker<S> {
     target: S,
-    /// State number of the device, and pattern of the command that the walker sends in this state.
+    /// Number of the state in which the walker last sent a command, and pattern of this command.
     sent: Option<(u8, (u32, u32))>,
     /// True if the device has been in a state that is neither a fault state nor a state in which the walker waits.
     was_healthy: bool,
-    /// True if the device has been in the target state, with a control word that contains no command to leave this
-    /// state.
+    /// True if the device is in the target state, and the walker has not changed the control word in this state.
     was_reached: bool,
     deadline: Option<Deadline>,
 }
 
-/// Limit of the time that a device takes to reach its target state.
+/// Limit of the time in which the device must reach the target state.
 #[derive(Clone, Copy, Debug)]
 struct Deadline {
     clock: fn() -> Duration,
@@ -112,7 +113,7 @@ impl Deadline {
 pub struct Walked<W> {
     /// Control word to send in this cycle.
     pub control: W,
-    /// True if the device is in the target state, and the control word contains no command that leads to another state.
+    /// True if the device is in the target state, and the walker has not changed the control word in this cycle.
     pub is_reached: bool,
 }
 
@@ -222,7 +223,7 @@ impl<S: MachineState> Walker<S> {
     /// # Errors
     ///
     /// Returns [`Stopped`] if a new fault occurred, if no allowed path leads to the target state, if the device left
-    /// the target state, or if the deadline has passed.
+    /// the target state, or if the deadline passed before the device reached the target state.
     pub fn cycle<W: StateWord>(&mut self, status: impl StateWord, control: W) -> Result<Walked<W>, Stopped<S>> {
         let status = status.bits();
         let walked = self.bits(status, control.bits())?;
@@ -367,7 +368,8 @@ mod tests {
         }
     }
 
-    /// Returns the control words that a walker sends, beginning with `control`, while the device has these states.
+    /// Returns the control words that a walker sends, beginning with `control`, while the device passes through these
+    /// states.
     fn controls(control: u16, states: &[State]) -> Vec<u16> {
         let (mut walker, mut control) = (Walker::new(State::Enabled), control);
         let sent = states.iter().map(|state| {

@@ -15,7 +15,7 @@ pub trait Station {
 /// A client that sends messages to one device, such as [`Parameters`](crate::Parameters) over an
 /// [`Exchange`](crate::Exchange).
 pub trait MessageClient {
-    /// Communication error of the client.
+    /// Error type of the client.
     type Error;
 
     /// Sends a message and returns the reply, which borrows the client's buffer.
@@ -29,7 +29,7 @@ pub trait MessageClient {
 /// An asynchronous client that sends messages to one device. See [`MessageClient`].
 #[allow(async_fn_in_trait)]
 pub trait AsyncMessageClient {
-    /// Communication error of the client.
+    /// Error type of the client.
     type Error;
 
     /// Sends a message and returns the reply, as [`MessageClient::call`] does.
@@ -132,8 +132,8 @@ macro_rules! calls {
             /// # Errors
             ///
             /// - [`Failure::Refused`] if the device refuses the request.
-            /// - [`Failure::Error`] if a field is out of range, if the communication fails, or if the reply belongs
-            ///   to another request.
+            /// - [`Failure::Error`] for any other failure, for example if a field is out of range, if the communication
+            ///   fails, or if the reply belongs to another request.
             pub $($async)? fn $send(self) -> Answer<M::Reply<'c>, C::Error, M> {
                 self.client.call(&self.message)$(.$await)?
             }

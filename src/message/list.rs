@@ -225,7 +225,7 @@ impl SettingsRule {
     }
 
     /// Reads a parameter number and a value. The value ends before the last `tail` bytes of the data, which are not
-    /// read.
+    /// read. Returns `None` if the data are too short or the value has more than 8 bytes.
     pub fn read_to(&self, from: &mut Reader<'_>, tail: usize) -> Option<Setting> {
         let parameter = self.read_code(from)?;
         let length = from.left().checked_sub(tail)?;
@@ -244,18 +244,20 @@ impl SettingsRule {
         to.padding(length)
     }
 
-    /// Reads a parameter number and skips the value of the parameter.
+    /// Reads a parameter number and skips the value of the parameter; returns `None` if the parameter doesn't exist or
+    /// the data are too short.
     pub fn read_blank(&self, from: &mut Reader<'_>) -> Option<Parameter> {
         let parameter = self.read_code(from)?;
         from.skip(self.length(parameter)?)?;
         Some(parameter)
     }
 
-    /// Copies a received value into `value`, in little-endian byte order.
+    /// Copies a received value into `value`, in little-endian byte order. Returns the length of the value in bytes.
     ///
     /// # Errors
     ///
-    /// Returns [`Error::Length`] if the length of `value` differs from the length of the received value.
+    /// Returns [`Error::Length`] if the length of `value` differs from the length of the received value, or if the
+    /// received value has more than 8 bytes.
     pub fn copy<E>(&self, bytes: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
         let found =
             Reader::new(bytes).value(self.order, bytes.len()).ok_or(LengthError::new(value.len(), bytes.len()))?;

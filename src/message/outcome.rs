@@ -19,7 +19,7 @@ pub struct StateOutcomes<S: 'static> {
 }
 
 impl<S> StateOutcomes<S> {
-    /// Creates the reactions for `state`. `outcomes` is empty if the device description doesn't state the reactions.
+    /// Creates the reactions for `state`. `outcomes` is empty if the device description doesn't specify the reactions.
     #[must_use]
     pub const fn new(state: S, outcomes: &'static [Outcome<S>]) -> Self {
         Self { state, outcomes }
@@ -61,7 +61,7 @@ impl<S> Outcomes<S> {
 }
 
 impl<S: PartialEq> Outcomes<S> {
-    /// Returns the possible reactions in `state`, or an empty slice if the device description doesn't state the
+    /// Returns the possible reactions in `state`, or an empty slice if the device description doesn't specify the
     /// reactions.
     #[must_use]
     pub fn of(&self, state: S) -> &'static [Outcome<S>] {
@@ -69,7 +69,7 @@ impl<S: PartialEq> Outcomes<S> {
     }
 
     /// Returns whether the device accepts the message in `state`. Returns `None` if the device description doesn't
-    /// state the reaction, or if the reaction depends on other conditions.
+    /// specify the reaction, or if the reaction depends on other conditions.
     #[must_use]
     pub fn accepts(&self, state: S) -> Option<bool> {
         let outcomes = self.of(state);

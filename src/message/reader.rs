@@ -11,8 +11,8 @@ pub struct Reader<'r> {
     bits: usize,
 }
 
-/// Returns the little-endian position of the byte that is at position `at` on the wire, in a value of `length` bytes.
-/// The least significant byte has the position 0.
+/// Returns the significance of the byte at wire position `at` in a value of `length` bytes. The least significant byte
+/// has the significance 0.
 ///
 /// `order` lists the bytes of the longest possible value in wire order; 0 is the most significant byte. A shorter value
 /// consists of the low bytes of the longest value, in the same order. A value is big-endian if it is longer than
@@ -32,7 +32,7 @@ impl<'r> Reader<'r> {
         Self { data, bits: 0 }
     }
 
-    /// Returns the number of unread bytes. A byte whose bits have been read in part doesn't count.
+    /// Returns the number of unread bytes. A partly read byte doesn't count.
     #[must_use]
     pub fn left(&self) -> usize {
         self.data.len().saturating_sub(self.bits.div_ceil(8))
@@ -124,7 +124,7 @@ impl<'r> Reader<'r> {
         Some(value)
     }
 
-    /// Reads all bytes except the last `tail` bytes.
+    /// Reads all unread bytes except the last `tail` bytes.
     pub fn but(&mut self, tail: usize) -> Option<&'r [u8]> {
         self.bytes(self.left().checked_sub(tail)?)
     }

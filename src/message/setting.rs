@@ -89,14 +89,14 @@ impl Setting {
     }
 
     /// Decodes the value with the type of `item`. Returns `None` if the setting is for another parameter, or if the
-    /// lengths differ.
+    /// value doesn't have the length of this type.
     #[must_use]
     pub fn value_of<V: Fixed, A, L: On<Serial, Route = Parameter>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
         (item.location().route() == self.parameter).then(|| V::decode(self.value()).ok())?
     }
 }
 
-/// Copies a value, or returns an error if the lengths differ.
+/// Copies a value and returns its length in bytes, or returns an error if the lengths differ.
 pub(super) fn copy<E>(from: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
     if from.len() != value.len() {
         return Err(LengthError::new(value.len(), from.len()).into());

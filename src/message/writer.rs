@@ -23,12 +23,12 @@ pub struct Writer<'b> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// A field is out of range.
+    /// A field is out of range, or a reply contains another parameter than the request.
     OutOfRange(OutOfRange),
     /// A length is wrong: the data are longer than the buffer or than the protocol allows, a value doesn't have the
     /// length of its type, or the request is too short for the reply.
     Length(LengthError),
-    /// The protocol has no message that reads or writes the parameter.
+    /// The parameter doesn't exist, or the protocol has no message that reads or writes the parameter.
     NoMessage,
 }
 
@@ -59,11 +59,11 @@ impl fmt::Display for WriteError {
 
 impl error::Error for WriteError {}
 
-/// Checks that the value of a field is within its limits.
+/// Checks that the value of a field is within `range`.
 ///
 /// # Errors
 ///
-/// Returns [`WriteError::OutOfRange`] if the value is outside its limits.
+/// Returns [`WriteError::OutOfRange`] if the value is outside `range`.
 #[inline]
 pub fn check<V: Fixed>(value: V::Native, range: &Range<V::Native>) -> Result<(), WriteError> {
     match V::in_range(value, range) {

@@ -75,7 +75,7 @@ impl<T: BlockItem> BlockItem for &T {
 /// `N` items that are read together: a tuple of up to 12 items, or an array of items.
 ///
 /// A tuple of items is read as a tuple of values; an array of items is read as an array of values. The values are in
-/// the order of the items. The items may have any order of addresses. The values are raw, as from
+/// the order of the items. The addresses of the items may be in any order. The values are raw, as from
 /// [`Accessor::read`](crate::Accessor::read). Use [`Item::physical`] to convert the raw values to physical values.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Modbus block",

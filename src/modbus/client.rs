@@ -79,11 +79,12 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         &Limits::STANDARD
     }
 
-    /// Changes some bits of a holding register: the new value is `held & and | or & !and` (function 22, MODBUS
-    /// Application Protocol V1.1b3, 6.16). [`write_masked`](Self::write_masked) calculates the masks.
+    /// Changes some bits of a holding register (function 22, MODBUS Application Protocol V1.1b3, 6.16). If the register
+    /// has the value `held`, the new value is `held & and | or & !and`. [`write_masked`](Self::write_masked) calculates
+    /// the masks.
     ///
     /// The default implementation reads the register and then writes it. If another client writes the register between
-    /// the two requests, its change is lost.
+    /// the two requests, the change of that client is lost.
     ///
     /// # Errors
     ///
@@ -135,8 +136,8 @@ pub trait RegisterClient: Client<Bus = Modbus> {
         reading.values(&block)
     }
 
-    /// Sets the bits of `mask` to their values in `value`, in an item of one holding register. The other bits of the
-    /// register don't change. The range of the item is not checked.
+    /// Changes some bits of an item that has exactly one holding register. Each bit that is set in `mask` gets its
+    /// value from `value`; the other bits of the register don't change. The range of the item is not checked.
     ///
     /// If the limits include function 22, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client
     /// reads the register and then writes it.
@@ -183,11 +184,11 @@ pub trait RegisterClient: Client<Bus = Modbus> {
     }
 
     /// Writes items, then reads items. If the limits of the holding registers include function 23,
-    /// [`ModbusClient`](crate::clients) writes and reads with one request. The device writes before it reads.
+    /// [`ModbusClient`](crate::clients) combines a write and a read in one request. The device writes before it reads.
     ///
-    /// The combined request contains the last write and the first read. They are combined only if the write is for
-    /// whole holding registers and the read is for holding registers. The other requests are sent as in
-    /// [`write_block`](Self::write_block) and [`read_block`](Self::read_block).
+    /// The combined request contains the last write and the first read. They are combined only if both fit into one
+    /// request, the write is for whole holding registers and the read is for holding registers. The other requests are
+    /// sent as in [`write_block`](Self::write_block) and [`read_block`](Self::read_block).
     ///
     /// # Errors
     ///
@@ -214,11 +215,12 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         &Limits::STANDARD
     }
 
-    /// Changes some bits of a holding register: the new value is `held & and | or & !and` (function 22, MODBUS
-    /// Application Protocol V1.1b3, 6.16). [`write_masked_async`](Self::write_masked_async) calculates the masks.
+    /// Changes some bits of a holding register (function 22, MODBUS Application Protocol V1.1b3, 6.16). If the register
+    /// has the value `held`, the new value is `held & and | or & !and`.
+    /// [`write_masked_async`](Self::write_masked_async) calculates the masks.
     ///
     /// The default implementation reads the register and then writes it. If another client writes the register between
-    /// the two requests, its change is lost.
+    /// the two requests, the change of that client is lost.
     ///
     /// # Errors
     ///
@@ -267,8 +269,8 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
         reading.values(&block)
     }
 
-    /// Sets the bits of `mask` to their values in `value`, in an item of one holding register. The other bits of the
-    /// register don't change. The range of the item is not checked.
+    /// Changes some bits of an item that has exactly one holding register. Each bit that is set in `mask` gets its
+    /// value from `value`; the other bits of the register don't change. The range of the item is not checked.
     ///
     /// If the limits include function 22, [`ModbusClient`](crate::clients) sends one request. Otherwise, the client
     /// reads the register and then writes it.
@@ -315,11 +317,11 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     }
 
     /// Writes items, then reads items. If the limits of the holding registers include function 23,
-    /// [`ModbusClient`](crate::clients) writes and reads with one request. The device writes before it reads.
+    /// [`ModbusClient`](crate::clients) combines a write and a read in one request. The device writes before it reads.
     ///
-    /// The combined request contains the last write and the first read. They are combined only if the write is for
-    /// whole holding registers and the read is for holding registers. The other requests are sent as in
-    /// [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async).
+    /// The combined request contains the last write and the first read. They are combined only if both fit into one
+    /// request, the write is for whole holding registers and the read is for holding registers. The other requests are
+    /// sent as in [`write_block_async`](Self::write_block_async) and [`read_block_async`](Self::read_block_async).
     ///
     /// # Errors
     ///
@@ -339,7 +341,7 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
     }
 }
 
-/// Returns the error of a mask write request for an item.
+/// Adds the item and the value to an error of a mask write request.
 fn mask_failed<I: WriteItem, E>(item: &I, value: I::Native, error: Error<E>) -> AccessError<E> {
     AccessError::write(error, (item.name(), Some(item.register().into())), item.raw_value(value))
 }

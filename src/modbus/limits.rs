@@ -35,8 +35,8 @@ pub struct Limits {
 /// The requests that a device supports for one table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TableLimits {
-    /// Supported function codes. The list is empty if the device description doesn't state the supported functions;
-    /// clients then assume that the device supports all functions of the table.
+    /// Supported function codes. The list is empty if the device description doesn't list the supported functions.
+    /// Clients then use all functions of the table except the optional functions 22 and 23.
     pub functions: &'static [u8],
     /// Maximum number of registers or bits in a read request.
     pub max_read: u16,
@@ -96,7 +96,7 @@ impl TableLimits {
     }
 
     /// Returns whether the device supports a function for this table. If the device description lists no functions,
-    /// returns true for every function.
+    /// returns true for every function, including the optional functions 22 and 23.
     #[must_use]
     pub const fn takes(&self, function: u8) -> bool {
         self.functions.is_empty() || self.names(function)

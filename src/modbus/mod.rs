@@ -1,7 +1,7 @@
 //! Access to several Modbus values with one request, and the limits of a device's requests.
 //!
-//! [`Item::at`](crate::Item::at) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`],
-//! which reads any number of values with as few requests as the device allows.
+//! An [`Accessor`](crate::Accessor) reads one value per request. For cyclic reads, use [`RegisterClient::read_block`],
+//! which reads several values with as few requests as the device allows.
 //!
 //! ```
 //! use lexibus::modbus::RegisterClient;

@@ -6,7 +6,7 @@ use super::limits::Limits;
 use crate::register::{Register, RegisterTable, WordOrder};
 use crate::value_error::LengthError;
 
-/// A plan that reads `N` items with the minimum number of requests.
+/// The read requests for `N` items. The number of requests is the minimum that the limits of the device allow.
 ///
 /// The plan doesn't allocate. If the items are constants, the plan can be a constant.
 ///

@@ -37,7 +37,7 @@ impl<const N: usize> Reading<N> {
         Ok(Self { names, items, lengths, plan, answered: 0, values: [[0; 8]; N] })
     }
 
-    /// Returns the error of the current request.
+    /// Adds the items of the current request to an error.
     pub(super) fn failed<E>(&self, error: Error<E>) -> AccessError<E> {
         let mut names = self.names.iter().zip(self.plan.request_of()).filter(|(_, of)| **of == self.answered);
         let name = names.next().map_or("", |(name, _)| *name);

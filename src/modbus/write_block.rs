@@ -34,7 +34,7 @@ pub trait WriteItem {
     /// Returns the register of the item.
     fn register(&self) -> Register;
 
-    /// Encodes a value into the first bytes of the array, the least significant byte first.
+    /// Returns the encoded value in the first bytes of the array, the least significant byte first.
     ///
     /// # Errors
     ///
@@ -219,7 +219,7 @@ impl<const N: usize> Writing<N> {
         Ok(writing)
     }
 
-    /// Returns the error of write `at`.
+    /// Adds the items of write `at` to an error.
     pub(super) fn failed<E>(&self, at: usize, error: Error<E>) -> AccessError<E> {
         let name = self.names.get(at).copied().unwrap_or_default();
         let Some((register, _)) = self.joined else {

@@ -10,7 +10,7 @@ use crate::client::{AsyncClient, Client};
 const DISABLED: u32 = 1 << 31;
 const NO_REMOTE_REQUESTS: u32 = 1 << 30;
 
-/// The communication parameters that a configuration can write, in the order of the writes.
+/// Sub-indices of the communication parameters that a configuration can write, in the order of the writes.
 const SUB_INDICES: [u8; 4] = [2, 3, 5, 6];
 
 impl PdoParameters {
@@ -150,8 +150,8 @@ impl<const N: usize> PdoConfiguration<N> {
         Ok(())
     }
 
-    /// Returns the write of a communication parameter, or `None` if neither the parameters nor the configuration set
-    /// this parameter.
+    /// Returns the write of a communication parameter, or `None` if neither the parameters nor the configuration
+    /// contain a value for this parameter.
     fn parameter(&self, sub_index: u8) -> Option<SdoWrite> {
         let index = self.communication;
         let new = match sub_index {

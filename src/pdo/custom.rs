@@ -54,7 +54,7 @@ pub enum Rpdo {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tpdo {}
 
-/// Marks an object that can be mapped into PDOs of both directions.
+/// Marks an object that can be mapped into PDOs of either direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnyPdo {}
 
@@ -109,7 +109,7 @@ impl<F, D, const WORD: u32> Mapped for Mappable<F, D, WORD> {
     note = "if the device can map the object, set `pdo = \"rx\"`, `\"tx\"` or `\"both\"` in an overlay"
 )]
 pub trait IsMappable {
-    /// Generated code evaluates this constant to require the trait at compile time.
+    /// The code of [`pdo!`](crate::pdo!) evaluates this constant, so that rustc reports a type without this trait.
     const HOLDS: () = ();
 }
 
@@ -125,7 +125,7 @@ impl IsMappable for AnyPdo {}
     note = "the device receives an `Rpdo` and transmits a `Tpdo`"
 )]
 pub trait MappableInto<D> {
-    /// Generated code evaluates this constant to require the trait at compile time.
+    /// The code of [`pdo!`](crate::pdo!) evaluates this constant, so that rustc reports a type without this trait.
     const HOLDS: () = ();
 }
 
@@ -185,7 +185,7 @@ pub struct Check<const HOLDS: bool>;
     label = "not a multiple of the device's mapping granularity"
 )]
 pub trait FitsGranularity {
-    /// Generated code evaluates this constant to require the trait at compile time.
+    /// The code of [`pdo!`](crate::pdo!) evaluates this constant, so that rustc reports a type without this trait.
     const HOLDS: () = ();
 }
 
@@ -198,13 +198,13 @@ impl FitsGranularity for Check<true> {}
     note = "a PDO on CANopen has at most 64 bits; on EtherCAT, the sync manager has a maximum length"
 )]
 pub trait FitsLength {
-    /// Generated code evaluates this constant to require the trait at compile time.
+    /// The code of [`pdo!`](crate::pdo!) evaluates this constant, so that rustc reports a type without this trait.
     const HOLDS: () = ();
 }
 
 impl FitsLength for Check<true> {}
 
-/// Checks that [`pdo!`](crate::pdo!) performs at compile time.
+/// The checks that [`pdo!`](crate::pdo!) performs at compile time.
 pub mod check {
     use super::{MappedEntry, Remappable};
 
@@ -277,7 +277,7 @@ pub const fn gap<P: Remappable>(bits: u32) -> u32 {
     0
 }
 
-/// Returns the length in bits of a basic data type (CiA 301 7.4.7); 0 if the type has no fixed length.
+/// Returns the length in bits of the data type with this index (CiA 301 7.4.7); 0 if the type has no fixed length.
 const fn bits_of_type(code: u32) -> u32 {
     match code {
         0x01 => 1,

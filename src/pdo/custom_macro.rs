@@ -64,7 +64,7 @@
 /// - Each object must exist (`cannot find type … in module …::mappable`), be mappable, and be mappable in the PDO's
 ///   direction.
 /// - The length of each object must be a multiple of the granularity.
-/// - The device must support a dummy entry for each gap.
+/// - On CANopen, the device must support a dummy entry for each gap. On EtherCAT, a gap has 1 to 255 bits.
 /// - The mapping object must have enough sub-indices for all entries. The number of bits must not exceed 64 on CANopen,
 ///   or the maximum length of the sync manager on EtherCAT.
 /// - The mapping must include all fixed entries (`Fixed`, ETG.2000).
@@ -211,7 +211,7 @@ macro_rules! pdo {
                 )
             }
 
-            /// Returns the writes that configure and enable the PDO in a CANopen device, with its default COB-ID.
+            /// Returns the writes that configure and enable the PDO with the default COB-ID in a CANopen device.
             #[must_use]
             pub const fn configuration(
                 node_id: $crate::NodeId,
@@ -225,9 +225,9 @@ macro_rules! pdo {
                 >(<Self as $crate::Pdo>::MAPPING, Self::COB_ID.resolve(node_id))
             }
 
-            /// Returns the writes that configure the PDO in a CANopen device with the given COB-ID. In order, they
-            /// disable the PDO, clear the mapping, write the entries and their number, set the transmission type and
-            /// timers, and enable the PDO. Read-only parameters are left out.
+            /// Returns the writes that configure and enable the PDO with the COB-ID `cob_id` in a CANopen device. In
+            /// order, they disable the PDO, clear the mapping, write the entries and their number, set the transmission
+            /// type and timers, and enable the PDO. Read-only parameters are left out.
             #[must_use]
             pub const fn configuration_as(
                 cob_id: u32,

@@ -18,7 +18,7 @@ pub trait Field: Copy {
     #[must_use]
     fn to_word(self) -> u64;
 
-    /// Creates the field from the low `bits` bits of `word`. All higher bits of `word` are 0.
+    /// Creates the field from the low `bits` bits of `word`. All higher bits of `word` must be 0.
     #[must_use]
     fn from_word(word: u64, bits: u32) -> Self;
 

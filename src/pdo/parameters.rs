@@ -4,11 +4,12 @@ use core::error;
 use core::fmt;
 use core::time::Duration;
 
-/// When a TPDO is sent, and when a received RPDO takes effect (sub-index 2, CiA 301 7.5.2.35 and 7.5.2.37).
+/// Specifies when the device sends a TPDO, and when a received RPDO takes effect (sub-index 2, CiA 301 7.5.2.35 and
+/// 7.5.2.37).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TransmissionType {
-    /// Synchronous, acyclic (0). The device sends the TPDO after a SYNC if its data changed. An RPDO takes effect at the
-    /// next SYNC.
+    /// Synchronous, acyclic (0). The device sends the TPDO after a SYNC if an event, such as a change of the data,
+    /// occurred before the SYNC. An RPDO takes effect at the next SYNC.
     SynchronousAcyclic,
     /// Synchronous, cyclic (1 to 240). The device sends the TPDO after every nth SYNC. An RPDO takes effect at the next
     /// SYNC, regardless of n.
@@ -286,7 +287,7 @@ pub enum PdoParameterError {
     NotEventDriven,
     /// The SYNC start value needs a cyclic transmission type, 1 to 240.
     NotCyclic,
-    /// Remote requests, the transmission types 252 and 253, and the SYNC start value exist only in TPDOs.
+    /// Remote requests, the transmission types 252 and 253, and the SYNC start value exist only for TPDOs.
     OnlyTransmitted,
     /// The transmission types 252 and 253 need remote requests, but the COB-ID refuses them.
     RemoteRequests,

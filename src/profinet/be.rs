@@ -65,7 +65,7 @@ pub fn put(data: &mut [u8], at: usize, bytes: &[u8]) {
     }
 }
 
-/// Sets or clears a bit of the byte at `at`. Bit 0 is the least significant bit.
+/// Sets or clears a bit of the byte at offset `at`. Bit 0 is the least significant bit.
 #[inline]
 pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
     if let Some(byte) = data.get_mut(at) {
@@ -176,8 +176,8 @@ pub const fn from_time_of_day(time: TimeOfDay) -> [u8; 6] {
     from_time(time.milliseconds, time.days)
 }
 
-/// Reads a "TimeDifference with date indication" (IEC 61158-6). The first 4 bytes contain milliseconds, the last 2
-/// bytes contain days.
+/// Reads a "TimeDifference with date indication" (IEC 61158-6). The low 28 bits of the first 4 bytes contain
+/// milliseconds. The last 2 bytes contain days.
 #[must_use]
 #[inline]
 pub const fn time_difference(data: &[u8], at: usize) -> TimeDifference {

@@ -21,9 +21,9 @@ const CYCLE: Duration = Duration::from_millis(1);
 /// vector or borrowed bytes.
 ///
 /// Outputs keep the values that were written last. The caller sets the status of the outputs, for example with
-/// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once. When a write returns, the data
-/// have been sent. A read returns data that were received in its own exchange. If the program has its own cycle, call
-/// [`by_hand`](Self::by_hand). After this call, reads and writes don't exchange the frames, and one
+/// [`Plan::set_status`](super::Plan::set_status). Each access exchanges the frames once: a write changes the output
+/// frame and then exchanges the frames, and a read exchanges the frames and then returns the value. If the program has
+/// its own cycle, call [`by_hand`](Self::by_hand). After this call, reads and writes don't exchange the frames, and one
 /// [`cycle`](Self::cycle) can send several fields together.
 ///
 /// ```
@@ -126,7 +126,8 @@ fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     span.ok_or(LengthError::new(1, 0))
 }
 
-/// Subtracts the next step from the remaining waiting time and returns the step, at most [`CYCLE`].
+/// Subtracts the next step from the remaining waiting time and returns the step, at most [`CYCLE`]. Returns `None` if
+/// no time remains.
 fn step(left: &mut Duration) -> Option<Duration> {
     let step = (*left).min(CYCLE);
     *left -= step;

@@ -10,11 +10,11 @@ pub struct ChannelError {
     pub api: u32,
     /// Channel error type.
     pub error_type: u16,
-    /// Name of the error.
+    /// Name of the error; may be empty.
     pub name: &'static str,
     /// Cause of the error and remedy; may be empty.
     pub help: &'static str,
-    /// Descriptions of the extended error types.
+    /// Descriptions of the extended error types, sorted by error type.
     pub extended: &'static [ExtendedError],
 }
 
@@ -30,7 +30,7 @@ pub struct ExtendedError {
 }
 
 impl ChannelError {
-    /// Creates a channel error type that no profile defines.
+    /// Creates the description of a channel error type that no profile defines.
     #[must_use]
     pub const fn new(
         error_type: u16,
@@ -41,7 +41,8 @@ impl ChannelError {
         Self::of_profile(0, error_type, name, help, extended)
     }
 
-    /// Creates a channel error type of the profile with this application process identifier (API).
+    /// Creates the description of a channel error type that the profile with this application process identifier (API)
+    /// defines.
     #[must_use]
     pub const fn of_profile(
         api: u32,
@@ -75,7 +76,7 @@ impl ChannelError {
 }
 
 impl ExtendedError {
-    /// Creates an extended error type.
+    /// Creates the description of an extended error type.
     #[must_use]
     pub const fn new(error_type: u16, name: &'static str, help: &'static str) -> Self {
         Self { error_type, name, help }
@@ -132,7 +133,7 @@ pub struct ChannelDiagnosis {
     pub properties: ChannelProperties,
     /// Channel error type.
     pub error_type: u16,
-    /// Extended error type and additional value, in extended and qualified channel diagnosis.
+    /// Extended part; `None` unless the diagnosis is an extended or qualified channel diagnosis.
     pub extended: Option<ExtendedDiagnosis>,
 }
 
@@ -149,8 +150,8 @@ pub struct ExtendedDiagnosis {
 }
 
 impl ChannelDiagnosis {
-    /// Decodes a diagnosis block. An incomplete diagnosis at the end is ignored. The iterator is empty if the structure
-    /// has no channels.
+    /// Returns an iterator over the diagnoses of a block. An incomplete diagnosis at the end of `data` is ignored. The
+    /// iterator is empty if the structure has no channels.
     #[must_use]
     pub const fn decode(structure: UserStructure, data: &[u8]) -> ChannelDiagnoses<'_> {
         ChannelDiagnoses { structure, data }
@@ -192,8 +193,8 @@ impl Iterator for ChannelDiagnoses<'_> {
 pub struct ChannelProperties(pub u16);
 
 impl ChannelProperties {
-    /// Returns the width of the channel in bits (bits 0 to 7): 1 to 64. Returns `None` if the width is unspecified or
-    /// reserved, or if the diagnosis is for the whole submodule.
+    /// Returns the width of the channel, 1 to 64 bits, which is encoded in bits 0 to 7. Returns `None` if the width is
+    /// unspecified or reserved, or if the diagnosis is for the whole submodule.
     #[must_use]
     pub const fn bits(self) -> Option<u8> {
         match self.0 & 0xFF {
@@ -250,7 +251,7 @@ pub enum Maintenance {
     Fault,
     /// Maintenance is required.
     Required,
-    /// Maintenance is demanded, which is more urgent than required.
+    /// Maintenance is demanded. This severity is more urgent than [`Required`](Self::Required).
     Demanded,
     /// The qualifier states the severity.
     Qualified,

@@ -1,12 +1,14 @@
 //! F-parameters of PROFIsafe.
 //!
 //! The checksum F_Par_CRC is a 16-bit CRC with the polynomial 0x4EAB and the initial value 0. The checksum covers
-//! F_iPar_CRC first, and then all other fields. The layout and the checksum of the record have been checked against the
-//! default values in the GSDML files of several vendors.
+//! F_iPar_CRC first, if the record contains this field, and then the other fields in the order of the record. The
+//! layout and the checksum of the record have been checked against the default values in the GSDML files of several
+//! vendors.
 
 use crate::value_error::LengthError;
 
-/// Writes bytes at offset `$at` of an array. This macro can be used in `const` functions.
+/// Writes bytes at offset `$at` of an array, and increases `$at` by the number of bytes. This macro can be used in
+/// `const` functions.
 macro_rules! push {
     ($record:ident, $at:ident, $bytes:expr) => {
         let bytes = $bytes;

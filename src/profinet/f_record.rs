@@ -63,7 +63,7 @@ pub struct FLimit {
 }
 
 impl FLimit {
-    /// Creates the allowed values of `field`.
+    /// Creates the list of allowed values of `field`.
     #[must_use]
     pub const fn new(field: FField, allowed: &'static [(u32, u32)]) -> Self {
         Self { field, allowed }
@@ -79,7 +79,7 @@ pub struct FRecord<const LEN: usize> {
     pub transfer_sequence: u16,
     /// Default values of the F-parameters.
     pub default: FParameters,
-    /// Allowed values of F-parameters. An F-parameter without an entry may have any value.
+    /// Allowed values of F-parameters. An F-parameter without an entry may have any value that fits in the record.
     pub limits: &'static [FLimit],
 }
 
@@ -88,7 +88,8 @@ impl<const LEN: usize> FRecord<LEN> {
     ///
     /// # Errors
     ///
-    /// Returns [`NotAllowed`] for the first F-parameter whose value isn't allowed.
+    /// Returns [`NotAllowed`] for F_Block_ID if the parameters need a record of another length than `LEN`, otherwise
+    /// for the first F-parameter whose value isn't allowed.
     pub fn check(&self, parameters: &FParameters) -> Result<(), NotAllowed> {
         if parameters.len() != LEN || parameters.block_id > 7 {
             return Err(NotAllowed { field: FField::BlockId.name() });

@@ -8,7 +8,7 @@ use crate::client::sleep;
 use crate::error::Error;
 use crate::value_error::LengthError;
 
-/// A client that exchanges the process image of one device. The client blocks during a cycle.
+/// A blocking client that exchanges the process image of one device.
 ///
 /// A frame is the content of an input/output communication relation (IOCR). A frame contains the data of submodules
 /// with their provider status, and the consumer status of the opposite direction. [`Plan::layout`] returns the offsets
@@ -39,7 +39,7 @@ use crate::value_error::LengthError;
 /// # Ok::<(), Error<core::convert::Infallible>>(())
 /// ```
 pub trait ImageClient {
-    /// Communication error of the client.
+    /// Error type of the client.
     type Error;
 
     /// Sends `outputs` in the next cycle and copies the last received frame to `inputs`.
@@ -87,7 +87,7 @@ pub trait ImageClient {
 /// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncImageClient {
-    /// Communication error of the client.
+    /// Error type of the client.
     type Error;
 
     /// Sends `outputs` and receives `inputs`, as [`ImageClient::cycle`] does.
@@ -150,8 +150,8 @@ impl IoSpan {
 
 /// Positions of the data and the status of one submodule in the frames.
 ///
-/// A position is `None` if the submodule has no such data. The methods [`read`](Self::read) and [`write`](Self::write)
-/// return [`LengthError`] if the position is `None`.
+/// A position is `None` if the submodule has no such data. [`read`](Self::read) returns [`LengthError`] if `inputs` is
+/// `None`, and [`write`](Self::write) if `outputs` is `None`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SubmoduleIo {
     /// Number of the slot.
@@ -203,16 +203,16 @@ impl SubmoduleIo {
         WithStatus { data, provider }.write(object::<T>(self.outputs)?.of_mut(outputs)?)
     }
 
-    /// Returns the device's consumer status of the outputs from the input frame. Returns [`IoStatus::BAD`] if the
-    /// submodule has no outputs or the frame is too short.
+    /// Reads the consumer status of the outputs, which the device sets, from the input frame. Returns [`IoStatus::BAD`]
+    /// if the submodule has no outputs or the frame is too short.
     #[must_use]
     pub fn consumer(&self, inputs: &[u8]) -> IoStatus {
         let status = self.outputs_consumer.and_then(|span| span.of(inputs).ok());
         IoStatus::from_bytes(status.unwrap_or_default())
     }
 
-    /// Writes the controller's consumer status of the inputs to the output frame. This method has no effect if the
-    /// submodule has only outputs.
+    /// Writes the consumer status of the inputs, which the controller sets, to the output frame. This method has no
+    /// effect if the submodule has only outputs.
     ///
     /// # Errors
     ///
@@ -225,13 +225,13 @@ impl SubmoduleIo {
     }
 }
 
-/// Returns the span if its length matches the length of `T`.
+/// Returns the span if it has the length of `T` with trailer and status.
 fn object<T: IoData>(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
     let error = LengthError::new(WithStatus::<T>::LEN, span.map_or(0, |span| span.length));
     span.filter(|span| span.length == WithStatus::<T>::LEN).ok_or(error)
 }
 
-/// Returns the span of the next `length` bytes of a frame.
+/// Returns the span of `length` bytes at offset `end`, and increases `end` by `length`.
 fn take(end: &mut usize, length: usize) -> Option<IoSpan> {
     let span = IoSpan { offset: *end, length };
     *end += length;

@@ -119,8 +119,8 @@ impl<const N: usize> Plan<N> {
     ///
     /// # Errors
     ///
-    /// Returns [`PlanError::Full`] if there are more than `N` submodules, or an error if the data exceed a maximum
-    /// length.
+    /// Returns [`PlanError::Full`] if there are more than `N` submodules, or [`PlanError::InputsTooLong`],
+    /// [`PlanError::OutputsTooLong`] or [`PlanError::DataTooLong`] if the data exceed a maximum length.
     pub fn new(dap: &'static Dap) -> Result<Self, PlanError> {
         let mut plan = Self { dap, entries: [None; N], len: 0 };
         plan.add_module(dap.slot, &dap.module, true)?;
@@ -133,8 +133,8 @@ impl<const N: usize> Plan<N> {
         Ok(plan)
     }
 
-    /// Creates a plan that also contains the modules and submodules that are plugged by default (`UsedInSlots` of
-    /// GSDML).
+    /// Creates a plan that contains the fixed modules and submodules, and those that are plugged by default
+    /// (`UsedInSlots` of GSDML).
     ///
     /// # Errors
     ///
@@ -317,7 +317,7 @@ impl<const N: usize> Plan<N> {
         self.used().filter_map(|entry| Some((entry, entry.submodule?)))
     }
 
-    /// Adds a module with its fixed submodules to an empty slot.
+    /// Adds a module with its fixed submodules, if the slot is empty.
     fn add_module(&mut self, slot: u16, module: &'static Module, is_fixed: bool) -> Result<(), PlanError> {
         if self.module(slot).is_some() {
             return Ok(());

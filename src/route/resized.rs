@@ -10,7 +10,7 @@ use crate::register::Register;
 use crate::value::byte_len;
 use crate::value_error::{LengthError, OutOfRange};
 
-/// Route of an integer that has `bits` bits on the bus, independent of the width of its item.
+/// Route of an integer that has `bits` bits on the bus, independent of the width of the item.
 ///
 /// If the value has fewer bits on the bus than in the item, a write fails if the value doesn't fit, and a read extends
 /// the value. If the value has more bits on the bus, a write extends the value, and a read fails if the value doesn't
@@ -59,7 +59,7 @@ pub struct Resized<R> {
     pub at: R,
     /// Width of the number on the bus in bits, 1 to 64. The number is transferred in whole bytes.
     pub bits: u8,
-    /// True if the narrower of the two numbers is in two's complement.
+    /// True if the narrower of the two numbers, on the bus and in the item, is in two's complement.
     pub is_signed: bool,
 }
 

@@ -19,8 +19,8 @@ pub struct Handshake {
     /// Maximum number of polls if the device clears the number to 0. Polls are 1 ms apart if the client [can
     /// wait](Client::wait). This field is 0 if the device doesn't clear the number.
     pub polls: u16,
-    /// Time in milliseconds that the device needs for the access, if it doesn't clear the number. An access through a
-    /// client that cannot wait fails with [`Error::NoClock`].
+    /// Time in milliseconds that the device needs for the access, if it doesn't clear the number. If this time isn't 0,
+    /// an access through a client that cannot wait fails with [`Error::NoClock`].
     pub wait: u16,
 }
 
@@ -47,8 +47,8 @@ impl Handshake {
 
 /// Window for reading: an address for the number of a value, and an address for the value.
 ///
-/// A read writes the number, waits according to the [`Handshake`] and reads the value. The width is converted as in
-/// [`Resized`](crate::Resized).
+/// A read writes the number, waits according to the [`Handshake`] and reads the value. The width of the value is
+/// converted as in [`Resized`](crate::Resized).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ReadWindow<A> {
     /// Address to which the number is written.

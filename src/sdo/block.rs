@@ -25,7 +25,7 @@ pub(super) struct Sender {
     sent: u8,
     /// Maximum number of segments in the current sub-block.
     size: u8,
-    /// Number of times that the current sub-block was sent without success.
+    /// Number of consecutive acknowledgments that confirmed no segment.
     repetitions: u8,
 }
 
@@ -130,7 +130,7 @@ impl Receiver {
         self.previous == *message
     }
 
-    /// Stores a segment in `buffer`. A segment out of sequence is ignored until the sub-block ends.
+    /// Stores a segment in `buffer`. A segment that is out of sequence isn't stored, but it can end the sub-block.
     ///
     /// Returns [`AbortCode::SEQUENCE_NUMBER`] if the number of the segment is invalid, or
     /// [`AbortCode::OUT_OF_MEMORY`] if the value is longer than `buffer`.

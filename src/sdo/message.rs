@@ -81,7 +81,7 @@ pub(super) const fn toggle(message: &Message) -> bool {
     message[0] & TOGGLE != 0
 }
 
-/// Creates a message with an object and four bytes.
+/// Creates a message with an object and four bytes of data.
 pub(super) const fn initiate(command: u8, object: Object, data: [u8; 4]) -> Message {
     let ([low, high], [a, b, c, d]) = (object.index.to_le_bytes(), data);
     [command, low, high, object.sub_index, a, b, c, d]
@@ -92,12 +92,13 @@ pub(crate) const fn abort(object: Object, code: AbortCode) -> Message {
     initiate(ABORT_COMMAND, object, code.0.to_le_bytes())
 }
 
-/// Creates a message whose data is only the toggle bit: a request for a segment, or the confirmation of a segment.
+/// Creates a message with a command specifier and a toggle bit, without data: a request for a segment, or the
+/// confirmation of a segment.
 pub(super) const fn toggled(specifier: u8, toggle: bool) -> Message {
     [specifier << 5 | if toggle { TOGGLE } else { 0 }, 0, 0, 0, 0, 0, 0, 0]
 }
 
-/// Creates a message of a block transfer with two bytes.
+/// Creates a message of a block transfer with two bytes of data.
 pub(super) const fn block(command: u8, first: u8, second: u8) -> Message {
     [command, first, second, 0, 0, 0, 0, 0]
 }

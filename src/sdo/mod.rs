@@ -1,9 +1,10 @@
 //! SDO transfers (CiA 301 7.2.4) as state machines that perform no I/O.
 //!
-//! [`Transfer`] is the client side of one transfer, and [`Server`] is the server of a node. Both support expedited,
-//! segmented and block transfers. Neither allocates memory: a transfer uses the caller's buffer, and a server has a
-//! buffer of a fixed size. The caller sends the messages that `next` returns, passes received messages to `handle`, and
-//! measures the time. `clients::canopen::Node` performs these tasks for any CAN interface.
+//! [`Transfer`] is the client side of one transfer, and [`Server`] is the server side of one SDO channel. Both support
+//! expedited, segmented and block transfers. Neither allocates memory: a transfer uses the caller's buffer, and a
+//! server has a buffer of a fixed size. The caller sends the messages that `next` returns, passes received messages to
+//! `handle`, and measures the time. `clients::canopen::Node` performs these tasks on the client side, for any CAN
+//! interface.
 //!
 //! ```
 //! use core::time::Duration;

@@ -19,7 +19,7 @@ pub(super) enum Kind {
     DownloadSegment,
     /// The server may reply with [`Upload`](Self::Upload) instead if the value is short.
     BlockUpload,
-    /// Segments of a block have no command specifier: any message is a segment.
+    /// Segments of a block have no command specifier: any message except an abort is a segment.
     BlockUploadSegment,
     BlockUploadEnd,
     BlockDownload,
@@ -67,7 +67,7 @@ impl Expected {
         }
     }
 
-    /// Returns whether the server has answered the first request and expects further messages of the transfer.
+    /// Returns whether the server has answered the first request, and the transfer isn't complete.
     pub const fn is_continued(self) -> bool {
         !matches!(self.kind, Kind::Upload | Kind::Download | Kind::BlockUpload | Kind::BlockDownload)
     }

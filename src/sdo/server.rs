@@ -17,8 +17,8 @@ pub trait Objects {
     ///
     /// # Errors
     ///
-    /// Returns the code with which the server aborts the transfer: [`AbortCode::OUT_OF_MEMORY`] if the value is longer
-    /// than `buffer`.
+    /// Returns the code with which the server aborts the transfer. The code is [`AbortCode::OUT_OF_MEMORY`] if the
+    /// value is longer than `buffer`.
     fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, AbortCode>;
 
     /// Writes an object.
@@ -79,7 +79,7 @@ impl<const N: usize> Default for Server<N> {
 }
 
 impl<const N: usize> Server<N> {
-    /// Creates a server that waits for one second for each message of a transfer.
+    /// Creates a server that waits up to one second for each message of a transfer.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -185,7 +185,7 @@ impl<const N: usize> Server<N> {
         }
     }
 
-    /// Refuses a message that doesn't belong to a transfer.
+    /// Refuses a message that the server doesn't expect in its current state.
     fn unexpected(&mut self) -> Reply {
         if let State::Idle = self.state {
             self.object = Object::new(0, 0);

@@ -34,7 +34,7 @@ const SEGMENTS_PER_TIMEOUT: u32 = 10;
 pub enum TransferError {
     /// The server aborted the transfer.
     Refused(AbortCode),
-    /// A reply had a wrong toggle bit, sequence number, length or CRC. The client aborted the transfer.
+    /// A reply had a wrong toggle bit, sequence number, sub-block size, length or CRC. The client aborted the transfer.
     UnexpectedReply,
     /// The uploaded value is longer than the buffer.
     TooLong(LengthError),
@@ -79,7 +79,7 @@ pub struct Transfer<'a> {
     object: Object,
     value: Value<'a>,
     phase: Phase,
-    /// Messages to send: possibly an abort, and a request.
+    /// Messages to send: an abort, a request, or first an abort and then a request.
     queue: [Option<Message>; 2],
     /// Length of the value in bytes, as far as it is known. An upload without an announced length has the length of the
     /// received segments.

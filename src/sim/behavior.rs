@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::device::Device;
 
-/// Behavior of one axis of a device, such as that of a drive.
+/// Behavior of one axis of a device, for example of a drive.
 pub(super) trait Behavior: fmt::Debug + Send {
     /// Returns the number of the axis. The first axis has number 1.
     fn axis(&self) -> u8;
@@ -15,7 +15,8 @@ pub(super) trait Behavior: fmt::Debug + Send {
     /// Reacts to a write by a client or by process data.
     fn observe(&mut self, device: &mut Device);
 
-    /// Enters the fault reaction with an error code. If `persists` is true, the cause of the fault persists.
+    /// Enters the fault reaction with an error code. If `persists` is true, the fault cannot be reset before
+    /// [`clear_cause`](Self::clear_cause).
     fn fail(&mut self, code: u16, persists: bool, device: &mut Device);
 
     /// Removes the cause of the fault, so that the fault can be reset.

@@ -69,7 +69,7 @@ const MOST_FRAMES: usize = 1024;
 /// [`without_node_id`](Self::without_node_id) creates a node that an LSS master has to configure first. [`CanBus`] is a
 /// bus with several nodes.
 ///
-/// The node answers node guarding if its heartbeat producer time (0x1017) is 0. The node sends the emergency message
+/// The node answers node guarding if its producer heartbeat time (0x1017) is 0. The node sends the emergency message
 /// 0x8130 if no further guarding request arrives within the node life time (0x100C × 0x100D). The node consumes TIME if
 /// bit 31 of object 0x1012 is set. The node doesn't send PDOs in response to remote frames.
 #[derive(Debug)]
@@ -141,8 +141,8 @@ impl CanNode {
         self.lss.bit_rate()
     }
 
-    /// Returns the device. If you change values of the device, the node sends the resulting frames before the next
-    /// frame is received.
+    /// Returns the device. If you change values of the device, the node sends the resulting frames before it processes
+    /// the next received frame.
     pub fn device(&mut self) -> &mut Device {
         &mut self.device
     }
@@ -300,7 +300,7 @@ impl CanNode {
         }
     }
 
-    /// Processes an SDO request. Returns false for any other frame.
+    /// Processes an SDO request. Returns false for any other frame, and in Stopped.
     fn transfer(&mut self, frame: &CanFrame) -> bool {
         if self.state == NmtState::Stopped {
             return false;

@@ -7,7 +7,7 @@ use std::time::Instant;
 /// the next advance. The result therefore doesn't depend on how a test divides the time.
 pub(super) const STEP: Duration = Duration::from_millis(1);
 
-/// Selects whether accesses of a client also advance the simulated time, in addition to `Device::step`.
+/// Selects whether client accesses advance the simulated time, in addition to `Device::step`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) enum Pace {
     /// Only `Device::step` advances the time.

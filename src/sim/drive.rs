@@ -103,8 +103,8 @@ impl Drive {
         }
     }
 
-    /// Adopts changes by the test and executes the controlword: performs at most one state transition, or evaluates the
-    /// bits of the active mode.
+    /// Adopts the actual position if the test has changed it, and executes the controlword: performs at most one state
+    /// transition, or evaluates the bits of the active mode.
     fn control(&mut self, objects: &mut Objects<'_>) {
         self.adopt_position(objects);
         let word = objects.word(0x6040);
@@ -139,7 +139,7 @@ impl Drive {
         self.abandon();
     }
 
-    /// Discards the set-points and the torque, and aborts homing.
+    /// Discards the set-points, the torque demand and the cyclic target position, and aborts homing.
     fn abandon(&mut self) {
         self.torque = 0.0;
         self.set_points = SetPoints::default();

@@ -29,11 +29,11 @@ const MEMORY: u16 = 0x1000;
 pub enum EtherCatFault {
     /// The frame with the datagram is lost.
     LostFrame,
-    /// The reply in a mailbox is lost: the SubDevice has sent it, but the datagram arrives with the working counter 0 and
-    /// without data.
+    /// The reply in a mailbox is lost: the SubDevice has sent it, but the datagram arrives with the working counter 0,
+    /// and all data bytes are 0.
     LostReply,
-    /// The working counter is lower by this number, because SubDevices did not process the datagram. A SubDevice adds 1
-    /// for its inputs and 2 for its outputs.
+    /// The working counter is lower by this number, because SubDevices did not process the datagram. In an LRW
+    /// datagram, a SubDevice adds 1 for its inputs and 2 for its outputs.
     WorkingCounter(u16),
     /// AL status contains this value (ETG.1000.6 6.4). For example, 0x14 is Safe-Operational with the error flag: the
     /// SubDevice has left Operational because of an error.
@@ -96,8 +96,8 @@ impl Datagram {
         matches!(self.command, LRD..=LRW)
     }
 
-    /// Returns whether the datagram has read a mailbox: FPRD of memory after the registers, with a SubDevice that
-    /// replied.
+    /// Returns whether the datagram has read a mailbox: an FPRD command with an address after the registers and a
+    /// working counter above 0.
     #[must_use]
     pub const fn is_mailbox_read(&self) -> bool {
         self.command == FPRD && self.address >= MEMORY && self.working_counter > 0

@@ -46,9 +46,9 @@ pub enum Exception {
     IllegalFunction,
     /// A register doesn't exist, or cannot be read or written.
     IllegalDataAddress,
-    /// The number of registers is 0 or too high, or a value is out of range.
+    /// The number of registers is 0 or too high, or a value is out of range or has the wrong length.
     IllegalDataValue,
-    /// The device cannot execute the request now.
+    /// The device failed to execute the request.
     ServerDeviceFailure,
 }
 
@@ -64,7 +64,7 @@ impl Exception {
         }
     }
 
-    /// Returns the Modbus exception for an error whose abort code in an SDO transfer is `code`.
+    /// Returns the Modbus exception that corresponds to an SDO abort code.
     #[must_use]
     pub const fn of_abort(code: AbortCode) -> Self {
         match code {

@@ -38,7 +38,8 @@ impl<F: Clone, M: ?Sized> Faults<F, M> {
         self.add_nth_of(fault, n, |_, _| true);
     }
 
-    /// Adds a fault of the `n`th message from now on for which `is_counted` returns true. 0 has the same effect as 1.
+    /// Adds a fault that affects the `n`th message from now on for which `is_counted` returns true. 0 has the same
+    /// effect as 1.
     pub fn add_nth_of(&mut self, fault: F, n: u64, is_counted: fn(&F, &M) -> bool) {
         self.rules.push(Rule { fault, affected: Affected::Nth(n, is_counted) });
     }

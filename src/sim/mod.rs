@@ -51,8 +51,8 @@
 //! - Time: [`Device::step`] advances the simulated time.
 //! - Parameters: the device stores parameters (0x1010) and restores parameters (0x1011) if it has these objects.
 //!
-//! A simulated device checks only the data in the table. The device doesn't check the length of texts, the values of
-//! enumerations, or gaps in a range.
+//! A simulated device checks written values only against the data in the table. The device doesn't check the length of
+//! texts, the values of enumerations, or gaps in a range.
 
 mod behavior;
 #[cfg(feature = "canopen")]

@@ -10,7 +10,7 @@ use crate::pdo::{from_bytes, is_restricted, MappedEntry};
 /// Abort code for a write to a mapping whose sub-index 0 isn't 0 (ETG.1000.6).
 const COUNT_NOT_ZERO: AbortCode = AbortCode(0x0601_0003);
 
-/// COB-ID bit of a disabled PDO.
+/// COB-ID bit that is set while a PDO is disabled.
 const UNUSED: u64 = 1 << 31;
 /// COB-ID bits that can change only while the PDO is disabled: the CAN-ID, and bit 29 for 29-bit CAN-IDs.
 const IDENTIFIER: u64 = 0x3FFF_FFFF;

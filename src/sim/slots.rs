@@ -81,8 +81,8 @@ impl Slots {
     }
 
     /// Returns the initial value of a sub-index 0 that contains the number of entries, if the device description
-    /// declares no value. In a mapping or assignment object, only the leading entries with a value other than 0 in the
-    /// description count. In all other objects, the initial value of sub-index 0 is the highest sub-index.
+    /// declares no value. In a mapping or assignment object, the initial value is the number of leading entries whose
+    /// value in the description isn't 0. In all other objects, the initial value is the highest sub-index.
     ///
     /// The error list (CiA 301 7.5.2.4) is empty after power-on. For this list, a value in the description is the
     /// capacity (`CompactSubObj` of CiA 306), not the number of errors.

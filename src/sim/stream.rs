@@ -47,7 +47,8 @@ impl StreamFault {
     }
 }
 
-/// The device's end of a byte stream, with injected faults, for tests of clients of Modbus and serial protocols.
+/// The device's end of a byte stream, with injected faults, for tests of Modbus clients and of clients of serial
+/// protocols.
 ///
 /// Bytes that the device reads are unchanged. Each call to `write` sends one message, such as a reply. A
 /// [`StreamFault`] affects one of the messages, or all messages that a function selects.
@@ -69,10 +70,10 @@ impl StreamFault {
 ///
 /// With the traits of `std::io`, `write` blocks the device until the delay of a late message has passed. `W` is the
 /// function that waits, by default `std::thread::sleep`. With the feature `modbus`, the stream also implements the
-/// traits of `tokio::io`. With the traits of `tokio::io`, `write` returns immediately. The device sends a late message
-/// while it reads, flushes the stream or writes the next message. The tokio runtime must have timers enabled. Use the
-/// stream in one task: if `tokio::io::split` divides it between tasks, a late message can wait for the next call of the
-/// other task.
+/// traits of `tokio::io`. With the traits of `tokio::io`, `write` returns before the delay has passed. The device then
+/// sends the late message while it reads, flushes the stream or writes the next message. The tokio runtime must have
+/// timers enabled. Use the stream in one task: if `tokio::io::split` divides it between tasks, a late message can wait
+/// for the next call of the other task.
 ///
 /// The crate `embedded-io-adapters` converts streams of `std::io` and of `tokio::io` to streams of `embedded-io`.
 pub struct FaultyStream<S, W = fn(Duration)> {

@@ -14,7 +14,7 @@ use tokio::time::{sleep, Sleep};
 
 use super::stream::FaultyStream;
 
-/// Parts of messages that have not been sent.
+/// Parts of messages that have not been sent yet.
 #[derive(Default)]
 pub(super) struct Late {
     /// The parts, with the pause before each part.

@@ -37,7 +37,7 @@ pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<
     Ok(bytes)
 }
 
-/// Checks that `data` has the length of its type.
+/// Checks that `data` has a length that the type of the item allows.
 pub(super) fn check_length(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
     match byte_length(entry.data_type) {
         Some(length) if data.len() > length => Err(AbortCode::TOO_LONG),

@@ -71,7 +71,7 @@ const fn name<const LENGTH: usize>(constant: &str) -> [u8; LENGTH] {
 macro_rules! codes {
     ($($id:ident $constant:ident $class:ident $level:ident $summary:literal $explanation:literal)*) => {
         $(
-            #[allow(rustdoc::broken_intra_doc_links, reason = "names of sections of an EDS have brackets")]
+            #[allow(rustdoc::broken_intra_doc_links, reason = "the section names of an EDS have brackets")]
             #[doc = concat!("`", stringify!($id), "`: ", $summary, ".")]
             pub static $constant: Code = Code {
                 id: stringify!($id),
@@ -153,8 +153,9 @@ codes! {
         "Lexibus keeps the entry as an extension attribute of its object. Many tools add keys, so this lint is off by \
         default. Turn the lint on to find misspelled keys."
     EDS013 NOT_UTF8 Repair Warn "the file is neither ASCII nor UTF-8"
-        "CiA 306 allows only ASCII. This file has bytes that are not valid UTF-8 either. Lexibus reads the file as \
-        Windows-1252, the usual encoding of German and French tools. Save the file as ASCII or UTF-8."
+        "CiA 306 allows only ASCII. This file has bytes that are not valid UTF-8 either. Lexibus reads a file with a \
+        byte order mark of UTF-16 as UTF-16, and any other file as Windows-1252, the usual encoding of German and \
+        French tools. Save the file as ASCII or UTF-8."
     EDS014 HASH_COMMENT Repair Warn "a comment starts with `#`"
         "CiA 306 defines only comment lines that start with `;`. Lexibus skips lines that start with `#`. In a value \
         of a fixed form, such as a number, it ignores the text from ` #` on. Other tools may read that text as part of \
@@ -225,7 +226,7 @@ codes! {
     EDS038 EMPTY_NAME Lint Warn "an object has no name"
         "ParameterName is mandatory. Generated code names the object by its index. In a register table, this code also \
         reports values and bits with an empty label. Add the missing name."
-    EDS039 COMPLEX_DATA_TYPE Lint Warn "an entry has a reserved data type or the type of a record"
+    EDS039 COMPLEX_DATA_TYPE Lint Warn "an entry has a reserved data type or a record type"
         "A single value cannot have a record type (0x20 to 0x23) or a reserved code. Lexibus keeps the value as raw \
         bytes. Correct DataType."
     EDS040 ORPHAN_SUB Repair Warn "a sub-index belongs to an object that is not described"
@@ -235,11 +236,13 @@ codes! {
         "A list names an object that has no section. Lexibus leaves the object out, because nothing is known about it. \
         Add the section, or delete the object from the list."
     EDS042 NOT_LISTED Lint Warn "an object is described but not listed"
-        "Every object belongs in `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`. Many tools read \
-        only the objects in these lists. Lexibus keeps the object. Add the object to its list."
-    EDS043 LIST_COUNT Repair Warn "a list states the wrong number of entries"
-        "SupportedObjects, or a similar key, states the number of entries in the list. The entries are numbered from \
-        1. Lexibus uses the entries that exist. Correct the number, because other tools may ignore entries beyond it."
+        "Every object from 0x1000 on belongs in `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`, \
+        and every object of a module in `[M<n>FixedObjects]`. Many tools read only the objects in these lists. Lexibus \
+        keeps the object. Add the object to its list."
+    EDS043 LIST_COUNT Repair Warn "a list states the wrong number of entries, or its numbering has a gap"
+        "SupportedObjects, or a similar key, states the number of entries in the list. The entries are numbered from 1 \
+        without a gap. Lexibus uses the entries that exist. Correct the number of entries or the numbering, because \
+        other tools may ignore some of the entries."
     EDS044 LISTED_TWICE Lint Warn "an object is listed twice"
         "An object needs only one entry in the object lists. Lexibus ignores the second entry. Delete the second entry."
     EDS045 WRONG_LIST Lint Warn "an object is in the wrong list"
@@ -260,9 +263,9 @@ codes! {
         this number. PDO mappings, PDO assignments and 0x1003 are exempt, because their sub-index 0 is the number of \
         valid entries. Lexibus keeps the value. Correct the value, or describe the missing sub-indices."
     EDS050 DEFAULT_OUT_OF_LIMITS Lint Warn "a default value is outside of its limits"
-        "The device would reject its own default value, so one of the numbers is wrong. Lexibus keeps all numbers. In \
-        a register table, this code also reports fixed values (`fixed`), allowed values and writable values. Compare \
-        the numbers with the manual and correct the wrong number."
+        "The device would reject its own default value, so one of the numbers is wrong. Lexibus keeps all numbers. In a \
+        DCF or XDC, this code also reports configured values, and in a register table, fixed values (`fixed`), allowed \
+        values and writable values. Compare the numbers with the manual and correct the wrong number."
     EDS051 LIMITS_SWAPPED Lint Warn "the minimum is greater than the maximum"
         "No value satisfies the limits. Lexibus keeps the limits, but generated code does not check them. Correct \
         LowLimit or HighLimit. If one of the limits has the wrong sign, check the data type too."
@@ -273,16 +276,18 @@ codes! {
         "Files before version 4.0 have no CompactSubObj, no ObjFlags and no `$NODEID` in limits. These files also \
         describe modules differently. A missing EDSVersion means 3.0. Ask the vendor for a newer file, or add \
         EDSVersion if only the key is missing."
-    EDS054 UNRESOLVED_MODULE Lint Warn "a module or extension is declared but not described"
-        "The sections of a module are `[M<n>ModuleInfo]`, `[M<n>FixedObjects]`, `[M<n>SubExtends]` and so on. Lexibus \
-        keeps a declared module without these sections as an empty one. Add the sections, or correct the list."
+    EDS054 UNRESOLVED_MODULE Lint Warn "the number of modules is wrong, or a section of a module is missing"
+        "`[SupportedModules]` states the number of modules. The lists `[M<n>FixedObjects]` and `[M<n>SubExtends]` \
+        declare the sections of the objects and extensions of a module. Lexibus reads the sections that exist. Correct \
+        the number or the list, or add the missing sections."
     EDS055 DANGLING_LINK Lint Warn "an object link has no target"
         "`[<index>ObjectLinks]` names an object that the file does not describe. Lexibus keeps the link. Correct the \
         index, or describe the object."
     EDS056 NAME_WITHOUT_SUB Lint Warn "a name, value or denotation is given for a sub-index that does not exist"
         "The sections `[<index>Name]`, `[<index>Value]` and `[<index>Denotation]` refine the sub-indices of \
-        CompactSubObj. Their keys are sub-indices in decimal. Lexibus keeps this entry as an extension attribute. \
-        Correct the key."
+        CompactSubObj. Their keys are sub-indices in decimal. This code also reports these sections, and \
+        `[<index>ObjectLinks]`, if the file does not describe the object. Lexibus keeps the entries as extension \
+        attributes. Correct the key, or describe the object."
     EDS057 NO_SUBS Lint Warn "an ARRAY or RECORD has no sub-indices"
         "The values of an ARRAY or RECORD are in its sub-indices, so this object has no value to read or write. In an \
         EDS, neither sections nor CompactSubObj describe the sub-indices. Describe them."
@@ -292,15 +297,16 @@ codes! {
     EDS059 ARRAY_TYPES Lint Warn "the elements of an array have different types"
         "All elements of an ARRAY have one data type. An object with different types is a RECORD. Lexibus keeps the \
         types. Correct the types, or change the object to a RECORD."
-    EDS060 SUB0_ACCESS Lint Allow "sub-index 0 is writable and the other sub-indices are not, or the reverse"
+    EDS060 SUB0_ACCESS Lint Allow "only sub-index 0 of an object is writable, or sub-index 0 of a writable PDO mapping is not"
         "Sub-index 0 is writable only if the number of valid entries can change, as in a PDO mapping or an error list. \
         In such an object, the entries are writable too, or writing 0 clears the list. Lexibus keeps the access \
         rights. Many devices have such access rights on purpose, so this lint is off by default. Compare the access \
         rights with the manual."
-    EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 contradicts `[DeviceInfo]`"
-        "VendorNumber, ProductNumber and RevisionNumber are the default values of 0x1018, sub-indices 1 to 3. A master \
-        that checks the identity of a node would reject the device, or accept another one. Lexibus uses \
-        `[DeviceInfo]`. Read 0x1018 from the device and correct the file."
+    EDS061 IDENTITY_MISMATCH Lint Warn "object 0x1018 contradicts the identity of the device"
+        "The vendor ID, product code and revision number of a device are the default values of 0x1018, sub-indices 1 to \
+        3. In an EDS, `[DeviceInfo]` states these numbers. A master that checks the identity of a node would reject \
+        the device, or accept another one. Lexibus uses the identity of the device, and ignores zeros in 0x1018. Read \
+        0x1018 from the device and correct the file."
     EDS062 MISSING_ENTRY Lint Allow "a mandatory entry is missing"
         "CiA 306 requires the entry. Lexibus leaves the fact empty. Most tools do not need the entry, so this lint is \
         off by default. Add the entry if another tool requires it."
@@ -346,26 +352,26 @@ codes! {
         "XML predefines the entities `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`. Lexibus expands no other entities, \
         so that a small file cannot grow into a large one. Lexibus keeps other references as text. Write the character \
         itself, and `&amp;` for `&`."
-    XML003 WRONG_ENCODING Repair Warn "the file is not in its declared encoding"
+    XML003 WRONG_ENCODING Repair Warn "the declared encoding of the file is wrong or not supported"
         "The XML declaration names an encoding. The default is UTF-8. Lexibus reads a file that is valid UTF-8 as \
         UTF-8, even if the declaration names another encoding. It reads other files in the declared encoding, or as \
         Windows-1252 if that fails. Bytes that are invalid in the encoding are lost. Save the file as UTF-8, and \
         declare UTF-8 in the XML declaration."
     XML004 SECOND_ROOT Repair Warn "content follows the root element"
-        "A document has one root element, and only comments may follow it. The content is often the rest of an older, \
-        longer version of the file. Lexibus ignores the content. Delete the content."
-    XML005 REFERENCED_FILE Lint Warn "a referenced file was not read"
-        "Lexibus follows references only to files in the folder of the description and in folders below it. The \
-        content of the referenced file is missing. Put the file into one of these folders, under the name in the \
-        reference."
+        "A document has one root element, and only comments and processing instructions may follow it. The content is \
+        often the rest of an older, longer version of the file. Lexibus ignores the content in an ESI, and rejects any \
+        other file with the error XML001. Delete the content."
+    XML005 REFERENCED_FILE Lint Warn "a referenced file was not read, or lacks the expected content"
+        "Lexibus follows references only to files in the folder of the description and in folders below it. The content \
+        of the referenced file is missing. Put the file into one of these folders, under the name in the reference."
     XML006 MISSPELLED_NAME Lint Warn "an unknown element or attribute is similar to a known one"
         "The standard does not define the element or attribute at this position. Its name differs in one letter from a \
         name that Lexibus reads, or in two letters if it has more than eight. Lexibus keeps the value as an extension \
         attribute and does not use it. Correct the name if it is misspelled."
-    ESI001 ESI_VALUE Repair Warn "an attribute or element has an invalid value"
-        "ETG.2000 fixes the form of the value, such as a decimal number, `#x` with hexadecimal digits, or one of a few \
-        words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold it. \
-        Correct the value."
+    ESI001 ESI_VALUE Repair Warn "an attribute or element is missing or has an invalid value"
+        "ETG.2000 requires the value, or fixes its form, such as a decimal number, `#x` with hexadecimal digits, or one \
+        of a few words. Lexibus leaves the value out, or keeps it as text if the intermediate representation can hold \
+        it. Add or correct the value."
     ESI002 ESI_UNKNOWN_ELEMENT Lint Allow "an element or attribute is not defined in ETG.2000"
         "Lexibus keeps the element or attribute as an extension attribute. Tools add elements outside of \
         VendorSpecific, so this lint is off by default. XML006 reports likely misspellings."
@@ -373,10 +379,10 @@ codes! {
         "A number is decimal unless it starts with `#x`. This number has hexadecimal letters, so Lexibus reads it as \
         hexadecimal. Lexibus reads numbers without letters as decimal, although the author may have meant them as \
         hexadecimal too. Write `#x` before all hexadecimal numbers."
-    ESI010 UNRESOLVED_TYPE Repair Warn "a data type is unknown"
+    ESI010 UNRESOLVED_TYPE Repair Warn "a data type is unknown or missing"
         "The name is neither a DataType of this dictionary nor a base data type of ESI, or the DataType defines only \
-        its name. Lexibus keeps the value as raw bytes. Define the type in DataTypes, or use a base data type such as \
-        UINT."
+        its name. Or an object or sub-item has no type. Lexibus keeps the value as raw bytes. Define the type in \
+        DataTypes, or use a base data type such as UINT."
     ESI011 TYPE_ALIAS Lint Allow "a base data type has a name from another standard"
         "ESI calls the base data types USINT, UINT, UDINT and so on. This file uses the name of the same type in CiA \
         301 or C, such as UNSIGNED16. Lexibus reads the name as the base data type of the same size, so this lint is off \
@@ -396,9 +402,9 @@ codes! {
     ESI016 MISSING_BASE_TYPE Repair Warn "an enumeration or array has no usable BaseType"
         "BaseType is the integer type of an enumeration, or the element type of an array. Lexibus reads an enumeration \
         without BaseType as an unsigned integer of its BitSize, and keeps an array as raw bytes. Add BaseType."
-    ESI017 ARRAY_BOUNDS Repair Warn "the number of array elements is missing or wrong"
-        "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. Lexibus derives a \
-        missing number of elements from the sizes, and otherwise uses the declared number. An array has at most three \
+    ESI017 ARRAY_BOUNDS Repair Warn "the ArrayInfo of an array is missing or wrong"
+        "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. Lexibus derives a missing \
+        number of elements from the sizes, and otherwise uses the declared number. An array has at most three \
         dimensions, and Lexibus leaves out further dimensions. Correct ArrayInfo or BitSize."
     ESI018 SUB_ITEM_MISMATCH Repair Warn "the sub-items of an object do not match its data type"
         "Each sub-item of an object gets its sub-index and type from the SubItem with the same name in the data type. \
@@ -485,16 +491,17 @@ codes! {
         "Lexibus keeps the element or attribute as an extension attribute if it has a value. Many tools add \
         attributes to objects, so this lint is off by default. XML006 reports likely misspellings."
     XDD006 XDD_VALUE Repair Warn "an attribute or element has an invalid value"
-        "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without \
-        a prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if \
-        the intermediate representation can hold it. Correct the value."
+        "CiA 311 fixes the form of the attribute. Indices and data types, for example, are hexadecimal digits without a \
+        prefix. Lexibus skips the prefix `0x`. Lexibus leaves out any other invalid value, or keeps it as text if the \
+        intermediate representation can hold it. This code also reports data types that contain themselves, and \
+        objects that refer to an inaccessible parameter. Correct the value."
     XDD007 DUPLICATE_OBJECT Repair Warn "an object or sub-object occurs twice"
         "An index must be unique in an object list, and a sub-index in its object. Lexibus uses the last definition. \
         Delete the wrong definition."
-    XDD008 MISSING_INDEX Repair Warn "an object has no usable index"
-        "An object needs an index, and a sub-object needs a sub-index. Both consist of hexadecimal digits. Lexibus \
-        leaves out objects and sub-objects without such a number, because they cannot be addressed. Add the index or \
-        sub-index."
+    XDD008 MISSING_INDEX Repair Warn "an object or sub-object has no usable index"
+        "An object needs an index, and a sub-object needs a sub-index. Both consist of hexadecimal digits. A \
+        CANopenSubObject must be inside a CANopenObject. Lexibus leaves out objects and sub-objects that break these \
+        rules, because they cannot be addressed. Add the index or sub-index, or move the sub-object."
     GSD001 NOT_A_GSDML Error Deny "the XML is not a GSDML file"
         "A GSDML file has the root element ISO15745Profile, which contains a ProfileBody with an ApplicationProcess. \
         This file has another root element, and Lexibus rejects it. Check that this is the right file."
@@ -517,9 +524,10 @@ codes! {
     GSD007 ATTRIBUTE_CASE Repair Warn "the name of an attribute has the wrong case"
         "XML is case-sensitive, so engineering tools do not see the attribute. Lexibus reads the attribute all the \
         same. Write the name as in the schema."
-    GSD008 MISSING_TEXT Repair Warn "a text is missing from the text list"
-        "Names are references to ExternalTextList. Lexibus uses the identifier as the name if the list does not \
-        contain it. Add the text to the list."
+    GSD008 MISSING_TEXT Repair Warn "a text is missing"
+        "A TextId refers to a text in ExternalTextList. If the list does not contain the text, Lexibus uses the \
+        identifier as the name. If only the primary language lacks the text, Lexibus uses the first translation. \
+        Without TextId, the name is empty. Add the text or the TextId."
     GSD009 MISSING_TRANSLATION Lint Warn "a language lacks texts that the primary language has"
         "A text without a translation is displayed in the primary language, which is English. Add the translations."
     GSD010 DUPLICATE_ID Repair Warn "an identifier, text, language or element occurs twice"
@@ -537,7 +545,7 @@ codes! {
     GSD013 GSDML_DEFAULT Repair Warn "a default value does not have the form of its data type"
         "Numbers are decimal, octets are written as `0x00,0x1F`, and a bit is 0 or 1. Lexibus reads a hexadecimal \
         number, and keeps any other value as text. Correct the value."
-    GSD014 ALLOWED_VALUES Repair Warn "a part of AllowedValues is neither a number nor a range"
+    GSD014 ALLOWED_VALUES Repair Warn "a part of AllowedValues is neither a number nor an ascending range"
         "The list contains numbers and ranges, separated by spaces: `0..4 7 9`. Lexibus swaps the limits of a \
         descending range, and leaves out any other part. Correct the list."
     GSD015 RECORD_BOUNDS Lint Warn "a parameter or constant exceeds its record"
@@ -552,7 +560,8 @@ codes! {
         UseAsBits is missing. Correct the data item."
     GSD018 IO_LENGTH Lint Warn "a module has more data than its device can exchange"
         "MaxInputLength, MaxOutputLength and MaxDataLength limit the data of all submodules, including their status \
-        bytes. The device cannot use a module that exceeds these limits. Lexibus keeps the module. Correct the lengths."
+        bytes. The lint adds the data of the built-in submodules of a module. The device cannot use a module that \
+        exceeds these limits. Lexibus keeps the module. Correct the lengths."
     GSD019 RECORD_SIZE Lint Warn "a record is longer than the device accepts"
         "MaxSupportedRecordSize of a device is the maximum length of its records. The default is 4068 bytes. The \
         device rejects longer records. Lexibus keeps the record. Correct the Length of the record or \
@@ -573,7 +582,7 @@ codes! {
         "The description declares that the object cannot be mapped, such as with PDOMapping 0 in an EDS. A CANopen \
         device rejects the mapping with abort code 0x06040041. Lexibus keeps the entry. Correct the mapping or the \
         object."
-    PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object in a direction that its access rights do not allow"
+    PDO003 WRONG_DIRECTION Lint Warn "a PDO maps an object that cannot be mapped in the direction of the PDO"
         "A TPDO carries readable objects (ro, const, rw, rwr), and an RPDO writable ones (wo, rw, rww). In EtherCAT, \
         PdoMapping states the direction. Lexibus keeps the entry. Correct the mapping or the object."
     PDO004 PDO_TOO_LONG Lint Warn "a PDO is longer than its maximum length"
@@ -674,8 +683,9 @@ codes! {
         a parameter, `ascii` for a name, or `esc` for an EtherCAT slave controller. Lexibus produces no output if a \
         row has no address."
     TAB009 REGISTER_SPAN Lint Warn "the printed register numbers do not match the type"
-        "A value of 32 bits takes two registers of 16 bits. Lexibus uses the type. Compare the type and the printed \
-        numbers with the manual, and correct the wrong one."
+        "A value of 32 bits takes two registers of 16 bits. This code also reports an integer whose length is not a \
+        whole number of bytes. Lexibus uses the type. Compare the type and the printed numbers with the manual, and \
+        correct the wrong one."
     TAB010 ACCESS_NOT_GIVEN Lint Warn "the access rights of an item are not declared"
         "Neither the row nor the defaults of its chapter or file have `access`. Lexibus makes the item read-only, so \
         generated code cannot write the item. Add `access` to the row or to `defaults`."
@@ -714,10 +724,10 @@ codes! {
         "The number sets a bit that is reserved or has no name, or clears a reserved bit that must be 1. Limits are \
         only checked for reserved bits that they set. A limit is exempt if it has a single bit, or all bits up to the \
         end of the type or the last named bit. Correct the number, or name the bits if the manual does."
-    TAB020 LENGTH_MISMATCH Lint Warn "the length of an entry differs from its type, or the length of a PDO from its entries"
-        "A default text is longer than its type. Or a printed `length` differs from the length of the item's type or \
-        of the PDO's entries. Or an item has more or fewer bytes of ESC memory than its type needs. Compare the \
-        lengths with the manual, and correct the wrong length."
+    TAB020 LENGTH_MISMATCH Lint Warn "the length of an item differs from its type, or the length of a PDO from its entries"
+        "A default text is longer than its type. Or a printed `length` differs from the length of the item's type or of \
+        the PDO's entries. Or an item has more or fewer bytes of ESC memory than its type needs. Compare the lengths \
+        with the manual, and correct the wrong length."
     TAB021 SUMMARY_DIFFERS Lint Warn "another section of the manual contradicts the row"
         "`summary` of the row holds what a table of contents, an overview or the prose says about the item. Lexibus \
         uses the row. Write the correct fact in the row and the other fact in `doubt`, and `allow` this code on the \
@@ -741,8 +751,9 @@ codes! {
         correct the text."
     TAB026 FIRMWARE_WINDOW Lint Warn "firmware ranges contradict each other"
         "`since` is the first firmware version that has an item, bit, value or message. `until` is the first later \
-        version that does not have it. A range is empty, or the replacement of an item appears before or after the \
-        item ends. Compare the versions with the manual, and correct the wrong one."
+        version that does not have it. A range is empty, or the replacement of an item does not start with the version \
+        in which the item ends, or no longer exists in this version. Compare the versions with the manual, and correct \
+        the wrong one."
     TAB027 VERSION_FORM Lint Warn "a firmware version cannot be compared"
         "A firmware version consists of numbers separated by dots. Each number is compared separately: 6.27 is later \
         than 6.3. Lexibus does not compare this version with others. Write the version as numbers separated by dots."
@@ -759,14 +770,14 @@ codes! {
     TAB031 OVERLAY_NO_CHANGE Lint Warn "an overlay entry changes nothing"
         "The description already contains everything that the entry states. The vendor may have corrected a newer \
         version of the description. Delete the entry."
-    TAB032 OVERLAY_NOT_FOR Lint Warn "an overlay matches no device of the description"
+    TAB032 OVERLAY_NOT_FOR Lint Warn "an overlay matches no device or module of the description"
         "`for` in `[overlay]` names a vendor, product code, revision, device or module that the description, or the \
         selected part of it, does not have. Lexibus applies nothing of the overlay. Correct `for`, or remove the \
         overlay."
     TAB033 STEP_IMPOSSIBLE Lint Warn "a step of a procedure is impossible"
-        "The step writes a read-only item or a value that the item cannot have, or waits for a value that never \
-        occurs. Or the step gives a PDO the COB-ID of another PDO. Lexibus keeps the step. Compare the step with the \
-        manual, and correct the step."
+        "The step writes a read-only item or a value that the item cannot have, or waits for a value that never occurs. \
+        Or the step gives a PDO the COB-ID of another PDO, writes an entry of a PDO mapping twice, or writes too large \
+        a number of entries. Lexibus keeps the step. Compare the step with the manual, and correct the step."
     TAB034 ASSIGNED_PDO_MISSING Lint Warn "an assigned PDO is not described"
         "0x1C12 and 0x1C13 hold the indices of the assigned PDOs. A default value or a step of a procedure writes the \
         index of a PDO that the table does not have. Describe the PDO, or correct the index."
@@ -774,9 +785,9 @@ codes! {
         "The mapping has no effect, because the procedure assigns other PDOs to the sync manager. Correct the \
         index of the mapped or of the assigned PDO."
     TAB036 UNNAMED_BITS Lint Allow "a bit field does not describe all bits"
-        "Some bits are neither named nor reserved, or a narrow field has an unnamed value between named ones. Manuals \
-        often omit such bits and values, so this lint is off by default. Name or reserve the bits and values if the \
-        manual does."
+        "Some bits are neither named nor reserved, or an enumeration of a field of up to 4 bits does not name or \
+        reserve all values of the field. Manuals often omit such bits and values, so this lint is off by default. Name \
+        or reserve the bits and values if the manual does."
     TAB037 MODE_WITHOUT_BITS Lint Warn "bits that depend on a mode are not described for one of the modes"
         "The manual's table of bits has no column for the mode, or the mode does not use the bits. The value 0 is not \
         checked, because it usually means no mode. Describe the bits, or `allow` this code on the bit field if the \
@@ -802,33 +813,36 @@ codes! {
         "One of the items has the wrong register number, or a type that is too long. Lexibus keeps both items. Correct \
         the wrong item. If the device repeats a part of a value in separate registers, declare this with `part`, or \
         with `same_as` and `allow`."
-    TAB044 EXAMPLE_DIFFERS Lint Warn "an example frame contradicts its message"
+    TAB044 EXAMPLE_DIFFERS Lint Warn "an example frame contradicts its message or the registers of the table"
         "Lexibus compares the requests and replies that the manual prints with the fields of the message. The lint \
-        checks the length, constants, echoes, reserved bits and named values. The frame or the field is misprinted. \
-        Keep the bytes that the other frames support, and record the ambiguity in `doubt`."
+        checks the length, constants, echoes, reserved bits and named values. In Modbus frames (`[[frames]]`), the \
+        lint checks register addresses, byte counts, lengths, node addresses, function codes and the CRC. The frame or \
+        the field is misprinted. Keep the bytes that the other frames support, and record the ambiguity in `doubt`."
     TAB045 CELLS_TWICE Lint Warn "two codes of a code table have the same cells"
         "The table declares with `distinct` that no two codes have identical cells. The manual probably repeats a row. \
         Record the ambiguity in `doubt`, and `allow` this code on the table."
     TAB048 NARROW_WINDOW Lint Warn "an item has more bits than the window through which it is read or written"
-        "All windows of the space transfer fewer bits than the item has, so the upper bits are lost. Correct the type \
-        of one item, or add a wider window."
-    TAB049 WINDOW_ORDER Lint Warn "a procedure writes the parameter number of a window before the value"
-        "Writing the parameter number starts the transfer, so the device transfers the previous value. In a process \
-        image, the parameter number and the value are sent together, so their order is not checked. Write the value \
-        before the parameter number."
+        "On one of the buses, all windows of the space transfer fewer bits than the item has, so the upper bits are \
+        lost. Correct the type of one item, or add a wider window."
+    TAB049 WINDOW_ORDER Lint Warn "a window or its procedure writes the register number before the value"
+        "Writing the register number starts the transfer, so the device transfers the previous value. In a process \
+        image, the register number and the value are sent together, so their order is not checked. Write the value \
+        before the register number."
     TAB050 QUANTITIES_DIFFER Lint Warn "two items for the same quantity have different default values"
         "`same_quantity` names an item for the same quantity in another scale. For each model, Lexibus compares the \
         default values as physical values, with a tolerance of 0.1 %. If the units differ, it compares machine values \
-        (`[given]`). Correct a default value or a scale."
+        (`[given]`), and reports the units if the items have no common machine unit. Correct a default value or a \
+        scale."
     TAB051 NUMBER_GAP Lint Allow "a number is missing in a series of parameter numbers"
         "A row of the manual's table may be missing. Devices often skip numbers, so this lint is off by default. Look \
         for the parameter in the manual."
     TAB052 CONVERSION_DIFFERS Lint Warn "a conversion in the manual contradicts the scale of the item"
         "`conversions` holds raw values and the physical values that the manual gives for them. The scale gives a \
         physical value that differs by more than one raw step. A digit is misprinted, or the scale, a machine value or \
-        the base is wrong. Keep the numbers that agree, and add a `doubt`."
-    TAB053 OVERLAY_SHARED Lint Warn "an overlay also changes a device that its `for` does not name"
-        "`for` in `[overlay]` names some devices. Another device has the same module or submodule, which is described \
+        the base is wrong. Keep the numbers that agree, and add a `doubt`. This code also reports a conversion that \
+        cannot be checked, for example because a key is missing."
+    TAB053 OVERLAY_SHARED Lint Warn "an overlay also changes a device that its `for` does not select"
+        "`for` in `[overlay]` selects some devices. Another device has the same module or submodule, which is described \
         once, so the overlay also changes that device. If this is correct, name the module or the other device in \
         `for`."
     MSG001 FRAMING_BYTES Lint Warn "start, end and escape bytes of frames contradict each other"
@@ -897,8 +911,8 @@ codes! {
         table."
     CSV007 CSV_ASSUMPTION Lint Warn "the list does not state a fact that the table needs"
         "Register lists often leave out types or access rights, or use one word with several meanings. Lexibus makes \
-        one assumption for the whole list, and the message states it. Compare the assumption with the manual, and \
-        correct the table."
+        one assumption for the whole list, or for each unknown unit, and the message states it. Compare the assumption \
+        with the manual, and correct the table."
     CSV008 CSV_UNCLOSED_QUOTE Repair Warn "a quotation mark is never closed"
         "Lexibus reads everything up to the end of the file as one cell. If tabs separate the cells, it reads the \
         quotation mark as a character and continues with the next line. Close the quotation mark."

@@ -142,7 +142,7 @@ fn mistakes() {
         "Far = { reg = 0x18000, type = \"u32\", access = \"ro\", buses = [\"canopen\"] }",
         "",
     ));
-    has(&far, "the number 98304 of `Far` does not fit `Number`, which has 16 bits");
+    has(&far, "the register number 98304 of `Far` does not fit `Number`, which has 16 bits");
     let text = reported(&table(
         "indirect = { write_address = \"Number\", read = \"Value\" }",
         "Name = { reg = 0x8000, type = \"str(4)\", access = \"ro\", buses = [\"canopen\"] }",

@@ -47,7 +47,7 @@ pub struct Booted {
 }
 
 impl Booted {
-    /// Returns the error status L of CiA 302-2 if the node was initially in Operational, otherwise `None`.
+    /// Returns the error status L of CiA 302-2 if the node was [kept running](Boot::keep_running), otherwise `None`.
     #[must_use]
     pub const fn status(&self) -> Option<char> {
         if self.was_operational {
@@ -58,7 +58,7 @@ impl Booted {
     }
 }
 
-/// Returns the value of an object as a number, the error of the read, or an error if the value isn't 4 bytes long.
+/// Returns the value of an object as a number, or an error if the read failed or the value isn't 4 bytes long.
 fn number<E>(object: Object, bytes: [u8; 4], result: Result<usize, Error<E>>) -> Result<u32, BootError<E>> {
     match result {
         Ok(4) => Ok(u32::from_le_bytes(bytes)),
@@ -97,7 +97,7 @@ macro_rules! boot {
         $date:ident $configure:ident $write:ident $store:ident $discard_states:ident $run:ident $is_running:ident $state:ident $($async:ident $await:ident)?
     ) => {
         impl<P: $Port> Node<P> {
-            /// Boots the node as the NMT master (CiA 302-2). The steps have this order:
+            /// Boots the node, as the NMT master of CiA 302-2 does. The steps have this order:
             ///
             /// 1. Restart, if it is [requested](Boot::reset). With [`Boot::keep_running`], the master first determines
             ///    the state of the node. If the node is already in Operational, it keeps running, and the master only

@@ -8,7 +8,7 @@ use super::port::{AsyncCanPort, CanPort, MOST_WAITING};
 /// CAN interface with a buffer for up to `N` received frames. Frames that arrive while another frame is expected are
 /// kept, for example an emergency message during an SDO transfer.
 ///
-/// If more than `N` frames arrive, the oldest are lost and [counted](Buffered::lost).
+/// If a frame arrives while the buffer is full, the oldest frame is lost and [counted](Buffered::lost).
 #[derive(Clone, Debug)]
 pub struct Buffered<P, const N: usize> {
     port: P,

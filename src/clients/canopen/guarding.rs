@@ -14,10 +14,10 @@ use crate::node_id::NodeId;
 /// Toggle bit of a guarding answer. The node inverts it in each answer.
 const TOGGLE: u8 = 1 << 7;
 
-/// Node guarding of one node, as NMT master. [`Node::guard`] runs one cycle.
+/// Node guarding of one node by the NMT master. [`Node::guard`] runs one cycle.
 ///
-/// The node answers a remote frame with its NMT state and a bit that alternates. Use node guarding only for devices that
-/// have no heartbeat producer.
+/// The node answers a remote frame with its NMT state and a toggle bit. Use node guarding only for devices that have no
+/// heartbeat producer.
 #[derive(Clone, Debug)]
 pub struct Guarding {
     guard_time: Duration,
@@ -73,7 +73,8 @@ impl Guarding {
         raw == NmtState::BootUp.raw() || self.toggle.map_or(true, |toggle| toggle == (raw & TOGGLE != 0))
     }
 
-    /// Sets the toggle bit of the next answer: the inverse of this one, or 0 after the boot-up message.
+    /// Returns the state in this answer. Sets the toggle bit of the next answer: the inverse of this one, or 0 after a
+    /// boot-up message.
     fn synchronize(&mut self, raw: u8) -> NmtState {
         let state = NmtState::from_raw(raw);
         self.toggle = Some(state != NmtState::BootUp && raw & TOGGLE == 0);
@@ -140,7 +141,7 @@ impl<E: error::Error> error::Error for GuardError<E> {
     }
 }
 
-/// Returns the byte of an answer or of a boot-up message.
+/// Returns the byte of an answer or of a boot-up message, or `None` for other frames.
 fn answer(frame: &CanFrame, node: NodeId) -> Option<u8> {
     match frame.data() {
         [raw] if frame.id() == ERROR_CONTROL + u32::from(node.get()) => Some(*raw),

@@ -33,8 +33,8 @@ pub struct HeartbeatConsumer {
 }
 
 impl HeartbeatConsumer {
-    /// Creates a consumer. `time` is the consumer heartbeat time: the longest time between two heartbeats. It must be
-    /// longer than the producer heartbeat time of the node (0x1017).
+    /// Creates a consumer. `time` is the consumer heartbeat time: the longest time between two heartbeats. The consumer
+    /// heartbeat time must be longer than the producer heartbeat time of the node (0x1017).
     #[must_use]
     pub const fn new(time: Duration) -> Self {
         Self { time, last: None }
@@ -46,7 +46,7 @@ impl HeartbeatConsumer {
         self.last.map(|(_, state)| state)
     }
 
-    /// Returns the state of the node, or an error if its last heartbeat is too old.
+    /// Returns the state of the node, `None` before its first heartbeat, or an error if its last heartbeat is too old.
     fn check<E>(&mut self, now: Duration) -> Result<Option<NmtState>, HeartbeatError<E>> {
         let Some((time, state)) = self.last else { return Ok(None) };
         if now.saturating_sub(time) > self.time {

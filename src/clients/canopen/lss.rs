@@ -15,7 +15,8 @@ use crate::lss::{
 };
 use crate::node_id::NodeId;
 
-/// Default window: the time in which slaves answer a fastscan request, and in which further answers are an error.
+/// Default window: the time in which slaves answer a fastscan request, and the time after an answer in which a further
+/// answer is an error.
 const WINDOW: Duration = Duration::from_millis(20);
 
 /// Master of the layer setting services (LSS, CiA 305) on a CAN interface: assigns node-IDs and bit rates. With a
@@ -55,9 +56,9 @@ const WINDOW: Duration = Duration::from_millis(20);
 /// # Several answers
 ///
 /// A slave that is in Configuration by mistake would get the same node-ID as the intended slave. After an answer, the
-/// master therefore waits for further answers and returns [`LssError::SeveralAnswers`] if a second one arrives. The
-/// master waits for 20 ms ([`with_window`](Self::with_window)). After an answer to a service that changes a slave
-/// (node-ID, bit timing, store), the master waits for the whole timeout.
+/// master therefore waits for further answers and returns [`LssError::SeveralAnswers`] if a second one arrives. By
+/// default, the master waits for 20 ms; [`with_window`](Self::with_window) sets this time. After an answer to a service
+/// that changes a slave (node-ID, bit timing, store), the master waits for the whole timeout.
 ///
 /// # Node-IDs that were not confirmed
 ///
@@ -95,8 +96,8 @@ impl<P> LssMaster<P> {
         Self { timeout, ..self }
     }
 
-    /// Sets the window: the time in which further answers are an error. The window is also the duration of each of the
-    /// 133 steps of a fastscan, within which all slaves must answer. The default is 20 ms.
+    /// Sets the window: the time after an answer in which a further answer is an error. The window is also the duration
+    /// of each of the 133 steps of a fastscan, within which all slaves must answer. The default is 20 ms.
     ///
     /// Without a [clock](CanPort::now), each answer extends a step by at most one eighth of the window.
     #[must_use]
@@ -123,7 +124,7 @@ impl<P> LssMaster<P> {
     }
 }
 
-/// Returns the LSS message of a slave in a frame. An LSS message has eight bytes.
+/// Returns the LSS message of a slave in a frame, or `None` for other frames. An LSS message has eight bytes.
 fn answer(frame: &CanFrame) -> Option<Message> {
     frame.data().try_into().ok().filter(|_| frame.id() == ANSWERS)
 }
@@ -152,7 +153,7 @@ macro_rules! master {
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if no slave has this address.
+            /// - [`LssError::Timeout`] if no slave has this address, or the answer was lost.
             /// - [`LssError::SeveralAnswers`] if several slaves have this address.
             pub $($async)? fn $switch_selective(&mut self, address: LssAddress) -> Result<(), LssError<P::Error>> {
                 self.$switch_global(LssState::Waiting)$(.$await)??;
@@ -165,12 +166,12 @@ macro_rules! master {
             ///
             /// After an error other than `Refused`, the master removes the pending node-ID of all slaves in
             /// Configuration. Don't give the same node-ID to another slave until a [`fast_scan`](Self::fast_scan) or
-            /// [`inquire_node_id`](Self::inquire_node_id) has shown that the first slave doesn't use it.
+            /// [`inquire_node_id`](Self::inquire_node_id) has shown that the intended slave doesn't use it.
             ///
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if no slave is in Configuration, or its answer was lost.
+            /// - [`LssError::Timeout`] if no slave is in Configuration, or the answer was lost.
             /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
             /// - [`LssError::Refused`] if the slave refuses the node-ID.
             pub $($async)? fn $configure_node_id(&mut self, node: NodeId) -> Result<(), LssError<P::Error>> {
@@ -216,7 +217,7 @@ macro_rules! master {
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if no slave is in Configuration.
+            /// - [`LssError::Timeout`] if no slave is in Configuration, or the answer was lost.
             /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
             /// - [`LssError::Refused`] if the slave doesn't support the bit timing.
             pub $($async)? fn $configure_bit_timing(&mut self, table: u8, index: u8) -> Result<(), LssError<P::Error>> {
@@ -240,7 +241,8 @@ macro_rules! master {
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if no slave is in Configuration, or the slave needs longer than the timeout.
+            /// - [`LssError::Timeout`] if no slave is in Configuration, the answer was lost, or the slave needs longer
+            ///   than the timeout.
             /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration. Each of them may have stored its
             ///   node-ID and bit timing.
             /// - [`LssError::Refused`] if the slave cannot store.
@@ -253,7 +255,7 @@ macro_rules! master {
             /// # Errors
             ///
             /// - [`LssError::Client`] if the interface fails, or [`LssError::NotSent`] if the bus stays busy.
-            /// - [`LssError::Timeout`] if no slave is in Configuration.
+            /// - [`LssError::Timeout`] if no slave is in Configuration, or the answer was lost.
             /// - [`LssError::SeveralAnswers`] if several slaves are in Configuration.
             pub $($async)? fn $inquire(&mut self, part: IdentityPart) -> Result<u32, LssError<P::Error>> {
                 self.$run(Service::Inquire(part))$(.$await)?

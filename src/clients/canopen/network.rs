@@ -28,12 +28,13 @@ const MOST_WAKERS: usize = 16;
 ///
 /// A handle receives the frames of its node: those with the default COB-IDs of CiA 301 7.3.5 that a node sends, and
 /// those with the COB-IDs that [`NetworkPort::with_pdo`], [`NetworkPort::with_emergency`] and [`NetworkPort::with_sdo`]
-/// add. If a frame arrives while another handle uses the interface, or while its own handle expects a different frame,
-/// the network keeps the frame, provided that its node has a handle. The handle [`services`](Self::services) receives
-/// LSS answers, SYNC and TIME. All other frames go to the handle that uses the interface. If this handle doesn't expect
+/// add. If the node has a handle, the network keeps a frame of the node in two cases: another handle uses the
+/// interface, or the handle of the node expects a different frame. The handle [`services`](Self::services) receives LSS
+/// answers, SYNC and TIME. All other frames go to the handle that uses the interface. If this handle doesn't expect
 /// them, they are lost, and [`unclaimed`](Self::unclaimed) counts them. The network keeps up to `N` frames:
 ///
-/// - Of each PDO, only the newest is kept. Of each node, only the newest heartbeat and the newest boot-up message are kept.
+/// - Of each PDO, of SYNC and of TIME, only the newest is kept. Of each node, only the newest heartbeat and the newest
+///   boot-up message are kept.
 /// - If there is no room for an emergency message or a reply, the oldest PDO, heartbeat or boot-up message is
 ///   discarded. If there is no such frame, the oldest frame of any kind is discarded.
 /// - If there is no room for a PDO, heartbeat or boot-up message, the oldest frame of these kinds is discarded. If emergency
@@ -82,8 +83,8 @@ pub struct Network<P, const N: usize> {
     wakers: RefCell<[Option<Waker>; MOST_WAKERS]>,
 }
 
-/// A handle of one node on a [`Network`], or of its services. The handle is the CAN port of a [`Node`](super::Node) or an
-/// [`LssMaster`](super::LssMaster).
+/// A handle of one node on a [`Network`], or of its services. Use the handle as the CAN port of a [`Node`](super::Node)
+/// or an [`LssMaster`](super::LssMaster).
 ///
 /// While an async handle waits for a frame or for a busy bus, the other handles can use the interface after at most one
 /// millisecond. When the last handle of a node is dropped, the network discards the frames and the added COB-IDs of the
@@ -162,10 +163,10 @@ impl<P, const N: usize> Network<P, N> {
         self.kept.try_borrow().map_or(0, |kept| kept.lost_emergencies)
     }
 
-    /// Returns the number of lost frames: frames that belong to no handle, and that the handle that used the interface
-    /// didn't expect. A growing number can mean that a node has no handle, or that the COB-ID of a PDO was not
-    /// [added](NetworkPort::with_pdo). Frames of other masters and remote frames also count. SYNC, TIME and LSS answers
-    /// count if there is no handle for the [`services`](Self::services).
+    /// Returns the number of unclaimed frames. They belong to no handle, and are lost because the handle that used the
+    /// interface didn't expect them. A growing number can mean that a node has no handle, or that the COB-ID of a PDO
+    /// was not [added](NetworkPort::with_pdo). Frames of other masters and remote frames also count. SYNC, TIME and LSS
+    /// answers count if there is no handle for the [`services`](Self::services).
     pub fn unclaimed(&self) -> usize {
         self.unclaimed.get()
     }
@@ -176,8 +177,8 @@ impl<P, const N: usize> Network<P, N> {
         self.port.into_inner()
     }
 
-    /// Returns whether the frame is for the handle and `wanted` accepts it. Keeps frames of other handles, and frames that
-    /// `wanted` rejects.
+    /// Returns whether `handle` receives the frame: the frame is for this handle or for no handle, and `wanted` accepts
+    /// it. Keeps frames of other handles, and frames of this handle that `wanted` rejects.
     fn dispatch(&self, handle: Owner, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
         let owner = self.kept.try_borrow().ok().and_then(|kept| kept.owner(frame));
         let owner = owner.filter(|(owner, _)| self.handles(*owner).is_some_and(|count| count.get() > 0));
@@ -249,7 +250,8 @@ impl<P, const N: usize> NetworkPort<'_, P, N> {
     /// Adds the replies of an SDO channel that isn't the default channel. Also call
     /// [`Node::with_channel`](super::Node::with_channel) with the same channel.
     ///
-    /// Returns `None` if the COB-ID is invalid, or for the other reasons that [`with_pdo`](Self::with_pdo) lists.
+    /// Returns `None` if the COB-ID of the replies was added for another node or another kind of frame, or if `N`
+    /// COB-IDs have already been added. Also returns `None` for the handle of the services.
     #[must_use]
     pub fn with_sdo(self, channel: Channel) -> Option<Self> {
         self.with(channel.reply(), Kind::Reply)

@@ -21,7 +21,8 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// A node on a CAN interface. With a [`CanPort`], the node implements [`Client`](crate::Client). With an
 /// [`AsyncCanPort`], it implements [`AsyncClient`](crate::AsyncClient), and the names of its methods end in `_async`.
 ///
-/// Frames that arrive while another frame is expected are lost, unless the interface is [`Buffered`](super::Buffered).
+/// Frames that arrive while another frame is expected are lost, unless the interface is [`Buffered`](super::Buffered)
+/// or a handle of a [`Network`](super::Network).
 ///
 /// # Late replies
 ///
@@ -36,8 +37,8 @@ pub const TIMEOUT: Duration = Duration::from_millis(500);
 /// of the timeout for each segment of 7 bytes. If the node doesn't announce the length of an upload, only the segments
 /// received so far count. For example, a value of 70 bytes takes at most two timeouts, even if the node sends each
 /// segment just before the timeout of a reply. If the limit is exceeded, the client aborts the transfer and returns
-/// [`Error::Timeout`]. The client measures this time with [`CanPort::now`]. Without a clock, only the timeout of each
-/// reply applies.
+/// [`Error::Timeout`]. The client measures the duration of the transfer with [`CanPort::now`]. Without a clock, only
+/// the timeout of each reply applies.
 ///
 /// # Block transfers
 ///
@@ -243,9 +244,9 @@ macro_rules! methods {
             /// [time](CanFrame::time) at which the message was taken from the interface. Waits for `patience` if no
             /// message has arrived since the last call. Returns `None` if no message arrives.
             ///
-            /// An interface that keeps frames can return an old message. To get its age, compare the second time with
-            /// [`CanPort::now`]. On a [`Network`](super::Network), call this method on the handle of the
-            /// [services](super::Network::services).
+            /// An interface that keeps frames can return an old message. To determine the age of the message, compare
+            /// the second element of the result with [`CanPort::now`]. On a [`Network`](super::Network), call this
+            /// method on the handle of the [services](super::Network::services).
             ///
             /// # Errors
             ///
@@ -324,9 +325,8 @@ macro_rules! methods {
             }
 
             /// Waits for the node's next emergency message and returns it. Returns `None` if no message arrives within
-            /// `patience`. If a [`Buffered`](super::Buffered) interface contains several messages, this method returns
-            /// the oldest one. If the node doesn't use the default COB-ID, set the COB-ID with
-            /// [`with_emergency_id`](Self::with_emergency_id).
+            /// `patience`. If several messages are waiting, this method returns the oldest one. If the node doesn't use
+            /// the default COB-ID, set the COB-ID with [`with_emergency_id`](Self::with_emergency_id).
             ///
             /// # Errors
             ///

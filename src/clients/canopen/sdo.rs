@@ -22,8 +22,8 @@ pub(super) struct Owed {
     is_aborted: bool,
 }
 
-/// Returns the SDO message in a frame with this identifier. An SDO message has eight bytes (CiA 301 7.2.4.3). Other
-/// frames are not accepted because they would restart the timeout.
+/// Returns the SDO message in a frame with this identifier, or `None` for other frames. An SDO message has eight bytes
+/// (CiA 301 7.2.4.3). Shorter frames are not accepted because they would restart the timeout.
 fn message(frame: &CanFrame, id: u32) -> Option<Message> {
     frame.data().try_into().ok().filter(|_| frame.id() == id)
 }

@@ -92,7 +92,7 @@ impl SyncProducer {
         }
     }
 
-    /// Processes whether the last message was sent. The counter counts only messages that were sent.
+    /// Records whether the last message was sent. The counter counts only messages that were sent.
     fn end(&mut self, is_sent: bool) {
         if !is_sent {
             self.skipped = self.skipped.saturating_add(1);

@@ -44,7 +44,7 @@ const SEGMENTS_PER_TIMEOUT: u32 = 10;
 /// Pause between two polls of a mailbox.
 const PAUSE: Duration = Duration::from_micros(500);
 
-/// A limit: an end time, or without a clock the number of remaining polls.
+/// Limit of a duration: an end time, or the number of remaining polls if there is no clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct Limit {
     end: Option<Duration>,
@@ -59,7 +59,7 @@ struct Deadline<'t, T> {
     transfer: &'t mut Limit,
 }
 
-/// Returns the time of the clock, by default of the clock of the standard library.
+/// Returns the time of `clock`, or of the [`DefaultClock`] if `clock` is `None`.
 fn time(clock: Option<fn() -> Duration>) -> Option<Duration> {
     clock.map(|clock| clock()).or_else(|| DefaultClock.now())
 }
@@ -204,7 +204,7 @@ impl<'m, T: Timer> Mailbox<'m, T> {
         Ok(())
     }
 
-    /// Extends the time of the transfer for one more segment.
+    /// Extends the limit of the transfer by one tenth of the timeout, for one more segment.
     pub(super) fn extend(&mut self) {
         let more = self.timeout / SEGMENTS_PER_TIMEOUT;
         self.transfer.end = self.transfer.end.map(|end| end.saturating_add(more));
@@ -216,8 +216,8 @@ impl<'m, T: Timer> Mailbox<'m, T> {
         Ok(usize::from(self.buffers().await?.0.length))
     }
 
-    /// Sends `request`, followed by `data`, and passes each received message to `seek` until it finds the reply.
-    /// Messages of other protocols are ignored.
+    /// Sends `request`, followed by `data`, and passes each received message to `seek`, until `seek` finds the reply or
+    /// an error. Messages of other protocols are ignored.
     pub(super) async fn exchange<V>(
         &mut self,
         request: &Request,
@@ -360,7 +360,8 @@ impl<'m> Controller<'m> {
     }
 }
 
-/// Returns the first sync manager that is an enabled mailbox of this direction with at least [`SMALLEST`] bytes.
+/// Returns the buffer of the first sync manager that is an enabled mailbox of this direction with at least [`SMALLEST`]
+/// bytes.
 fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
     let managers = registers.chunks_exact(usize::from(REGISTERS)).zip((first..).step_by(usize::from(REGISTERS)));
     managers.filter_map(|(registers, at)| Some((registers.first_chunk::<7>()?, at))).find_map(|(registers, at)| {

@@ -19,8 +19,8 @@ pub(super) struct ReadWrite {
 
 impl ReadWrite {
     /// Returns the request, or `None` if the access needs two requests. Two requests are necessary if the device's
-    /// limits don't contain function 23, or if one of the values isn't in whole holding registers, is too long or ends
-    /// after the last address.
+    /// limits don't contain function 23. They are also necessary if one of the values isn't in whole holding registers,
+    /// is too long, or ends after the last address.
     pub(super) fn new(write: Register, read: Register, limits: &Limits) -> Option<Self> {
         let fits = |register, max| Pieces::new(register, max, false).is_ok();
         let is_possible = is_combined(&write, &read)

@@ -118,7 +118,7 @@ impl<T: AsyncRead + AsyncWrite + Unpin + Send + 'static> Link<T> {
         }
     }
 
-    /// Sends a broadcast and waits for the turnaround delay.
+    /// Sends a broadcast and waits until the turnaround delay has passed.
     async fn broadcast(&mut self, request: Request<'_>, delay: Duration) -> Reply {
         let Some(confirmation) = Echo::of(&request).into_response() else {
             return Err(io::Error::from(NoReply).into());

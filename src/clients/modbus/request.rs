@@ -1,4 +1,4 @@
-//! Requests for a value, and the evaluation of the replies.
+//! Requests that read or write a value, and the evaluation of the replies.
 
 use std::fmt;
 use std::io;
@@ -38,7 +38,7 @@ impl Pieces {
     }
 
     /// Returns address and count of the part that starts with register or bit `first` of the value, or `None` if the
-    /// value ends before `first`.
+    /// value has no such register or bit.
     fn at(&self, first: u16) -> Option<(u16, u16)> {
         let left = self.register.count.checked_sub(first).filter(|&left| left > 0)?;
         Some((self.register.address.wrapping_add(first / self.register.step()), left.min(self.size)))

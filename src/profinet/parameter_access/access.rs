@@ -26,17 +26,17 @@ const POLLS: u32 = 200;
 /// Reads and changes drive parameters through a submodule that has a parameter record. The methods with the suffix
 /// `_async` don't block.
 ///
-/// Each method writes a request, and then reads the record until the drive provides the response. The method reads
-/// again if the record is empty or if the client reports that the device is busy ([`RecordClient::is_busy`]). Between
-/// two reads, the method calls [`RecordClient::pause`]. [`with_polls`](Self::with_polls) limits the number of reads. A
-/// drive processes only one request at a time.
+/// Each method that accesses parameters writes a request, and then reads the record until the drive provides the
+/// response. The method repeats the read if the record is empty or if the client reports that the device is busy
+/// ([`RecordClient::is_busy`]). Between two reads, the method calls [`RecordClient::pause`].
+/// [`with_polls`](Self::with_polls) limits the number of reads. A drive processes only one request at a time.
 ///
 /// # Errors
 ///
 /// - The errors of the client, including the error for a busy device if the device is still busy at the last attempt.
 /// - [`Error::Timeout`] if the record is still empty after the last attempt.
 /// - [`Error::ParameterAccess`] if the drive refuses the request, or if the request or the response is invalid.
-/// - [`Error::Length`] if a request or a response is too short or exceeds the buffer.
+/// - [`Error::Length`] if a request exceeds the buffer, or if a response is incomplete or exceeds the buffer.
 #[derive(Clone, Debug)]
 pub struct ParameterAccess<C> {
     client: C,

@@ -129,7 +129,7 @@ macro_rules! numbers {
                 pub const $name: Self = Self($number);
             )*
 
-            /// Returns the meaning of the error number. Returns `None` if PROFIdrive doesn't define the number.
+            /// Returns the meaning of the error number. Returns `None` if this type has no constant for the number.
             #[must_use]
             pub const fn text(self) -> Option<&'static str> {
                 match self.0 {

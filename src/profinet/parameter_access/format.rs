@@ -80,7 +80,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// A Rust type for parameter values. A newtype can delegate this trait to its inner type.
+/// A Rust type for parameter values. A newtype can implement this trait through its inner type.
 pub trait ParameterValue: Sized {
     /// Format in which the type writes values.
     const FORMAT: Format;
@@ -90,8 +90,8 @@ pub trait ParameterValue: Sized {
 
     /// Returns whether the type can read values of this format.
     ///
-    /// A type can read its own format, formats of the same length and signedness, and formats that define only this
-    /// length.
+    /// A number type can read its own format, other number formats of the same length and signedness, and the format
+    /// that defines only this length.
     #[must_use]
     fn reads(format: Format) -> bool;
 

@@ -80,7 +80,7 @@ pub struct Change<'v> {
 }
 
 impl<'v> Change<'v> {
-    /// Creates a change of the elements at `address` to `values`.
+    /// Creates a change that sets the elements at `address` to `values`.
     #[must_use]
     pub const fn new(address: ParameterAddress, format: Format, values: &'v [u8]) -> Self {
         Self { address, format, values }
@@ -109,8 +109,8 @@ pub fn read_request<'b>(
     to.finish()
 }
 
-/// Encodes a request into `buffer` and returns the request. The request applies `changes` to parameters. `axis` is the
-/// drive object number (DO-ID).
+/// Encodes a request into `buffer` and returns the request. The request contains `changes`. `axis` is the drive object
+/// number (DO-ID).
 ///
 /// # Errors
 ///

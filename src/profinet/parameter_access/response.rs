@@ -51,9 +51,9 @@ impl<'r> Response<'r> {
     /// - [`ParameterError::OtherReference`], [`ParameterError::OtherAxis`], [`ParameterError::ResponseId`] or
     ///   [`ParameterError::ParameterCount`] if the response doesn't belong to the request.
     /// - [`ParameterError::Length`] if the response is incomplete.
-    /// - [`ParameterError::Format`] if a parameter has a format of unknown length. Only the last parameter may have a
-    ///   format of unknown length.
+    /// - [`ParameterError::Format`] if a parameter other than the last one has a format of unknown length.
     /// - [`ParameterError::NoValue`] if a refusal has no error number.
+    /// - [`ParameterError::NoRequest`] if `request` has fewer than four bytes.
     pub fn decode(request: &[u8], data: &'r [u8]) -> Result<Self, ParameterError> {
         let [own_reference, own_id, own_axis, own_count] =
             *be::chunk(request).map_err(|_| ParameterError::NoRequest)?;

@@ -90,7 +90,7 @@ impl CanBus {
         }
     }
 
-    /// Sends a frame to all nodes except for its sender.
+    /// Sends a frame to all nodes except its sender.
     fn deliver(&mut self, frame: &CanFrame, sender: Option<usize>) {
         for (at, node) in self.nodes.iter_mut().enumerate() {
             if Some(at) != sender {

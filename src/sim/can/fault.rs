@@ -33,17 +33,17 @@ pub enum CanFault {
     /// doesn't use this CAN-ID.
     Noise(u32),
     /// The toggle bit of the frame is inverted: bit 7 of an answer to node guarding or of a heartbeat, and bit 4 of an
-    /// SDO segment or its confirmation from the default SDO server. Other frames are not changed. In block transfers,
-    /// bit 4 of sequence numbers up to 63 is inverted.
+    /// SDO segment or its confirmation from the default SDO server. Other frames are not changed. In block uploads, bit
+    /// 4 of sequence numbers up to 63 is inverted, except in the last segment.
     WrongToggle,
     /// The frame is lost, because all devices on the bus restart, as after a power failure.
     Restart,
     /// The interface enters the bus-off state. This frame, all following frames, and the frames that the client has not
-    /// received are lost, and each call returns [`CanError::BusOff`], until [`recover`](super::FaultyCan::recover) is
-    /// called.
+    /// received are lost, and each attempt to send or receive returns [`CanError::BusOff`], until
+    /// [`recover`](super::FaultyCan::recover) is called.
     BusOff,
-    /// The interface receives an error frame, and the call returns [`CanError::ErrorFrame`]. The frame arrives after
-    /// the error frame, because the sender repeats the frame.
+    /// The interface receives an error frame, and the client gets the error [`CanError::ErrorFrame`]. The frame arrives
+    /// after the error frame, because the sender repeats the frame.
     ErrorFrame,
 }
 

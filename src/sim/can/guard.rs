@@ -10,7 +10,7 @@ use crate::time::TimeOfDay;
 /// Error code of an emergency message: life guard error or heartbeat error.
 const LIFE_GUARD_ERROR: u16 = 0x8130;
 
-/// Toggle bit and life time of a guarded node.
+/// State of node guarding: the toggle bit, and the time at which the node life time passes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Guard {
     toggle: bool,
@@ -66,7 +66,8 @@ impl CanNode {
         }
     }
 
-    /// Processes a TIME message if the node consumes TIME (0x1012). Returns whether the frame is a TIME message.
+    /// Processes a TIME message if the node consumes TIME (0x1012). In Stopped, the message has no effect. Returns true
+    /// if the node consumes TIME and the frame is a TIME message.
     pub(super) fn consume_time(&mut self, frame: &CanFrame) -> bool {
         let cob_id = self.device.slots.number(0x1012, 0).filter(|cob_id| cob_id >> 31 & 1 == 1);
         let time = cob_id.and_then(|cob_id| TimeOfDay::of_id(frame, cob_id as u32));

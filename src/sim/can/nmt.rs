@@ -57,7 +57,7 @@ impl CanNode {
         self.state = state;
     }
 
-    /// Executes an NMT command to this node or to all nodes.
+    /// Executes an NMT command that is addressed to this node or to all nodes.
     pub(super) fn command(&mut self, frame: &CanFrame) {
         let is_addressed = |node: Option<NodeId>| node.map_or(true, |node| node == self.device.node_id());
         match NmtCommand::of(frame).filter(|(_, node)| is_addressed(*node)).map(|(command, _)| command) {

@@ -126,7 +126,8 @@ impl Pdos {
         is_due.then(|| sent.send(pdo.id, data, now))?
     }
 
-    /// Returns the PDOs to send after SYNC: the cyclic PDOs that are due, and the acyclic PDOs whose data changed.
+    /// Returns the PDOs to send after SYNC: the cyclic PDOs that are due, and the acyclic PDOs whose data changed or
+    /// that have not been sent yet.
     ///
     /// `counter` is the counter in the SYNC message. A cyclic PDO with a SYNC start value ignores SYNC messages until
     /// the counter equals the start value. The message with the start value is the first one that counts. The start

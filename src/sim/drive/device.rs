@@ -82,8 +82,8 @@ impl Device {
         self.axis(1).fail_persistently(code)
     }
 
-    /// Removes the cause of a [persistent fault](Self::fail_persistently). The drive stays in its state until the fault
-    /// is reset.
+    /// Removes the cause of a [persistent fault](Self::fail_persistently). The fault remains until the controller
+    /// resets it.
     ///
     /// # Errors
     ///
@@ -92,7 +92,7 @@ impl Device {
         self.axis(1).clear_cause()
     }
 
-    /// Declares the initial values of drives before power-on.
+    /// Declares initial values for the objects of the drives, before power-on.
     pub(in super::super) fn declare_drive_defaults(&mut self) {
         for axis in self.drive_axes() {
             Objects { device: self, axis }.declare_defaults();

@@ -26,8 +26,8 @@ const REFERENCE_RAMP: u16 = 1 << 6;
 /// Maximum interpolation period in steps.
 const MAX_PERIOD: f64 = 10_000.0;
 
-/// Returns whether the drive supports a mode. The axis must have the target object of the mode, and object 0x6502 can
-/// exclude modes.
+/// Returns whether the drive supports a mode. The axis must have the target object of the mode, if the mode has one.
+/// Object 0x6502 can exclude modes.
 pub(super) fn is_supported(mode: i64, objects: &Objects<'_>) -> bool {
     let has_target = match mode {
         0 => return true,

@@ -107,7 +107,7 @@ impl Objects<'_> {
     }
 
     /// Returns an acceleration of the mode "velocity": the speed change (sub-index 1) divided by the time in seconds
-    /// (sub-index 2). Returns `default` if the axis doesn't have the object, or if the speed change is 0.
+    /// (sub-index 2). Returns `default` if the axis doesn't have the object, or if the speed change isn't positive.
     pub fn ramp(&self, index: u16, default: f64) -> f64 {
         match (self.sub_number(index, 1), self.sub_number(index, 2)) {
             // A time of 0 is an infinite acceleration.
@@ -123,7 +123,7 @@ impl Objects<'_> {
     }
 }
 
-/// Returns the bytes of a value that is limited to the range of an integer type.
+/// Limits `value` to the range of an integer type, and returns the bytes of the limited value.
 fn encoded(data_type: DataType, value: i64) -> std::vec::Vec<u8> {
     let bits = data_type.bits().unwrap_or(0).clamp(1, 64);
     let value = match data_type.is_signed() {

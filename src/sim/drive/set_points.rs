@@ -20,7 +20,7 @@ struct SetPoint {
 pub(super) struct SetPoints {
     active: Option<(f64, Profile)>,
     waiting: Option<SetPoint>,
-    /// Last target position, to which a relative set-point refers.
+    /// Last target position. A relative set-point refers to this position, unless 0x60F2 selects the actual position.
     last: Option<f64>,
     /// True from the acceptance of a set-point until the controller clears the bit "new set-point".
     is_accepted: bool,

@@ -16,7 +16,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
         for window in windows(item) {
             for side in [&window.read, &window.write].into_iter().flatten() {
                 let (receiver, holder) = (context.device.referred(&side.number), context.device.referred(&side.value));
-                for (part, what) in [(receiver, "the number"), (holder, "the value")] {
+                for (part, what) in [(receiver, "the register number"), (holder, "the value")] {
                     let Some(part) = part.filter(|part| integer(context.owner, part).is_none()) else { continue };
                     if reported.insert(part.name.as_str()) {
                         diagnostics.push(no_integer(part, what));
@@ -53,7 +53,7 @@ fn number(owner: Owner<'_>, item: &Item, number: u32, receiver: Option<&Item>, d
         return;
     }
     let (name, receiver) = (brief(&item.name), brief(&receiver.name));
-    let message = format!("the number {number} of `{name}` does not fit `{receiver}`, which has {bits} bits");
+    let message = format!("the register number {number} of `{name}` does not fit `{receiver}`, which has {bits} bits");
     let found = codes::TABLE_PLACE.at(item.at.name.or(item.origin.span), message);
     diagnostics.push(found.help("limit the window to valid numbers with `numbers`"));
 }

@@ -69,11 +69,12 @@ fn order(
         return;
     }
     let (address, value) = (brief(&side.number), brief(&side.value));
-    let begins = "writing the number starts the transfer";
+    let begins = "writing the register number starts the transfer";
     if side.number_first == Some(true) {
-        let message = format!("the number is written to `{address}` before the value to `{value}`, but {begins}");
+        let message =
+            format!("the register number is written to `{address}` before the value to `{value}`, but {begins}");
         let found = codes::WINDOW_ORDER.at(number.unwrap_or(item).at.name, message);
-        let help = "write `first = \"value\"`, or delete `clears` if the device does not clear the number";
+        let help = "write `first = \"value\"`, or delete `clears` if the device does not clear the register number";
         diagnostics.push(found.help(help));
     }
     let Some(procedure) = procedure else { return };
@@ -85,10 +86,11 @@ fn order(
     let last_value = procedure.steps.iter().rposition(|step| writes(step, &side.value));
     let Some((at, _)) = last_value.zip(first).filter(|(last_value, first)| first < last_value) else { return };
     let name = brief(&procedure.name);
-    let message =
-        format!("the procedure `{name}` writes the number to `{address}` before the value to `{value}`, but {begins}");
+    let message = format!(
+        "the procedure `{name}` writes the register number to `{address}` before the value to `{value}`, but {begins}"
+    );
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
-    diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value before the number"));
+    diagnostics.push(codes::WINDOW_ORDER.at(span, message).help("write the value before the register number"));
 }
 
 /// Returns the number of bits that the maximum needs, or `u32::MAX` if the maximum is unknown or values can be negative.

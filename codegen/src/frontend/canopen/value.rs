@@ -164,7 +164,7 @@ impl Converter<'_> {
     fn fit_formula(&mut self, offset: i128, text: &str, span: Span, ty: Type) -> Value {
         if let Some((low, high)) = ty.integer_range() {
             if offset + 1 < low || offset + 127 > high {
-                let message = format!("{text} does not fit {ty} for every node-ID from 1 to 127");
+                let message = format!("{text} is outside of the range of {ty} for some of the node-IDs 1 to 127");
                 self.report(&codes::OUT_OF_TYPE, span, message, "kept unchanged");
             }
         }

@@ -60,7 +60,7 @@ pub(super) fn numbered(
         }
     };
     if let (Some(((number, entry), expected)), true) = (gap, agrees) {
-        let message = format!("the next entry in the list has the number {number} instead of {expected}");
+        let message = format!("this entry of the list has the number {number} instead of {expected}");
         reader.diagnostics.push(
             Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
                 .label("the existing entries are used")

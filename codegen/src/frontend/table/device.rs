@@ -156,7 +156,7 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
             (Some(indices), Some(step)) => rules.push(AxisRange { indices, step }),
             _ => {
                 let text = brief(reader.source.slice(reader.span(rule)));
-                let message = format!("`{text}` is not a rule for the objects of axes");
+                let message = format!("`{text}` is not a valid rule of `[axes]`");
                 let help = "write `objects` and one of `index`, `sub = \"axis\"` and `sub_stride`, such as \
                             `{ objects = \"0x6000..0x67FF\", index = 0x800 }`";
                 let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(rule), message).help(help);

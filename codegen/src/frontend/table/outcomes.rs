@@ -92,7 +92,7 @@ fn row(
     references.extend(cells_row.models.iter().flatten().map(|model| (model.clone(), "model")));
     if cells_row.cells.len() != table.states.len() {
         let message = format!(
-            "`{}` has {}, but the table has {}",
+            "`{}` has {}, but the matrix has {}",
             brief(&name.value),
             count_of(cells_row.cells.len(), "cell"),
             count_of(table.states.len(), "state")

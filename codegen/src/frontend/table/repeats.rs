@@ -60,7 +60,7 @@ impl Repeats {
         let left = self.left.and_then(|left| left.checked_sub(items));
         if left.is_none() && self.left.is_some() {
             let message = format!(
-                "`count`, ranges of objects, and long texts in `defaults` and `units` expand the table to more than \
+                "`count`, ranges of objects, ranges of values, and long texts expand the table to more than \
                  {MAX_DERIVED_ITEMS} items"
             );
             let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);

@@ -53,7 +53,7 @@ pub(super) fn objects(
             }
             let (Some(subs), count) = (&summary.subs, group.items.len()) else { continue };
             if subs.value as usize != count && group.object_code() != Some(ObjectCode::Var) {
-                let message = format!("`summary` states {} sub-indices, but the table has {count}", subs.value);
+                let message = format!("`summary` states {} sub-indices, but the table describes {count}", subs.value);
                 report(reader, summary, reader.span(subs), message);
             }
         }

@@ -51,7 +51,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         };
         let is_near = |other: &&&str| other.len().abs_diff(name.len()) <= limit && edit_distance(name, other) <= limit;
         let Some(similar) = names.iter().find(is_near) else { return false };
-        let message = format!("{} does not define `{}` here, but `{similar}`", F::STANDARD, brief(name));
+        let message = format!("{} defines `{similar}` here, not `{}`", F::STANDARD, brief(name));
         let found = Diagnostic::new(&codes::MISSPELLED_NAME, span, message);
         self.diagnostics.push(
             found

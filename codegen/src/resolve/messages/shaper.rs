@@ -9,7 +9,7 @@ pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not 
 pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data ends within a byte";
 const UNKNOWN_LENGTH: Problem = "a value is neither a number of 1 to 64 bits nor a string with a fixed length";
 const SEVERAL_LENGTHS: Problem =
-    "two fields have a variable length, or a field of variable length comes before a counted list";
+    "two fields have a variable length, or a field of variable length comes before repeated fields with a count";
 const SEVERAL_LISTS: Problem = "the message has two lists of repeated fields";
 const LONE_VALUE: Problem = "a parameter value does not come directly after its parameter number";
 const LONG_CODE: Problem = "a parameter number has more than 32 bits";

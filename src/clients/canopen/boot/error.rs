@@ -1,4 +1,4 @@
-//! Errors of the boot of a node.
+//! Errors that can occur during the boot of a node.
 
 use core::error;
 use core::fmt;
@@ -47,16 +47,16 @@ impl fmt::Display for VersionText {
     }
 }
 
-/// Reason why the boot of a node failed. `E` is the error type of the CAN interface. The letters are the error statuses
-/// of CiA 302-2.
+/// Reason why the boot of a node failed. `E` is the error type of the CAN interface. The letters in the descriptions of
+/// the variants are the error statuses of CiA 302-2.
 ///
 /// The letter L is not an error: [`Booted::status`](super::Booted::status) returns this letter. Three letters don't
 /// occur:
 ///
 /// - A (the node isn't in the network list 0x1F81): Lexibus has no such list, because the program boots the nodes one
 ///   by one.
-/// - G and I (program download not configured, or failed): the master doesn't download programs. H only means that the
-///   software version differs.
+/// - G and I (program download not configured, or failed): the master doesn't download programs. H means that the
+///   software version differs or could not be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BootError<E> {
@@ -67,7 +67,7 @@ pub enum BootError<E> {
     /// E: a node that is to be [kept running](super::Boot::keep_running) sent no heartbeat, and no restart is requested.
     NoHeartbeat,
     /// An object could not be read. The letter depends on the object: B (0x1000), D, M, N or O (0x1018), H (0x100A), J
-    /// (0x1020).
+    /// (0x1020), none (0x1009).
     Access {
         /// The object.
         object: Object,

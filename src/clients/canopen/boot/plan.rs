@@ -1,4 +1,4 @@
-//! The steps of the boot of a node: expected values, configuration and error control.
+//! Boot procedure of a node: expected values, configuration and error control.
 
 use core::time::Duration;
 
@@ -11,8 +11,8 @@ use crate::time::TimeOfDay;
 /// How the master checks that a node is running, after the start of the node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorControl {
-    /// A heartbeat that reports Operational must arrive within this time. The configuration has to set the heartbeat
-    /// producer time (0x1017) of the node.
+    /// A heartbeat that reports Operational must arrive within this time. The configuration has to set the producer
+    /// heartbeat time (0x1017) of the node, unless the node has stored this time.
     Heartbeat(Duration),
     /// The node must answer node guarding and report Operational within `life_time_factor + 1` cycles, or within 3
     /// cycles if the factor is less than 2. Use the values of objects 0x100C and 0x100D of the node. To continue node
@@ -21,15 +21,15 @@ pub enum ErrorControl {
     Guarding {
         /// Time between two cycles, and maximum duration of a cycle.
         guard_time: Duration,
-        /// Number of consecutive cycles without an answer after which the node is lost.
+        /// Number of consecutive cycles without a valid answer after which the node is lost.
         life_time_factor: u8,
     },
     /// The state of the node is not checked.
     None,
 }
 
-/// Steps of the boot of a node, for [`Node::boot`](crate::clients::canopen::Node::boot): the expected device, its
-/// configuration, and its error control.
+/// Boot procedure for [`Node::boot`](crate::clients::canopen::Node::boot): the expected values, the configuration and
+/// the error control of the node.
 ///
 /// Each expected value is optional. As in objects 0x1F84 to 0x1F88 of a CANopen manager, the expected number 0 means
 /// that the value is not checked.
@@ -68,8 +68,8 @@ pub(super) struct Checks {
 }
 
 impl Boot {
-    /// Creates a boot that only reads the device type (0x1000) and starts the node, without checks and without a
-    /// configuration.
+    /// Creates a boot without checks and without a configuration: it reads the device type (0x1000), starts the node,
+    /// and checks that the node is running, if `error_control` isn't [`None`](ErrorControl::None).
     #[must_use]
     pub const fn new(error_control: ErrorControl) -> Self {
         let checks = Checks { device_type: 0, identity: [0; 4], hardware_version: None, software_version: None };
@@ -94,7 +94,7 @@ impl Boot {
     /// A node that doesn't report its state is restarted if a [restart](Self::reset) is requested. Otherwise, the boot
     /// fails with [`BootError::NoHeartbeat`](super::BootError::NoHeartbeat) or
     /// [`BootError::Guarding`](super::BootError::Guarding). If no restart is requested, the node must therefore have
-    /// stored its heartbeat producer time (0x1017): otherwise, the node sends no heartbeat before it is configured.
+    /// stored its producer heartbeat time (0x1017): otherwise, the node sends no heartbeat before it is configured.
     ///
     /// Without [error control](ErrorControl::None), the state of the node is unknown, and the option has no effect.
     #[must_use]
@@ -191,7 +191,7 @@ impl Boot {
         self
     }
 
-    /// After the configuration was written, stores it in the node (0x1010:01). If the node confirms the command, the
+    /// Stores the configuration in the node (0x1010:01) after it was written. If the node confirms the command, the
     /// date of the configuration is written to 0x1020 and stored, too. Without this option, 0x1020 is never written,
     /// because the node loses the configuration when it restarts.
     ///

@@ -33,8 +33,9 @@ macro_rules! scan {
             /// and no slave answers either of them within the timeout.
             ///
             /// A scan takes 133 times the [window](Self::with_window), 2.7 s by default. The master then inquires the
-            /// address of the slave and compares the two addresses, so a lost or late answer doesn't lead to a wrong
-            /// address. To find all slaves, give each one a node-ID, switch it to Waiting, and repeat the scan.
+            /// address of the slave and compares it with the result of the scan, because a lost or late answer can lead
+            /// to a wrong result. To find all slaves, give each one a node-ID, switch it to Waiting, and repeat the
+            /// scan.
             ///
             /// # Errors
             ///

@@ -1,4 +1,4 @@
-//! Tests of the LSS master with calls that are dropped.
+//! Tests of the LSS master with dropped calls and with answers at fixed times.
 
 use core::future::Future;
 use core::pin::pin;

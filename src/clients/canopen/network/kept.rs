@@ -80,7 +80,7 @@ impl<const N: usize> Kept<N> {
         place.map(|place| *place = added).is_some()
     }
 
-    /// Returns the owner and the kind of a frame. Remote frames have no owner.
+    /// Returns the owner and the kind of a frame, or `None` if the frame has no owner. Remote frames have no owner.
     pub fn owner(&self, frame: &CanFrame) -> Option<(Owner, Kind)> {
         let added = self.cob_ids.iter().flatten().find(|(id, ..)| *id == frame.id());
         let owner = added.map(|(_, owner, kind)| (*owner, *kind)).or_else(|| default_owner(frame));

@@ -151,7 +151,7 @@ impl<'o> Applied<'o> {
     fn shared(&self, reader: &mut Reader<'_, '_>, name: &str, other: Option<&CompactString>) {
         let Some(other) = other else { return };
         let (name, other) = (brief(name), brief(other));
-        let message = format!("`{name}` is also a part of `{other}`, which the overlay does not name");
+        let message = format!("`{name}` is also a part of `{other}`, which `for` of the overlay does not select");
         let found = Diagnostic::new(&codes::OVERLAY_SHARED, reader.span(&self.patcher.overlay.head), message);
         reader.diagnostics.push(found.label("also changed in the other device"));
     }
