@@ -205,7 +205,7 @@ impl Frame {
 impl ShownFrame {
     fn new(frame: &Frame, network: &Network, devices: &[Option<&Listed>]) -> Self {
         let party = |party: &Party| ShownParty::new(party, network, devices);
-        let no_bound = || "no bound".to_owned();
+        let unlimited = || "unlimited".to_owned();
         ShownFrame {
             name: frame.name.clone(),
             can_id: hex(frame.can_id),
@@ -213,8 +213,8 @@ impl ShownFrame {
             receivers: frame.receivers.iter().map(party).collect(),
             timing: frame.timing.clone(),
             bytes: frame.bytes,
-            rate: frame.rate.map_or_else(no_bound, |rate| format!("{rate:.1}")),
-            load: frame.load().map_or_else(no_bound, |load| percent(load, network.bit_rate)),
+            rate: frame.rate.map_or_else(unlimited, |rate| format!("{rate:.1}")),
+            load: frame.load().map_or_else(unlimited, |load| percent(load, network.bit_rate)),
             objects: frame.objects.join(", "),
         }
     }
