@@ -8,6 +8,7 @@ use lexibus_codegen::output::write_if_changed;
 use lexibus_site::{Format, Page, Site};
 
 use super::args::{Docs, DocsFormat};
+use super::docs_networks::Networks;
 use super::output::difference;
 use super::report::Reporter;
 use super::{inputs, Failure};
@@ -24,15 +25,17 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         return reporter.finish();
     }
     let mut site = Site::new(format);
-    let files = inputs::sorted(&docs.inputs)?;
+    let mut files = inputs::sorted(&docs.inputs)?;
+    let networks = Networks::take(&mut files, &options.levels, &mut reporter)?;
     let names = Names::new(&files);
     // A single input needs no first pass, because its folder names do not depend on other files. Several inputs are
     // compiled twice, because keeping all of them in memory would cost more.
-    if files.len() > 1 {
+    if files.len() > 1 || !networks.is_empty() {
         inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
             compilation.usable().into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
             Ok(())
         })?;
+        networks.announce(&mut site);
     }
     let mut written = HashSet::new();
     let mut put = |pages: &[Page], reporter: &mut Reporter| {
@@ -54,6 +57,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         put(&site.add_compilation(names.of(input), &compilation), &mut reporter);
         Ok(())
     })?;
+    put(&networks.pages(&mut site), &mut reporter);
     let names = Names::new(&docs.compare);
     for pair in pairs(&docs.compare)? {
         let compilations = pair.map(|path| inputs::compile_file(path, &options));

@@ -24,6 +24,7 @@ mod check;
 mod device;
 mod diff;
 mod docs;
+mod docs_networks;
 mod explain;
 mod export;
 mod fix;

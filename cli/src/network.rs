@@ -51,23 +51,16 @@ fn read(input: &NetworkInput, is_result: bool) -> Result<(Reporter, Compilation)
     Ok((reporter, compile(source, input.levels.levels()?)))
 }
 
-fn report(reporter: &mut Reporter, compilation: &Compilation) -> Result<(), Failure> {
+pub(super) fn report(reporter: &mut Reporter, compilation: &Compilation) -> Result<(), Failure> {
     let Compilation { source, diagnostics, .. } = compilation;
     reporter.report(&Reported::of_diagnostics(source.clone(), diagnostics.clone()))
 }
 
 /// Returns the number of nodes and PDOs, and the bus load.
 fn summary(network: &Network) -> String {
-    let load = bus_load(network);
     let nodes = network.nodes.len() + usize::from(network.master.is_some());
-    let (percent, rate) = (load.ratio() * 100.0, network.bit_rate);
-    let unbounded = match load.unbounded.len() {
-        0 => String::new(),
-        1 => format!(", without {}, which has no inhibit time", load.unbounded[0]),
-        count => format!(", without {count} PDOs that have no inhibit time"),
-    };
     let noun = if nodes == 1 { "node" } else { "nodes" };
-    format!("{nodes} {noun}; bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
+    format!("{nodes} {noun}; {}", bus_load(network).summary())
 }
 
 /// Writes a file, or compares it with the existing file.

@@ -216,3 +216,16 @@ fn a_scan_reports_nodes_as_json() {
     assert_eq!((&node["node_id"], &node["product_code"]), (&5.into(), &0x4021.into()));
     assert!(node["files"][0].as_str().is_some_and(|file| file.ends_with("demo-drive.eds")), "{text}");
 }
+
+#[test]
+fn a_blf_file_is_not_read_as_text() {
+    let trace = folder("blf").join("trace.blf");
+    std::fs::write(&trace, b"LOGG\x90\0\0\0").expect("a file");
+    let trace = trace.to_string_lossy().into_owned();
+    let output = run(&["decode", &trace, &format!("5={}", dictionary("demo-drive.eds"))]);
+    let (_, error) = texts(&output);
+    assert!(
+        !output.status.success() && error.contains(&format!("`python -m can.logconvert {trace} trace.asc`")),
+        "{error}"
+    );
+}

@@ -11,6 +11,9 @@ use super::files;
 use crate::args::{Decode, NodeFile};
 use crate::{say, Failure};
 
+/// The first bytes of a BLF file (Vector).
+const BLF: &[u8] = b"LOGG";
+
 /// Reads the descriptions of nodes.
 pub(super) fn descriptions(nodes: &[NodeFile], network: Network) -> Result<Vec<(u8, Description)>, Failure> {
     nodes.iter().map(|node| Ok((node.node, files::plain(&node.file, network)?))).collect()
@@ -22,10 +25,16 @@ pub(super) fn run(arguments: &Decode) -> Result<bool, Failure> {
     let unreadable =
         |error: std::io::Error| Failure::Device(format!("cannot read {}: {error}", arguments.trace.display()));
     let file = std::fs::File::open(&arguments.trace).map_err(unreadable)?;
+    let mut trace = std::io::BufReader::new(file);
+    if trace.fill_buf().map_err(unreadable)?.starts_with(BLF) {
+        let name = arguments.trace.display();
+        let help = format!("convert it with python-can: `python -m can.logconvert {name} trace.asc`");
+        return Err(Failure::Device(format!("{name} is a BLF file, which Lexibus cannot read: {help}")));
+    }
     let mut output = Output::new(std::io::BufWriter::new(std::io::stdout()), arguments.format)?;
     let mut reader = Reader::new();
     let (mut frames, mut unnamed, mut unknown) = (0_usize, 0_usize, 0_usize);
-    for line in std::io::BufReader::new(file).split(b'\n') {
+    for line in trace.split(b'\n') {
         let line = line.map_err(unreadable)?;
         match reader.line(&String::from_utf8_lossy(&line)) {
             Line::Frame(frame) => {

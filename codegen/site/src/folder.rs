@@ -18,7 +18,7 @@ use super::links::Links;
 use super::machines;
 use super::modules::Modules;
 use super::overview::{self, Overview};
-use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, ROOT};
+use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST, PROCESS_DATA, ROOT};
 use super::parts::Parts;
 use super::process::{self, About, ProcessPart};
 use super::protocol;
@@ -265,7 +265,7 @@ impl<'a> Folder<'a> {
         let tables = split::pages(codes::tables(device, manual));
         let mut parts = Parts {
             overview,
-            process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
+            process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), PROCESS_DATA),
             protocol: further(protocol.is_some(), "Messages").zip(protocol),
             behavior: further(behavior.is_some(), "States and procedures").zip(behavior),
             codes: Vec::new(),
@@ -284,7 +284,7 @@ impl<'a> Folder<'a> {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
             self.page(frame, file, Content::Process(&parts.data, &sync_managers));
-            self.index_page(file, "PDO", "Process data", "");
+            self.index_page(file, "PDO", PROCESS_DATA, "");
             indexing::frames(&mut self.index, &parts.data.frames);
         }
         if let Some((file, protocol)) = &parts.protocol {

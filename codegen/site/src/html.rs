@@ -12,6 +12,7 @@ use super::diagnostics::DiagnosticGroup;
 use super::list::{self, Column};
 use super::machines::Behavior;
 use super::modules::ModuleModel;
+use super::network::Shown;
 use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages};
 use super::process::{ProcessPart, SyncManager};
@@ -62,6 +63,7 @@ templates! {
     AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "changes.html" { comparison: &'p Comparison }
+    NetworkPage = "network.html" { network: &'p Shown }
     ListPage = "list.html" { devices: &'p [Listed], is_part: bool }
 }
 
@@ -187,6 +189,7 @@ impl Pages for Html {
             Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
             Content::Changes(comparison) => written(&ChangesPage { frame, file, comparison }),
+            Content::Network(network) => written(&NetworkPage { frame, file, network }),
             Content::List { devices, is_part } => written(&ListPage { frame, file, devices, is_part }),
         }
     }

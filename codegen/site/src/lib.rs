@@ -47,6 +47,7 @@ mod list;
 mod machines;
 mod markdown;
 mod modules;
+pub mod network;
 mod overview;
 mod pages;
 mod part_anchors;
@@ -122,8 +123,8 @@ pub struct Site {
     revisions: Revisions,
     index: Index,
     catalogs: Vec<ListedCatalog>,
-    /// Paths and titles of the comparisons that the user chose.
-    comparisons: Vec<(String, String)>,
+    /// Paths and titles of comparisons and networks.
+    further: Vec<(String, String)>,
 }
 
 impl Site {
@@ -178,7 +179,7 @@ impl Site {
         let comparison = Comparison::of_catalogs(old, new);
         let name = format!("{} to {}", old.0, new.0);
         let path = format!("_compare/{}{}", addresses::folder_name(&name), format.ending());
-        self.comparisons.push((path.clone(), comparison.title.clone()));
+        self.further.push((path.clone(), comparison.title.clone()));
         let frame = Frameset { title: "Devices".to_owned(), root: "..", ..Frameset::default() };
         Page { text: format.page(&frame, &path, Content::Changes(&comparison)), path }
     }
@@ -199,9 +200,9 @@ impl Site {
         let lists = list::pages(&devices, |device| html::size_of_device(device, &columns), &file, format.ending());
         let is_part = lists.len() > 1;
         let parts = lists.iter().filter(|_| is_part).map(|list| (list.file.clone(), list.title.clone()));
-        let shared = Rc::new(Links::new(parts.chain(self.comparisons.iter().cloned()).collect(), 0..0));
-        // The pages of comparisons always use the index of the site.
-        let index_of_site = (index.is_empty() || !self.comparisons.is_empty()).then_some(&self.index);
+        let shared = Rc::new(Links::new(parts.chain(self.further.iter().cloned()).collect(), 0..0));
+        // The pages of comparisons and networks always use the index of the site.
+        let index_of_site = (index.is_empty() || !self.further.is_empty()).then_some(&self.index);
         let page = |list: &ListPage| {
             let (title, index, shared) = (list.title.clone(), index.clone(), shared.clone());
             let frame = Frameset { title, root: ".", index, shared, ..Frameset::default() };
@@ -209,7 +210,7 @@ impl Site {
             Page { path: list.file.clone(), text: format.page(&frame, &list.file, content) }
         };
         let mut pages: Vec<Page> = lists.iter().map(page).collect();
-        pages.extend(format.of_site(&self.catalogs, &self.comparisons, index_of_site));
+        pages.extend(format.of_site(&self.catalogs, &self.further, index_of_site));
         pages.extend(latest::pages(&devices, format));
         pages
     }

@@ -14,6 +14,7 @@ use super::diagram::ANY_STATE;
 use super::list::{self, Column};
 use super::machines::{Behavior, Machine};
 use super::modules::ModuleModel;
+use super::network::Shown;
 use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Listed, ListedCatalog, Pages, FIRST};
 use super::process::{Frame, SyncManager};
@@ -66,8 +67,9 @@ templates! {
     AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "markdown/changes.md" { comparison: &'p Comparison }
+    NetworkPage = "markdown/network.md" { network: &'p Shown }
     ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], columns: &'p [Column], links: PageLinks<'p> }
-    SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog], comparisons: &'p [(String, String)] }
+    SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog], further: &'p [(String, String)] }
 }
 
 impl ListPage<'_> {
@@ -126,6 +128,7 @@ impl Pages for Markdown {
             Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
             Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),
             Content::Changes(comparison) => written(&ChangesPage { comparison }),
+            Content::Network(network) => written(&NetworkPage { network }),
             Content::List { devices, .. } => {
                 written(&ListPage { title, root: frame.root, devices, columns: &list::columns(devices), links: &links })
             }
@@ -140,8 +143,8 @@ impl Pages for Markdown {
         Vec::new()
     }
 
-    fn of_site(&self, catalogs: &[ListedCatalog], comparisons: &[(String, String)], _: Option<&Index>) -> Vec<Page> {
-        vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs, comparisons }))]
+    fn of_site(&self, catalogs: &[ListedCatalog], further: &[(String, String)], _: Option<&Index>) -> Vec<Page> {
+        vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs, further }))]
     }
 }
 

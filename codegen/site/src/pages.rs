@@ -11,6 +11,7 @@ use super::diagnostics::DiagnosticGroup;
 use super::links::Links;
 use super::machines::Behavior;
 use super::modules::ModuleModel;
+use super::network;
 use super::overview::{Contents, Overview};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
@@ -45,6 +46,9 @@ pub(super) struct Frameset {
     /// Folder of the search index relative to the site's folder, with a trailing `/`. It is empty for the index of the site.
     pub index: String,
 }
+
+/// Title of the page with the process data of a device.
+pub(super) const PROCESS_DATA: &str = "Process data";
 
 /// Relative path from the pages of a device or description to the site's folder.
 pub(super) const ROOT: &str = "../../..";
@@ -178,6 +182,11 @@ impl Listed {
         identity.into_iter().chain(others).map(String::as_str).collect::<Vec<_>>().join(" ")
     }
 
+    /// Returns the path of the page with the device's process data.
+    pub fn process_data(&self) -> Option<&str> {
+        self.pages.iter().find(|(_, title)| title == PROCESS_DATA).map(|(path, _)| path.as_str())
+    }
+
     /// Returns the path to the device's first page. `root` is the path from the linking page to the site's folder.
     pub fn path_from(&self, root: &str) -> String {
         match root {
@@ -208,6 +217,7 @@ pub(super) enum Content<'p> {
     Assumptions(&'p [Ranked<'p>]),
     Diagnostics(&'p [DiagnosticGroup<'p>]),
     Changes(&'p Comparison),
+    Network(&'p network::Shown),
     /// A list of devices, in a catalog or in the site. `is_part` is set if the list has several pages.
     List {
         devices: &'p [Listed],
@@ -230,7 +240,7 @@ pub(super) trait Pages {
 
     /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, index: &Index) -> Vec<Page>;
-    /// Returns the files that all pages share. `comparisons` are the paths and titles of comparisons. `index` is the
+    /// Returns the files that all pages share. `further` are the paths and titles of comparisons and networks. `index` is the
     /// search index of all catalogs if there are several catalogs.
-    fn of_site(&self, catalogs: &[ListedCatalog], comparisons: &[PageLink], index: Option<&Index>) -> Vec<Page>;
+    fn of_site(&self, catalogs: &[ListedCatalog], further: &[PageLink], index: Option<&Index>) -> Vec<Page>;
 }

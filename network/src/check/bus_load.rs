@@ -11,10 +11,16 @@ use crate::model::{Network, NetworkPdo, EXTENDED};
 pub struct Traffic {
     /// Name of the frames: `TPDO 1 of axis1`.
     pub name: String,
+    /// Name without the sender: `TPDO 1`.
+    pub service: String,
+    /// Node-ID of the sender; that of the master for PDOs that the master sends.
+    pub sender: u8,
     /// CAN-ID, with bit 29 if it has 29 bits.
     pub can_id: u32,
     /// Frames per second.
     pub rate: f64,
+    /// Number of data bytes.
+    pub bytes: u32,
     /// Maximum length of a frame on the bus in bits.
     pub bits: u32,
 }
@@ -36,6 +42,17 @@ impl BusLoad {
         self.traffic.iter().fold(0.0, |sum, traffic| sum + traffic.rate * f64::from(traffic.bits))
     }
 
+    /// Returns the load as text: `bus load of cyclic frames: 8.0 % of 500 kbit/s`, and the PDOs that are sent at any rate.
+    pub fn summary(&self) -> String {
+        let (percent, rate) = (self.ratio() * 100.0, self.bit_rate / 1000);
+        let unbounded = match self.unbounded.as_slice() {
+            [] => String::new(),
+            [one] => format!(", without {one}, which has no inhibit time"),
+            several => format!(", without {} PDOs that have no inhibit time", several.len()),
+        };
+        format!("bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
+    }
+
     /// Returns the load as a part of the bit rate: 1.0 is a full bus.
     pub fn ratio(&self) -> f64 {
         self.bits_per_second() / f64::from(self.bit_rate)
@@ -55,37 +72,39 @@ pub fn frame_bits(can_id: u32, bytes: u32) -> u32 {
 /// Computes the load of all cyclic frames: SYNC, PDOs, heartbeats and node guarding.
 pub fn bus_load(network: &Network) -> BusLoad {
     let mut load = BusLoad { bit_rate: u32::from(network.bit_rate) * 1000, ..BusLoad::default() };
-    let mut add = |name: String, can_id: u32, bytes: u32, rate: f64| {
-        load.traffic.push(Traffic { name, can_id, rate, bits: frame_bits(can_id, bytes) });
+    let mut add = |service: &str, name: String, sender: u8, (can_id, bytes): (u32, u32), rate: f64| {
+        let (service, bits) = (service.to_owned(), frame_bits(can_id, bytes));
+        load.traffic.push(Traffic { name, service, sender, can_id, bytes, bits, rate });
     };
-    let sync = network.sync_rate();
+    let (sync, master_id) = (network.sync_rate(), network.master_id());
     if sync > 0.0 {
         let has_counter = network.master.as_ref().is_some_and(|master| master.sync_overflow > 0);
-        add("SYNC".to_owned(), 0x80, has_counter.into(), sync);
+        add("SYNC", "SYNC".to_owned(), master_id, (0x80, has_counter.into()), sync);
     }
     if let Some(master) = network.master.as_ref().filter(|master| master.heartbeat.value > 0) {
-        add(
-            "heartbeat of the master".to_owned(),
-            0x700 + u32::from(network.master_id()),
-            1,
-            per_second(master.heartbeat.value),
-        );
+        let rate = per_second(master.heartbeat.value);
+        add("heartbeat", "heartbeat of the master".to_owned(), master_id, (0x700 + u32::from(master_id), 1), rate);
     }
     for node in &network.nodes {
         let (id, name) = (0x700 + u32::from(node.id), &node.name.value);
         if node.heartbeat.value > 0 {
-            add(format!("heartbeat of `{name}`"), id, 1, per_second(node.heartbeat.value));
+            let rate = per_second(node.heartbeat.value);
+            add("heartbeat", format!("heartbeat of `{name}`"), node.id, (id, 1), rate);
         } else if node.guard_time > 0 {
-            add(format!("node guarding request to `{name}`"), id, 0, per_second(node.guard_time));
-            add(format!("node guarding reply of `{name}`"), id, 1, per_second(node.guard_time));
+            let rate = per_second(node.guard_time);
+            let request = "node guarding request";
+            add(request, format!("{request} to `{name}`"), master_id, (id, 0), rate);
+            add("node guarding reply", format!("node guarding reply of `{name}`"), node.id, (id, 1), rate);
         }
     }
     let received = network.pdos(Direction::Receive).filter(|(_, pdo)| network.is_sent_by_master(pdo.can_id()));
     let mut unbounded = Vec::new();
     for (node, pdo) in network.pdos(Direction::Transmit).chain(received) {
-        let name = format!("{} of `{}`", pdo.title(), node.name.value);
+        let title = pdo.title();
+        let name = format!("{title} of `{}`", node.name.value);
+        let sender = if pdo.direction == Direction::Transmit { node.id } else { master_id };
         match rate(pdo, sync) {
-            Some(rate) => add(name, pdo.can_id(), pdo.bytes(), rate),
+            Some(rate) => add(&title, name, sender, (pdo.can_id(), pdo.bytes()), rate),
             None => unbounded.push(name),
         }
     }

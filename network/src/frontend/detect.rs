@@ -5,7 +5,7 @@ use lexibus_codegen::source::{FileId, Source};
 
 use super::{bus_yml, cpj, network_toml};
 use crate::declared::DeclaredNetwork;
-use crate::syntax::{parse_toml, parse_yaml, Node, SyntaxError};
+use crate::syntax::{parse_toml, parse_yaml, Content, Node, SyntaxError};
 
 /// Format of a network file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,18 @@ impl Format {
             _ => None,
         }
     }
+}
+
+/// Returns whether a file is a network file: a file with the extension of another format, or a TOML file with the key `nodes`.
+pub fn is_network(source: &Source) -> bool {
+    match Format::of_name(source.name()) {
+        Some(Format::Toml) => parse_toml(source, FileId(0)).is_ok_and(|root| has_nodes(&root)),
+        format => format.is_some(),
+    }
+}
+
+fn has_nodes(root: &Node) -> bool {
+    matches!(&root.content, Content::Table(entries) if entries.iter().any(|entry| entry.key.value == "nodes"))
 }
 
 /// Reads a network file. Returns `None` if its format or its syntax is not recognized.

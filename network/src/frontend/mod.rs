@@ -11,5 +11,5 @@ mod reader;
 mod schema;
 mod section;
 
-pub use detect::{read, Format};
+pub use detect::{is_network, read, Format};
 pub use schema::schema;

@@ -1,12 +1,14 @@
 //! Output files of a network.
 
 mod concise;
+mod configured;
 mod dbc;
 mod dcf;
 mod files;
 mod master;
 mod master_objects;
 mod rust;
+mod site;
 
 pub use concise::concise;
 pub use dbc::dbc;
@@ -14,3 +16,4 @@ pub use dcf::dcf;
 pub use files::{files, OutputFile};
 pub use master::{master_dcf, master_writes};
 pub use rust::rust;
+pub use site::{announce, pages};

@@ -4,13 +4,12 @@ use std::fmt::Write as _;
 
 use lexibus_codegen::backend::rust::{emit_catalog, RustOptions};
 use lexibus_codegen::facts::configuration::Configuration;
-use lexibus_codegen::ir::{Direction, Entries, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use lexibus_codegen::names::{unique, Case, NameRequest};
 use lexibus_codegen::source::Source;
 
-use super::dcf::configured;
+use super::configured::with_pdos;
 use crate::check::bus_load;
-use crate::model::{Network, NetworkNode, NetworkPdo};
+use crate::model::{Network, NetworkNode};
 
 /// Bit of 0x1F81: the master does not reset the node while it is Operational.
 const KEEP_RUNNING: u32 = 0x10;
@@ -46,64 +45,10 @@ struct Named<'n> {
 
 /// Returns the bindings of a node's device with the configured values and PDOs of the node, and whether they contain a configuration.
 fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<(String, bool)> {
-    let mut catalog = configured(network, node, node.description.catalog().clone());
-    let device = &mut catalog.devices[0];
-    let entries = Entries::new(&device.groups);
-    for pdo in &node.pdos {
-        let is_same = |other: &&mut Pdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
-        if let Some(described) = device.process_data.pdos.iter_mut().find(is_same) {
-            described.entries = mapped(&entries, node, pdo);
-            communicate(described, pdo);
-        }
-    }
-    // A disabled PDO has no COB-ID that a program could use.
-    let is_used = |other: &Pdo| {
-        let is_same =
-            |pdo: &&NetworkPdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
-        node.pdos.iter().find(is_same).is_none_or(|pdo| pdo.is_enabled)
-    };
-    device.process_data.pdos.retain(is_used);
+    let catalog = with_pdos(network, node);
     let is_configured = Configuration::of(&catalog.devices[0]).is_some();
     let options = RustOptions { device_name: Some(ty.to_owned()), ..options.clone() };
     Some((emit_catalog(&catalog, &options)?, is_configured))
-}
-
-/// Sets the communication parameters of a PDO to those of the network.
-fn communicate(described: &mut Pdo, pdo: &NetworkPdo) {
-    let communication = described.communication.get_or_insert_with(PdoCommunication::default);
-    let is_sender = pdo.direction == Direction::Transmit;
-    communication.index = pdo.index();
-    communication.cob_id = Some(Value::Int(pdo.cob_id.into()));
-    communication.transmission_type = Some(pdo.transmission);
-    communication.inhibit_time = is_sender.then_some(pdo.inhibit_time).filter(|time| *time > 0);
-    communication.event_timer =
-        Some(if is_sender { pdo.event_timer } else { pdo.event_deadline }).filter(|time| *time > 0);
-    communication.sync_start = is_sender.then_some(pdo.sync_start).filter(|start| *start > 0);
-}
-
-fn mapped(entries: &Entries<'_>, node: &NetworkNode, pdo: &NetworkPdo) -> Vec<PdoEntry> {
-    let mut offset = 0;
-    let entry = |mapped: &crate::model::MappedObject| {
-        let bits = u32::from(mapped.bits);
-        let mut entry = PdoEntry { bit_offset: offset, ..PdoEntry::new(mapped.index, mapped.sub_index, bits) };
-        offset += bits;
-        match entries.get(mapped.index, mapped.sub_index).filter(|_| mapped.index >= 0x1000) {
-            None if mapped.index < 0x1000 => entry.kind = PdoEntryKind::Padding,
-            None => {}
-            Some(item) => {
-                entry.kind = PdoEntryKind::Item;
-                entry.item = entries.find(mapped.index, mapped.sub_index);
-                entry.ty = item.ty;
-                let group = node.device().object(mapped.index).filter(|group| group.items.len() > 1);
-                entry.name = match group {
-                    Some(group) => format!("{} {}", group.name, item.name).into(),
-                    None => item.name.clone(),
-                };
-            }
-        }
-        entry
-    };
-    pdo.entries.iter().map(entry).collect()
 }
 
 /// Returns the module of the network.

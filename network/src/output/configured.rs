@@ -1,0 +1,95 @@
+//! The catalog of a node with its node-ID, configured values and PDOs.
+
+use lexibus_codegen::ir::{
+    Catalog, Commissioning, Configured, Device, Direction, Entries, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
+    Value,
+};
+
+use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo, Write};
+
+/// Returns the catalog of a node with its node-ID, configured values, and the PDOs that it uses in the network.
+pub(super) fn with_pdos(network: &Network, node: &NetworkNode) -> Catalog {
+    let mut catalog = configured(network, node, node.description.catalog().clone());
+    let device = &mut catalog.devices[0];
+    let entries = Entries::new(&device.groups);
+    for pdo in &node.pdos {
+        let is_same = |other: &&mut Pdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
+        if let Some(described) = device.process_data.pdos.iter_mut().find(is_same) {
+            described.entries = mapped(&entries, node, pdo);
+            communicate(described, pdo);
+        }
+    }
+    // A disabled PDO has no COB-ID that a program could use.
+    let is_used = |other: &Pdo| {
+        let is_same =
+            |pdo: &&NetworkPdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
+        node.pdos.iter().find(is_same).is_none_or(|pdo| pdo.is_enabled)
+    };
+    device.process_data.pdos.retain(is_used);
+    catalog
+}
+
+/// Adds node-ID, bit rate, names and configured values of a node to its catalog.
+pub(super) fn configured(network: &Network, node: &NetworkNode, mut catalog: Catalog) -> Catalog {
+    let device = &mut catalog.devices[0];
+    let commissioning = device.commissioning.take().unwrap_or_default();
+    device.commissioning = Some(Box::new(Commissioning {
+        node_id: Some(node.id),
+        node_name: node.name.value.as_str().into(),
+        bit_rate: Some(network.bit_rate),
+        network_name: network.name.as_str().into(),
+        manager: false,
+        lss_serial_number: Some(node.identity[3]).filter(|serial| *serial != 0),
+        ..*commissioning
+    }));
+    node.writes.iter().for_each(|write| configure(device, write));
+    catalog
+}
+
+/// Sets the configured value of an item.
+fn configure(device: &mut Device, write: &Write) {
+    let Some(value) = &write.value else { return };
+    let items = device.groups.iter_mut().flat_map(|group| &mut group.items);
+    if let Some(item) = items.into_iter().find(|item| item.object() == Some(write.object)) {
+        let others = item.configured.take().unwrap_or_default();
+        item.configured = Some(Box::new(Configured { value: Some(value.clone()), ..*others }));
+    }
+}
+
+/// Sets the communication parameters of a PDO to those of the network.
+fn communicate(described: &mut Pdo, pdo: &NetworkPdo) {
+    let communication = described.communication.get_or_insert_with(PdoCommunication::default);
+    let is_sender = pdo.direction == Direction::Transmit;
+    communication.index = pdo.index();
+    communication.cob_id = Some(Value::Int(pdo.cob_id.into()));
+    communication.transmission_type = Some(pdo.transmission);
+    communication.inhibit_time = is_sender.then_some(pdo.inhibit_time).filter(|time| *time > 0);
+    communication.event_timer =
+        Some(if is_sender { pdo.event_timer } else { pdo.event_deadline }).filter(|time| *time > 0);
+    communication.sync_start = is_sender.then_some(pdo.sync_start).filter(|start| *start > 0);
+}
+
+fn mapped(entries: &Entries<'_>, node: &NetworkNode, pdo: &NetworkPdo) -> Vec<PdoEntry> {
+    let mut offset = 0;
+    let entry = |mapped: &MappedObject| {
+        let bits = u32::from(mapped.bits);
+        let mut entry = PdoEntry { bit_offset: offset, ..PdoEntry::new(mapped.index, mapped.sub_index, bits) };
+        offset += bits;
+        match entries.get(mapped.index, mapped.sub_index).filter(|_| mapped.index >= 0x1000) {
+            None if mapped.index < 0x1000 => entry.kind = PdoEntryKind::Padding,
+            None => {}
+            Some(item) => {
+                entry.kind = PdoEntryKind::Item;
+                entry.item = entries.find(mapped.index, mapped.sub_index);
+                entry.ty = item.ty;
+                let group = node.device().object(mapped.index).filter(|group| group.items.len() > 1);
+                entry.name = match group {
+                    Some(group) => format!("{} {}", group.name, item.name).into(),
+                    None => item.name.clone(),
+                };
+            }
+        }
+        entry
+    };
+    pdo.entries.iter().map(entry).collect()
+}
