@@ -811,7 +811,7 @@ pub mod types {
     /// | Value | Name | Meaning |
     /// |---|---|---|
     /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | The PDO is transmitted at the next SYNC after an event. |
-    /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. The PDO is transmitted after this number of SYNC messages. |
+    /// | 1 to 240 | [`Unknown`](Self::Unknown) | synchronous cyclic. The PDO is transmitted at every n-th SYNC, where n is the value of the transmission type. |
     /// | 241 to 251 | [`Unknown`](Self::Unknown) | reserved. Do not use this value. |
     /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. The PDO is sampled at SYNC, and transmitted when a remote frame requests it. |
     /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | The PDO is sampled and transmitted when a remote frame requests it. |

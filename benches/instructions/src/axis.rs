@@ -236,7 +236,7 @@ impl<C> Ax1<C> {
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
-    /// Torque offset: added to the target torque, relative to the rated torque.
+    /// Torque offset, which is added to the target torque. Both values are relative to the rated torque.
     ///
     /// Torque offset: 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
     /// Constant: [`objects::TORQUE_OFFSET`]. Mapped in [`SetPoints`](pdo::SetPoints).
@@ -2398,7 +2398,7 @@ pub mod objects {
     /// Torque offset: 1 LSB = 0.1 %, 0x60B2:00, INTEGER16, read-write, mappable into RPDOs.
     /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Torque offset: added to the target torque, relative to the rated torque.
+    /// Torque offset, which is added to the target torque. Both values are relative to the rated torque.
     ///
     /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
     ///
