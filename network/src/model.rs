@@ -142,6 +142,16 @@ impl NetworkNode {
         written.or_else(|| self.item(object)?.initial())?.resolved(self.id).as_int()
     }
 
+    /// Returns whether the network file sets an object.
+    pub fn sets(&self, object: (u16, u8)) -> bool {
+        self.writes.iter().any(|write| write.object == object && write.value.is_some())
+    }
+
+    /// Returns the location of the last value of an object in the network file; empty if the file does not set the object.
+    pub fn set_at(&self, object: (u16, u8)) -> Span {
+        self.writes.iter().rev().find(|write| write.object == object).map_or(Span::MISSING, |write| write.span)
+    }
+
     /// Returns the PDO with this direction and number.
     pub fn pdo(&self, direction: Direction, number: u16) -> Option<&NetworkPdo> {
         self.pdos.iter().find(|pdo| pdo.direction == direction && pdo.number == number)
