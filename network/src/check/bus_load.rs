@@ -1,9 +1,9 @@
 //! Bus load: bits per second of all cyclic frames, with the largest number of stuff bits.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::ir::Direction;
 use lexibus_codegen::source::Span;
 
+use super::sync_producers::{fastest, sync_producers, SyncProducer};
 use crate::model::{Network, NetworkPdo, EXTENDED};
 
 /// Cyclic frames of one sender.
@@ -58,10 +58,9 @@ pub fn bus_load(network: &Network) -> BusLoad {
     let mut add = |name: String, can_id: u32, bytes: u32, rate: f64| {
         load.traffic.push(Traffic { name, can_id, rate, bits: frame_bits(can_id, bytes) });
     };
-    let sync = network.sync_rate();
-    if sync > 0.0 {
-        let has_counter = network.master.as_ref().is_some_and(|master| master.sync_overflow > 0);
-        add("SYNC".to_owned(), 0x80, has_counter.into(), sync);
+    let producers = sync_producers(network);
+    for producer in &producers {
+        add(producer.name.clone(), producer.can_id, producer.has_counter.into(), producer.rate());
     }
     if let Some(master) = network.master.as_ref().filter(|master| master.heartbeat.value > 0) {
         add(
@@ -80,9 +79,9 @@ pub fn bus_load(network: &Network) -> BusLoad {
             add(format!("node guarding reply of `{name}`"), id, 1, per_second(node.guard_time));
         }
     }
-    let received = network.pdos(Direction::Receive).filter(|(_, pdo)| network.is_sent_by_master(pdo.can_id()));
+    let sync = fastest(&producers).map_or(0.0, SyncProducer::rate);
     let mut unbounded = Vec::new();
-    for (node, pdo) in network.pdos(Direction::Transmit).chain(received) {
+    for (node, pdo) in network.sent() {
         let name = format!("{} of `{}`", pdo.title(), node.name.value);
         match rate(pdo, sync) {
             Some(rate) => add(name, pdo.can_id(), pdo.bytes(), rate),

@@ -6,6 +6,7 @@ mod heartbeat;
 mod partners;
 mod run;
 mod sync;
+mod sync_producers;
 
 pub use bus_load::{bus_load, frame_bits, BusLoad, Traffic};
 pub use run::check;
