@@ -4,7 +4,7 @@ use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::source::Span;
 
 use super::sync_producers::{fastest, sync_producers, SyncProducer};
-use crate::model::{Network, NetworkPdo, EXTENDED};
+use crate::model::{can_id, Network, NetworkPdo, EXTENDED};
 
 /// Cyclic frames of one sender.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,7 @@ pub fn bus_load(network: &Network) -> BusLoad {
     };
     let producers = sync_producers(network);
     for producer in &producers {
-        add(producer.name.clone(), producer.can_id, producer.has_counter.into(), producer.rate());
+        add(producer.name.clone(), can_id(producer.cob_id), producer.has_counter.into(), producer.rate());
     }
     if let Some(master) = network.master.as_ref().filter(|master| master.heartbeat.value > 0) {
         add(

@@ -4,6 +4,7 @@ mod bus_load;
 mod cob_ids;
 mod heartbeat;
 mod partners;
+mod restricted;
 mod run;
 mod sync;
 mod sync_producers;

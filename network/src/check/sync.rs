@@ -5,7 +5,7 @@ use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use super::bus_load::frame_bits;
 use super::cob_ids::place;
 use super::sync_producers::{fastest, sync_producers, SyncProducer};
-use crate::model::{Network, NetworkNode, NetworkPdo};
+use crate::model::{can_id, Network, NetworkNode, NetworkPdo};
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     let synchronous: Vec<(&NetworkNode, &NetworkPdo)> =
@@ -25,7 +25,7 @@ fn period(
     synchronous: &[(&NetworkNode, &NetworkPdo)],
     diagnostics: &mut Diagnostics,
 ) {
-    let sync = frame_bits(producer.can_id, producer.has_counter.into());
+    let sync = frame_bits(can_id(producer.cob_id), producer.has_counter.into());
     let bits = synchronous.iter().fold(sync, |bits, (_, pdo)| bits + frame_bits(pdo.can_id(), pdo.bytes()));
     let time = f64::from(bits) * 1000.0 / f64::from(network.bit_rate);
     let (available, name) = match producer.window {

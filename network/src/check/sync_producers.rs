@@ -2,7 +2,7 @@
 
 use lexibus_codegen::source::Span;
 
-use crate::model::{can_id, Network, NetworkNode};
+use crate::model::{Network, NetworkNode};
 
 /// Bit of 0x1005: the node sends SYNC.
 const PRODUCER: u32 = 1 << 30;
@@ -11,8 +11,8 @@ const PRODUCER: u32 = 1 << 30;
 pub(super) struct SyncProducer {
     /// Name of its frames: `SYNC` of the master, or ``SYNC of `axis1` ``.
     pub name: String,
-    /// CAN-ID, with bit 29 if it has 29 bits.
-    pub can_id: u32,
+    /// COB-ID with flags.
+    pub cob_id: u32,
     /// Communication cycle period in µs.
     pub period: u32,
     /// Synchronous window length in µs; 0 = none.
@@ -36,7 +36,7 @@ pub(super) fn sync_producers(network: &Network) -> Vec<SyncProducer> {
         let period = master.sync_period.as_ref().filter(|period| period.value > 0)?;
         Some(SyncProducer {
             name: "SYNC".to_owned(),
-            can_id: 0x80,
+            cob_id: 0x80,
             period: period.value,
             window: master.sync_window,
             has_counter: master.sync_overflow > 0,
@@ -56,7 +56,7 @@ fn of_node(node: &NetworkNode) -> Option<SyncProducer> {
     let (cob_id, period) = (number(0x1005), number(0x1006));
     (cob_id & PRODUCER != 0 && period > 0).then(|| SyncProducer {
         name: format!("SYNC of `{}`", node.name.value),
-        can_id: can_id(cob_id),
+        cob_id,
         period,
         window: number(0x1007),
         has_counter: number(0x1019) > 0,
