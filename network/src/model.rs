@@ -1,5 +1,6 @@
 //! The resolved network: nodes with their descriptions, values as bytes, and PDOs with COB-IDs.
 
+use std::collections::HashSet;
 use std::rc::Rc;
 
 use lexibus_codegen::ir::{Device, Direction, Item, Value};
@@ -48,15 +49,18 @@ impl Network {
         self.master.as_ref().is_some_and(|master| master.exchanges_pdos) && !is_sent()
     }
 
-    /// Returns the number of SYNCs per second that the master sends.
-    pub fn sync_rate(&self) -> f64 {
-        let period =
-            self.master.as_ref().and_then(|master| master.sync_period.as_ref()).map_or(0, |period| period.value);
-        if period == 0 {
-            0.0
-        } else {
-            1e6 / f64::from(period)
-        }
+    /// Returns the RPDOs that the master sends. Of several RPDOs with one CAN-ID and one length, the master sends one PDO.
+    pub fn sent_by_master(&self) -> Vec<(&NetworkNode, &NetworkPdo)> {
+        let mut known = HashSet::new();
+        let is_sent = |(_, pdo): &(&NetworkNode, &NetworkPdo)| {
+            self.is_sent_by_master(pdo.can_id()) && known.insert((pdo.can_id(), pdo.bytes()))
+        };
+        self.pdos(Direction::Receive).filter(is_sent).collect()
+    }
+
+    /// Returns all PDOs on the bus: the TPDOs of the nodes, then the RPDOs that the master sends.
+    pub fn sent(&self) -> Vec<(&NetworkNode, &NetworkPdo)> {
+        self.pdos(Direction::Transmit).chain(self.sent_by_master()).collect()
     }
 
     /// Returns the nodes that receive a CAN-ID with an RPDO.
@@ -140,6 +144,16 @@ impl NetworkNode {
         let written =
             self.writes.iter().rev().find(|write| write.object == object).and_then(|write| write.value.as_ref());
         written.or_else(|| self.item(object)?.initial())?.resolved(self.id).as_int()
+    }
+
+    /// Returns whether the network file sets an object.
+    pub fn sets(&self, object: (u16, u8)) -> bool {
+        self.writes.iter().any(|write| write.object == object && write.value.is_some())
+    }
+
+    /// Returns the location of the last value of an object in the network file; empty if the file does not set the object.
+    pub fn set_at(&self, object: (u16, u8)) -> Span {
+        self.writes.iter().rev().find(|write| write.object == object).map_or(Span::MISSING, |write| write.span)
     }
 
     /// Returns the PDO with this direction and number.

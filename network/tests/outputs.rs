@@ -1,6 +1,8 @@
 //! Output files of the example network, and of networks with DCF.
 
-use std::path::{Path, PathBuf};
+mod support;
+
+use std::path::Path;
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::Levels;
@@ -9,34 +11,13 @@ use lexibus_codegen::source::Source;
 use lexibus_network::check::bus_load;
 use lexibus_network::compile::{compile, Compilation};
 use lexibus_network::output::{dcf, files, master_dcf, master_writes};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use support::{compiled, entries, example_file, root};
 
 fn example() -> Compilation {
     let path = root().join("examples/network/network.toml");
     let compilation = compile(Source::read(&path).expect("the example"), Levels::lenient());
     assert_eq!(compilation.diagnostics.list().len(), 0, "{:?}", compilation.diagnostics.list());
     compilation
-}
-
-/// Returns the entries of a concise DCF: index, sub-index and bytes.
-fn entries(mut bytes: &[u8]) -> Vec<(u16, u8, Vec<u8>)> {
-    let mut take = |length: usize| {
-        let (taken, rest) = bytes.split_at(length);
-        bytes = rest;
-        taken.to_vec()
-    };
-    let number = |bytes: &[u8]| bytes.iter().rev().fold(0usize, |number, byte| number << 8 | usize::from(*byte));
-    let count = number(&take(4));
-    let mut entry = || {
-        let (index, sub_index, length) = (number(&take(2)) as u16, take(1)[0], number(&take(4)));
-        (index, sub_index, take(length))
-    };
-    let list = (0..count).map(|_| entry()).collect();
-    assert!(bytes.is_empty());
-    list
 }
 
 /// Returns the catalog of an exported file, which must have no diagnostics.
@@ -121,21 +102,9 @@ fn the_bus_load_is_that_of_all_cyclic_frames() {
     assert_eq!(load.unbounded.len(), 5);
 }
 
-/// Writes files to a folder, and compiles the last one.
-fn compiled(name: &str, files: &[(&str, String)]) -> Compilation {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(folder.join("eds")).expect("a folder");
-    for (name, text) in files {
-        std::fs::write(folder.join(name), text).expect("a file");
-    }
-    let (name, _) = files.last().expect("a file");
-    compile(Source::read(&folder.join(name)).expect("a file"), Levels::lenient())
-}
-
 #[test]
 fn a_cpj_writes_the_values_of_its_dcf() {
-    let drive = std::fs::read_to_string(root().join("examples/network/drive.eds")).expect("the example");
+    let drive = example_file("drive.eds");
     let of = "[6081]\r\nParameterName=Profile velocity\r\n";
     assert!(drive.contains(of));
     let configured = drive.replace(of, &format!("{of}ParameterValue=1234\r\n"));
@@ -151,9 +120,9 @@ fn a_cpj_writes_the_values_of_its_dcf() {
 
 #[test]
 fn damaged_files_cause_no_panic() {
-    let drive = std::fs::read_to_string(root().join("examples/network/drive.eds")).expect("the example");
-    let io = std::fs::read_to_string(root().join("examples/network/io.eds")).expect("the example");
-    let toml = std::fs::read_to_string(root().join("examples/network/network.toml")).expect("the example");
+    let drive = example_file("drive.eds");
+    let io = example_file("io.eds");
+    let toml = example_file("network.toml");
     let yaml =
         "options: {dcf_path: \".\"}\nmaster: {node_id: 127, sync_period: 1000}\ndefaults: &d\n  dcf: drive.eds\n\
                 nodes:\n  a:\n    <<: *d\n    node_id: 1\n    sdo: [{index: 0x6081, value: 5}]\n    tpdo:\n      1: \

@@ -977,8 +977,7 @@ codes! {
         without a receiver only adds bus load. Disable the PDO, or declare its receiver with `cob_id`."
     NET019 COB_ID_CONFLICT Lint Deny "two senders use the same CAN-ID"
         "Two nodes that send the same CAN-ID at the same time cause bus errors, and a receiver cannot distinguish \
-        their messages. The CAN-IDs of NMT, SYNC, TIME, EMCY, SDO, heartbeat and LSS are also in use. Choose another \
-        `cob_id`, or use `auto`."
+        their messages. SYNC, TIME and EMCY use CAN-IDs, too. Choose another `cob_id`, or use `auto`."
     NET020 HEARTBEAT_TIME Lint Deny "a heartbeat or guard time cannot hold"
         "The consumer time of a heartbeat must be longer than the producer time, and at most 65535 ms. A consumer of a \
         node that sends no heartbeat always reports an error. A node cannot use heartbeat and node guarding at the \
@@ -990,6 +989,10 @@ codes! {
     NET022 SYNC_PERIOD Lint Deny "the synchronous PDOs do not fit in the SYNC period"
         "SYNC and all synchronous PDOs together take longer than the SYNC period or the synchronous window. Or there \
         are synchronous PDOs, but no node sends SYNC. Declare a longer `sync_period`, or map fewer objects."
+    NET023 RESTRICTED_CAN_ID Lint Deny "a COB-ID has a CAN-ID that it cannot have"
+        "CiA 301 (7.3.5) reserves the CAN-IDs 0x000 to 0x07F, 0x101 to 0x180, 0x581 to 0x5FF, 0x601 to 0x67F, 0x6E0 to \
+        0x6FF and 0x701 to 0x7FF for NMT, SDO, heartbeat, node guarding, LSS and other uses. A CAN-ID above 0x7FF needs \
+        a frame with 29 bits, so bit 29 of the COB-ID must be 1. Choose another `cob_id`, or use `auto`."
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@ use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Direction;
 use lexibus_codegen::source::Span;
 
-use crate::model::{Network, NetworkPdo, EXTENDED};
+use super::sync_producers::{fastest, sync_producers, SyncProducer};
+use crate::model::{can_id, Network, NetworkPdo, EXTENDED};
 
 /// Cyclic frames of one sender.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,10 +77,10 @@ pub fn bus_load(network: &Network) -> BusLoad {
         let (service, bits) = (service.to_owned(), frame_bits(can_id, bytes));
         load.traffic.push(Traffic { name, service, sender, can_id, bytes, bits, rate });
     };
-    let (sync, master_id) = (network.sync_rate(), network.master_id());
-    if sync > 0.0 {
-        let has_counter = network.master.as_ref().is_some_and(|master| master.sync_overflow > 0);
-        add("SYNC", "SYNC".to_owned(), master_id, (0x80, has_counter.into()), sync);
+    let (producers, master_id) = (sync_producers(network), network.master_id());
+    for producer in &producers {
+        let frame = (can_id(producer.cob_id), producer.has_counter.into());
+        add("SYNC", producer.name.clone(), producer.sender, frame, producer.rate());
     }
     if let Some(master) = network.master.as_ref().filter(|master| master.heartbeat.value > 0) {
         let rate = per_second(master.heartbeat.value);
@@ -97,9 +98,9 @@ pub fn bus_load(network: &Network) -> BusLoad {
             add("node guarding reply", format!("node guarding reply of `{name}`"), node.id, (id, 1), rate);
         }
     }
-    let received = network.pdos(Direction::Receive).filter(|(_, pdo)| network.is_sent_by_master(pdo.can_id()));
+    let sync = fastest(&producers).map_or(0.0, SyncProducer::rate);
     let mut unbounded = Vec::new();
-    for (node, pdo) in network.pdos(Direction::Transmit).chain(received) {
+    for (node, pdo) in network.sent() {
         let title = pdo.title();
         let name = format!("{title} of `{}`", node.name.value);
         let sender = if pdo.direction == Direction::Transmit { node.id } else { master_id };

@@ -1,41 +1,68 @@
-//! CAN-IDs that two senders use.
+//! CAN-IDs that two senders use, and CAN-IDs that a sender cannot use.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Direction;
 use lexibus_codegen::source::Span;
 
+use super::restricted;
+use super::sync_producers::sync_producers;
 use crate::model::{can_id, Network, NetworkNode, NetworkPdo, DISABLED};
 
-/// A sender of a CAN-ID.
+/// Bits of a COB-ID that contain the CAN-ID and its length.
+const CAN_ID: u32 = 0x3FFF_FFFF;
+
+/// A sender of messages with a COB-ID that can be configured.
 struct Sender {
+    cob_id: u32,
     name: String,
+    /// Location in the network file; empty if the description or CiA 301 states the COB-ID.
     span: Span,
 }
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
-    let mut senders = services(network);
-    let sent = network.pdos(Direction::Transmit).chain(sent_by_master(network));
-    for (node, pdo) in sent {
-        let span = place(node, pdo);
-        let name = match pdo.direction {
-            Direction::Transmit => format!("{} of `{}`", pdo.title(), node.name.value),
-            Direction::Receive => format!("{} of `{}` (sent by the master)", pdo.title(), node.name.value),
-        };
-        match senders.get(&pdo.can_id()) {
-            Some(other) => {
-                let message = format!("the CAN-ID 0x{:X} of {name} is also that of {}", pdo.can_id(), other.name);
-                let found = Diagnostic::new(&codes::COB_ID_CONFLICT, span, message);
-                let found =
-                    if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
-                diagnostics.push(found.help("choose another `cob_id`, or use `auto`"));
-            }
-            None => {
-                senders.insert(pdo.can_id(), Sender { name, span });
-            }
+    // COB-IDs of services that the file does not set are not checked, because many descriptions state a wrong EMCY.
+    let (unplaced, placed): (Vec<Sender>, Vec<Sender>) =
+        services(network).into_iter().partition(|sender| sender.span.is_empty());
+    let mut senders = BTreeMap::new();
+    for sender in unplaced {
+        senders.entry(can_id(sender.cob_id)).or_insert(sender);
+    }
+    let mut known = HashSet::new();
+    for sender in placed.into_iter().chain(network.sent().into_iter().map(of_pdo)) {
+        known.insert(sender.cob_id & CAN_ID);
+        if let Some(fault) = restricted::fault(sender.cob_id, &sender.name, sender.span) {
+            diagnostics.push(fault);
+            continue;
+        }
+        match senders.get(&can_id(sender.cob_id)) {
+            Some(other) => diagnostics.push(conflict(&sender, other)),
+            None => drop(senders.insert(can_id(sender.cob_id), sender)),
         }
     }
+    for (node, pdo) in network.pdos(Direction::Receive).filter(|(_, pdo)| !known.contains(&(pdo.cob_id & CAN_ID))) {
+        let name = format!("{} of `{}`", pdo.title(), node.name.value);
+        if let Some(fault) = restricted::fault(pdo.cob_id, &name, place(node, pdo)) {
+            diagnostics.push(fault);
+        }
+    }
+}
+
+fn conflict(sender: &Sender, other: &Sender) -> Diagnostic {
+    let can_id = can_id(sender.cob_id);
+    let message = format!("the CAN-ID 0x{can_id:X} of {} is also that of {}", sender.name, other.name);
+    let found = Diagnostic::new(&codes::COB_ID_CONFLICT, sender.span, message);
+    let found = if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
+    found.help("choose another `cob_id`, or use `auto`")
+}
+
+fn of_pdo((node, pdo): (&NetworkNode, &NetworkPdo)) -> Sender {
+    let name = match pdo.direction {
+        Direction::Transmit => format!("{} of `{}`", pdo.title(), node.name.value),
+        Direction::Receive => format!("{} of `{}` (sent by the master)", pdo.title(), node.name.value),
+    };
+    Sender { cob_id: pdo.cob_id, name, span: place(node, pdo) }
 }
 
 /// Returns the location of a PDO: its number in the file, or the name of its node.
@@ -43,41 +70,20 @@ pub(super) fn place(node: &NetworkNode, pdo: &NetworkPdo) -> Span {
     pdo.cob_id_at.or(pdo.span).or(node.name.span)
 }
 
-/// Returns the RPDOs that the master sends. Of several RPDOs with one CAN-ID and one length, the master sends one PDO.
-fn sent_by_master(network: &Network) -> impl Iterator<Item = (&NetworkNode, &NetworkPdo)> {
-    let mut known: Vec<(u32, u32)> = Vec::new();
-    let is_sent = move |(_, pdo): &(&NetworkNode, &NetworkPdo)| {
-        let key = (pdo.can_id(), pdo.bytes());
-        let is_new = !known.contains(&key);
-        known.push(key);
-        is_new && network.is_sent_by_master(pdo.can_id())
-    };
-    network.pdos(Direction::Receive).filter(is_sent)
-}
-
-/// Returns the CAN-IDs of all services except PDOs.
-fn services(network: &Network) -> BTreeMap<u32, Sender> {
-    let mut senders = BTreeMap::new();
-    let mut add = |id: u32, name: String| {
-        senders.entry(id).or_insert(Sender { name, span: Span::MISSING });
-    };
-    add(0, "NMT".to_owned());
-    for id in [0x7E4, 0x7E5] {
-        add(id, "LSS".to_owned());
-    }
+/// Returns the senders of SYNC, TIME and EMCY.
+fn services(network: &Network) -> Vec<Sender> {
+    let mut senders = Vec::new();
+    let mut add = |cob_id: u32, name: String, span: Span| senders.push(Sender { cob_id, name, span });
+    let producers = sync_producers(network);
     if let Some(master) = &network.master {
-        add(0x80, "SYNC".to_owned());
-        add(can_id(master.time_cob_id), "TIME".to_owned());
-        add(0x700 + u32::from(network.master_id()), "the heartbeat of the master".to_owned());
-    }
-    for node in &network.nodes {
-        let (id, name) = (u32::from(node.id), format!("`{}`", node.name.value));
-        add(0x580 + id, format!("the SDO replies of {name}"));
-        add(0x600 + id, format!("the SDO requests to {name}"));
-        add(0x700 + id, format!("the heartbeat of {name}"));
-        if node.emcy_cob_id & DISABLED == 0 {
-            add(can_id(node.emcy_cob_id), format!("the EMCY of {name}"));
+        if producers.iter().all(|producer| can_id(producer.cob_id) != 0x80) {
+            add(0x80, "SYNC".to_owned(), Span::MISSING);
         }
+        add(master.time_cob_id, "TIME".to_owned(), Span::MISSING);
+    }
+    producers.into_iter().for_each(|producer| add(producer.cob_id, producer.name, producer.span));
+    for node in network.nodes.iter().filter(|node| node.emcy_cob_id & DISABLED == 0) {
+        add(node.emcy_cob_id, format!("the EMCY of `{}`", node.name.value), node.set_at((0x1014, 0)));
     }
     senders
 }

@@ -1,7 +1,8 @@
 //! Times of heartbeats and of node guarding that cannot hold.
 
+use std::collections::BTreeSet;
+
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::ir::Value;
 use lexibus_codegen::source::Span;
 
 use crate::model::{consumer_time, Network, NetworkNode};
@@ -54,20 +55,35 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
 
 /// Reports values of 0x1016 for nodes that send no heartbeat, or send it too rarely.
 fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostics) {
-    for write in node.writes.iter().filter(|write| write.object.0 == 0x1016 && write.object.1 > 0) {
-        let value = write.value.as_ref().and_then(Value::as_int).unwrap_or(0);
-        let (time, producer) = (value & 0xFFFF, (value >> 16) as u8);
-        if time == 0 || producer == network.master_id() {
+    let written: BTreeSet<(u16, u8)> = node.writes.iter().map(|write| write.object).collect();
+    for object in written.range((0x1016, 1)..=(0x1016, u8::MAX)) {
+        let value = node.value(*object).unwrap_or(0);
+        let (time, producer) = ((value & 0xFFFF) as u32, (value >> 16) as u8);
+        if time == 0 || !(1..=127).contains(&producer) {
             continue;
         }
-        let other = network.nodes.iter().find(|other| other.id == producer);
-        let problem = match other.map(|other| (&other.name.value, i128::from(other.heartbeat.value))) {
+        let problem = match heartbeat_of(network, producer) {
+            // Another program is the master, and can have any node-ID.
+            None if network.master.is_none() => continue,
             None => format!("no node has the node-ID {producer}"),
-            Some((name, 0)) => format!("`{name}` sends no heartbeat"),
-            Some((name, sent)) if sent >= time => format!("`{name}` sends its heartbeat each {sent} ms"),
+            Some((_, _, computed)) if time == computed => continue,
+            Some((name, 0, _)) => format!("{name} sends no heartbeat"),
+            Some((name, sent, _)) if u32::from(sent) >= time => format!("{name} sends its heartbeat each {sent} ms"),
             Some(_) => continue,
         };
         let message = format!("`{}` expects a heartbeat of node {producer} each {time} ms", node.name.value);
-        diagnostics.push(Diagnostic::new(&codes::HEARTBEAT_TIME, write.span, message).label(problem));
+        let span = node.set_at(*object).or(node.name.span);
+        diagnostics.push(Diagnostic::new(&codes::HEARTBEAT_TIME, span, message).label(problem));
     }
+}
+
+/// Returns name and heartbeat of a node or of the master, and the consumer time of the master's heartbeat, which is checked with the
+/// master.
+fn heartbeat_of(network: &Network, id: u8) -> Option<(String, u16, u32)> {
+    if let Some(master) = network.master.as_ref().filter(|_| id == network.master_id()) {
+        let computed = consumer_time(master.heartbeat.value, master.heartbeat_multiplier.value) & 0xFFFF;
+        return Some(("the master".to_owned(), master.heartbeat.value, computed));
+    }
+    let node = network.nodes.iter().find(|node| node.id == id)?;
+    Some((format!("`{}`", node.name.value), node.heartbeat.value, 0))
 }

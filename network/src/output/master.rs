@@ -214,19 +214,15 @@ fn pdos(network: &Network) -> Vec<Group> {
 }
 
 impl Network {
-    /// Returns the PDOs that the master exchanges: TPDOs of the nodes that it receives, or RPDOs that it sends. The master sends PDOs
-    /// with one CAN-ID and one length once.
+    /// Returns the PDOs that the master exchanges: TPDOs of the nodes that it receives, or RPDOs that it sends.
     pub fn exchanged(&self, direction: Direction) -> Vec<(&NetworkNode, &NetworkPdo)> {
-        let Some(master) = &self.master else { return Vec::new() };
-        let mut known = Vec::new();
-        let is_exchanged = |(_, pdo): &(&NetworkNode, &NetworkPdo)| {
-            let key = (pdo.can_id(), pdo.bytes());
-            let is_new = !known.contains(&key);
-            known.push(key);
-            master.exchanges_pdos
-                && (direction == Direction::Transmit || is_new && self.is_sent_by_master(pdo.can_id()))
-        };
-        self.pdos(direction).filter(is_exchanged).collect()
+        match direction {
+            Direction::Receive => self.sent_by_master(),
+            Direction::Transmit if self.master.as_ref().is_some_and(|master| master.exchanges_pdos) => {
+                self.pdos(direction).collect()
+            }
+            Direction::Transmit => Vec::new(),
+        }
     }
 }
 

@@ -1,25 +1,24 @@
 //! Heartbeat consumers of the nodes (0x1016), which monitor the master.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::ir::Group;
 
-use super::described::initial;
 use super::writer::Writer;
-use crate::model::{consumer_time, Network};
+use crate::model::{consumer_time, Network, NetworkNode};
 
 /// Configures the heartbeat consumers of all nodes. `consumers` states for each node whether it monitors the master. The writes come
-/// first, as in `dcfgen`.
+/// before all others of the network file, as in `dcfgen`, but after those of the description, which they replace.
 pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnostics: &mut Diagnostics) {
     let Some(master) = &network.master else { return };
     let time = consumer_time(master.heartbeat.value, master.heartbeat_multiplier.value);
     let (master_id, span) = (network.master_id(), master.heartbeat.span);
     for (node, is_consumer) in network.nodes.iter_mut().zip(consumers) {
+        let (declared, described) = entries(node);
+        let monitors = |(_, value): &&(u8, u32)| value & 0xFFFF != 0 && (value >> 16) as u8 == master_id;
+        let is_declared = declared.iter().any(|entry| monitors(&entry));
         let description = std::rc::Rc::clone(&node.description);
         let mut writer = Writer { device: description.device(), id: node.id, writes: Vec::new(), diagnostics };
-        let entries = consumer_entries(writer.device.object(0x1016), &writer);
-        if *is_consumer && time > 0 {
-            let entry = free_entry(&entries, master_id);
-            match entry {
+        if *is_consumer && time > 0 && !is_declared {
+            match free_entry(&described, master_id) {
                 Some(sub_index) => writer.write((0x1016, sub_index), u32::from(master_id) << 16 | time & 0xFFFF, span),
                 None => {
                     let message = format!("the node `{}` cannot monitor the heartbeat of the master", node.name.value);
@@ -28,24 +27,28 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
                 }
             }
         } else {
-            // The description monitors the master, but the master sends no heartbeat, or the file does not ask for it.
-            for (sub_index, value) in entries {
-                if value & 0xFFFF != 0 && (value >> 16) as u8 == master_id {
-                    writer.write((0x1016, sub_index), value & 0x00FF_0000, span);
-                }
+            // The description monitors the master, but the master sends no heartbeat, or the file does not ask for it, or uses another
+            // entry.
+            for (sub_index, value) in described.iter().filter(monitors) {
+                writer.write((0x1016, *sub_index), value & 0x00FF_0000, span);
             }
         }
+        let first = node.writes.iter().take_while(|write| write.value.is_none()).count();
         for write in writer.writes {
-            node.writes.insert(0, write);
+            node.writes.insert(first, write);
         }
     }
 }
 
-/// Returns sub-index and value of the entries of 0x1016.
-fn consumer_entries(group: Option<&Group>, writer: &Writer<'_>) -> Vec<(u8, u32)> {
-    let subs = group.into_iter().flat_map(|group| &group.items).filter_map(|item| Some(item.object()?.1));
-    let value = |sub_index| initial(writer.device, (0x1016, sub_index), writer.id).unwrap_or(0) as u32;
-    subs.filter(|sub_index| *sub_index > 0).map(|sub_index| (sub_index, value(sub_index))).collect()
+/// Sub-index and value of entries of 0x1016.
+type Entries = Vec<(u8, u32)>;
+
+/// Returns the entries of 0x1016 that the network file sets, and the others, which have the values of the description.
+fn entries(node: &NetworkNode) -> (Entries, Entries) {
+    let items = node.device().object(0x1016).into_iter().flat_map(|group| &group.items);
+    let subs = items.filter_map(|item| Some(item.object()?.1)).filter(|sub_index| *sub_index > 0);
+    let value = |sub_index| node.value((0x1016, sub_index)).unwrap_or(0) as u32;
+    subs.map(|sub_index| (sub_index, value(sub_index))).partition(|(sub_index, _)| node.sets((0x1016, *sub_index)))
 }
 
 /// Returns the entry that monitors the master, or the first unused entry.
