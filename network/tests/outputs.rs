@@ -1,7 +1,11 @@
 //! Output files of the example network, and of networks with DCF.
 
+#[path = "concise/mod.rs"]
+mod concise;
+
 use std::path::{Path, PathBuf};
 
+use concise::entries;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::Levels;
 use lexibus_codegen::ir::{Catalog, Value};
@@ -19,24 +23,6 @@ fn example() -> Compilation {
     let compilation = compile(Source::read(&path).expect("the example"), Levels::lenient());
     assert_eq!(compilation.diagnostics.list().len(), 0, "{:?}", compilation.diagnostics.list());
     compilation
-}
-
-/// Returns the entries of a concise DCF: index, sub-index and bytes.
-fn entries(mut bytes: &[u8]) -> Vec<(u16, u8, Vec<u8>)> {
-    let mut take = |length: usize| {
-        let (taken, rest) = bytes.split_at(length);
-        bytes = rest;
-        taken.to_vec()
-    };
-    let number = |bytes: &[u8]| bytes.iter().rev().fold(0usize, |number, byte| number << 8 | usize::from(*byte));
-    let count = number(&take(4));
-    let mut entry = || {
-        let (index, sub_index, length) = (number(&take(2)) as u16, take(1)[0], number(&take(4)));
-        (index, sub_index, take(length))
-    };
-    let list = (0..count).map(|_| entry()).collect();
-    assert!(bytes.is_empty());
-    list
 }
 
 /// Returns the catalog of an exported file, which must have no diagnostics.

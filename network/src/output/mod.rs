@@ -4,6 +4,7 @@ mod concise;
 mod dbc;
 mod dcf;
 mod files;
+mod identity;
 mod master;
 mod master_objects;
 mod rust;
