@@ -2,6 +2,8 @@
 
 mod concise;
 mod dbc;
+mod dbc_names;
+mod dbc_text;
 mod dcf;
 mod files;
 mod identity;

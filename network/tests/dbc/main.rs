@@ -5,6 +5,7 @@
 
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
+mod names;
 #[path = "../dcfgen/random.rs"]
 mod random;
 
