@@ -228,6 +228,9 @@ fn boot(network: &Network, named: &Named<'_>) -> String {
     for (method, number) in numbers.into_iter().filter(|(_, number)| *number != 0) {
         call(method, format!("0x{number:08X}"));
     }
+    for (method, version) in ["hardware_version", "software_version"].into_iter().zip(&node.versions) {
+        version.iter().for_each(|version| call(method, format!("{version:?}")));
+    }
     if !node.writes.is_empty() {
         call("configuration", format!("{module}::CONFIGURATION"));
     }

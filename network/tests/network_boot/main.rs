@@ -49,9 +49,11 @@ device = "drive.eds"
 cob_id = "axis.tpdo1"
 map = ["0x607A"]
 
-[nodes.bare]
-id = 3
-device = "bare.eds"
+[nodes]
+bare = { id = 3, device = "bare.eds" }
+exact = { id = 4, device = "versions.eds", manufacturer_hardware_version = "rev B", manufacturer_software_version = "1.4.2" }
+newer = { id = 5, device = "versions.eds", manufacturer_hardware_version = "rev \"C\"", manufacturer_software_version = "1.4.2" }
+older = { id = 6, device = "versions.eds", manufacturer_software_version = "1.4" }
 "#;
 
 fn example(name: &str) -> String {
@@ -77,7 +79,14 @@ fn compiled() -> Compilation {
     let part = part[..part.find("[1018sub2]").expect("a product code")].to_owned();
     let part = replaced(&part, "SubNumber=5", "SubNumber=2").replace("DefaultValue=4", "DefaultValue=1");
     let bare = drive[..identity.start].to_owned() + &part + &drive[identity.end..];
-    for (name, text) in [("axis.dcf", axis), ("drive.eds", drive), ("bare.eds", bare)] {
+    let version = |index, name, text| {
+        format!("\n[{index}]\nParameterName={name}\nObjectType=7\nDataType=9\nAccessType=const\nDefaultValue={text}\n")
+    };
+    let versions = version("1009", "Hardware version", "rev B") + &version("100A", "Software version", "1.4.2");
+    let list = replaced(&drive, "SupportedObjects=28\n", "SupportedObjects=30\n29=0x1009\n30=0x100A\n");
+    for (name, text) in
+        [("axis.dcf", axis), ("drive.eds", drive), ("bare.eds", bare), ("versions.eds", list + &versions)]
+    {
         std::fs::write(folder.join(name), text).expect("a file");
     }
     let source = Source::new("network.toml", NETWORK.as_bytes().to_vec()).in_folder(&folder);
@@ -93,7 +102,10 @@ fn nodes_receive_the_values_of_their_concise_dcf() {
     program.push(("main.rs".to_owned(), include_str!("program.rs").to_owned()));
     let output = generated::run("network-boot", &program, &[]);
     let files = files(network);
-    for node in ["axis", "other", "bare"] {
+    let result = |node: &str| output.lines().rfind(|line| line.starts_with(&format!("{node} "))).expect("a result");
+    assert_eq!(result("newer"), "newer Err(HardwareVersion { expected: \"rev \\\"C\\\"\", actual: \"rev B\" })");
+    assert_eq!(result("older"), "older Err(SoftwareVersion { expected: \"1.4\", actual: \"1.4.2\" })");
+    for node in ["axis", "other", "bare", "exact"] {
         let concise = files.iter().find(|file| file.name == format!("{node}.bin"));
         let expected = concise.map_or(Vec::new(), |file| entries(&file.content));
         let expected: Vec<String> =

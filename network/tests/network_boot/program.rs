@@ -10,7 +10,7 @@ use std::sync::mpsc;
 use lexibus::clients::canopen::Node;
 use lexibus::sim::{CanNode, Device};
 use lexibus::Entry;
-use network::{Axis, Bare, NetworkNode, Other};
+use network::{Axis, Bare, Exact, NetworkNode, Newer, Older, Other};
 
 fn boot<N: NetworkNode<CanNode>>(name: &str, entries: &'static [Entry]) {
     let mut device = Device::new(entries).with_node_id(N::NODE_ID);
@@ -31,5 +31,8 @@ fn boot<N: NetworkNode<CanNode>>(name: &str, entries: &'static [Entry]) {
 fn main() {
     boot::<Axis<Node<CanNode>>>("axis", network::axis::ENTRIES);
     boot::<Other<Node<CanNode>>>("other", network::other::ENTRIES);
+    boot::<Exact<Node<CanNode>>>("exact", network::exact::ENTRIES);
+    boot::<Newer<Node<CanNode>>>("newer", network::newer::ENTRIES);
+    boot::<Older<Node<CanNode>>>("older", network::older::ENTRIES);
     boot::<Bare<Node<CanNode>>>("bare", network::bare::ENTRIES);
 }
