@@ -25,7 +25,8 @@ use crate::pdo::SdoWrite;
 ///
 /// The writes are grouped in [phases](Phase). While a PDO is disabled, the device accepts changes to the mapping and
 /// the communication parameters of the PDO (CiA 301 7.5.2.36 and 7.5.2.38). The first phase therefore disables the PDOs
-/// that the configuration changes.
+/// that the configuration changes. The configuration of a node of a network file consists of the phase
+/// [`Phase::Network`], whose writes have the order of the concise DCF of the node.
 ///
 /// ```
 /// use lexibus::{Configuration, NodeId, SdoWrite, Setting};
@@ -56,6 +57,8 @@ pub struct Configuration {
     pub pdo_parameters: &'static [Setting],
     /// COB-IDs of the PDOs that the configuration enables at the end.
     pub enable_pdos: &'static [Setting],
+    /// Values of a node of a network file, of all kinds, in the order of the concise DCF of the node.
+    pub network: &'static [Setting],
     /// True if the configuration leaves out values that are equal to the default value in the description. See
     /// [`without_defaults`](Self::without_defaults).
     pub skip_defaults: bool,
@@ -136,6 +139,8 @@ pub enum Phase {
     PdoParameters,
     /// Enables PDOs.
     EnablePdos,
+    /// Writes the values of a network file, of all kinds.
+    Network,
 }
 
 impl fmt::Display for Phase {
@@ -147,6 +152,7 @@ impl fmt::Display for Phase {
             Self::Mapping => "PDO mapping",
             Self::PdoParameters => "PDO parameters",
             Self::EnablePdos => "enable PDOs",
+            Self::Network => "network configuration",
         })
     }
 }
@@ -160,6 +166,7 @@ impl Configuration {
         mapping: &[],
         pdo_parameters: &[],
         enable_pdos: &[],
+        network: &[],
         skip_defaults: false,
     };
 
@@ -204,7 +211,7 @@ impl Configuration {
         longest
     }
 
-    const fn phases(&self) -> [(Phase, &'static [Setting]); 6] {
+    const fn phases(&self) -> [(Phase, &'static [Setting]); 7] {
         [
             (Phase::DisablePdos, self.disable_pdos),
             (Phase::Communication, self.communication),
@@ -212,6 +219,7 @@ impl Configuration {
             (Phase::Mapping, self.mapping),
             (Phase::PdoParameters, self.pdo_parameters),
             (Phase::EnablePdos, self.enable_pdos),
+            (Phase::Network, self.network),
         ]
     }
 
@@ -269,6 +277,29 @@ mod tests {
         assert_eq!(of(0x1600, 0), Some(SdoWrite::new_u8(0x1600, 0, 1)));
         assert_eq!(of(0x1000, 0), None);
         assert_eq!(CONFIGURATION.without_defaults().of(Object::new(0x1017, 0), NODE), None);
+    }
+
+    #[test]
+    fn values_of_a_network_keep_their_order() {
+        const NETWORK: Configuration = Configuration {
+            network: &[
+                Setting::fixed(SdoWrite::new_u16(0x2000, 0, 7)),
+                Setting::fixed(SdoWrite::new_u32(0x1400, 1, 0x8000_0205)),
+                Setting::fixed(SdoWrite::new_u32(0x1400, 1, 0x205)),
+                Setting::fixed(SdoWrite::new_u16(0x1017, 0, 100)),
+            ],
+            ..Configuration::EMPTY
+        };
+        let expected = ["0x2000:00 = 0x0007", "0x1400:01 = 0x80000205", "0x1400:01 = 0x00000205", "0x1017:00 = 0x0064"];
+        assert_eq!(written(NETWORK), expected);
+        assert_eq!(
+            NETWORK.steps(NODE).map(|step| step.phase.to_string()).collect::<Vec<_>>(),
+            ["network configuration"; 4]
+        );
+        assert_eq!(
+            NETWORK.expected(NODE).map(|write| write.to_string()).collect::<Vec<_>>(),
+            [expected[0], expected[2], expected[3]]
+        );
     }
 
     #[test]

@@ -138,6 +138,8 @@ pub struct DeclaredNode {
     pub software_file: Option<At<String>>,
     /// Expected software identification (0x1F55); 0 = not checked.
     pub software_version: u32,
+    /// Expected texts of the manufacturer hardware version (0x1009) and software version (0x100A).
+    pub versions: [Option<At<String>>; 2],
     /// Sub-index of 0x1011 that restores the defaults before the configuration; 0 = none.
     pub restore: u8,
     /// Number of attempts to start the node.
@@ -179,6 +181,7 @@ impl DeclaredNode {
             reset_communication: true,
             software_file: None,
             software_version: 0,
+            versions: [None, None],
             restore: 0,
             retry_factor: RETRY_FACTOR,
             store: false,

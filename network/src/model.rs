@@ -92,6 +92,8 @@ pub struct NetworkNode {
     pub software_file: String,
     /// Expected software identification; 0 = not checked.
     pub software_version: u32,
+    /// Expected texts of the manufacturer hardware version (0x1009) and software version (0x100A); `None` = not checked.
+    pub versions: [Option<String>; 2],
     /// Device type (0x1000).
     pub device_type: u32,
     /// Expected identity: vendor-ID, product code, revision number, serial number; 0 = not checked.

@@ -89,21 +89,17 @@ impl Configuration {
     }
 
     /// Returns the expected values: the last write to each object, except write-only objects.
-    fn expected(self, node_id: NodeId) -> impl Iterator<Item = SdoWrite> {
+    pub(super) fn expected(self, node_id: NodeId) -> impl Iterator<Item = SdoWrite> {
         self.settings()
-            .filter(move |(phase, setting)| !setting.is_write_only && self.is_last(*phase, setting))
+            .filter(move |(_, setting)| !setting.is_write_only && self.is_last(setting))
             .map(move |(_, setting)| setting.resolve(node_id))
     }
 
-    /// Returns whether no later setting writes to the same object. Only the COB-ID of a PDO and sub-index 0 of a
-    /// mapping object are written twice.
-    fn is_last(&self, phase: Phase, setting: &'static Setting) -> bool {
-        let is_same = |other: &&Setting| other.write.object() == setting.write.object();
-        match phase {
-            Phase::DisablePdos => !self.enable_pdos.iter().any(|other| is_same(&other)),
-            Phase::Mapping => self.mapping.iter().rfind(is_same).is_some_and(|last| core::ptr::eq(last, setting)),
-            _ => true,
-        }
+    /// Returns whether no later setting writes to the same object. COB-IDs and numbers of mapped objects, for example, are
+    /// written twice.
+    fn is_last(self, setting: &'static Setting) -> bool {
+        let is_same = |(_, other): &(Phase, &Setting)| other.write.object() == setting.write.object();
+        self.settings().filter(is_same).last().is_some_and(|(_, last)| core::ptr::eq(last, setting))
     }
 }
 

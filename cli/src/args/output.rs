@@ -128,6 +128,7 @@ impl Generate {
             partial_eq: self.partial_eq.clone(),
             defmt: self.defmt.clone(),
             serde: self.serde.clone(),
+            configuration: None,
         }
     }
 }

@@ -33,7 +33,7 @@ pub struct Configuration {
 }
 
 /// A value that is written to an object.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// Index and sub-index of the object.
     pub object: (u16, u8),

@@ -1,6 +1,6 @@
 //! `bus.yml` of Lely's `dcfgen`, with the extensions of ros2_canopen: `nodes`, `defaults`, and keys for its drivers.
 
-use lexibus_codegen::diagnostics::Diagnostics;
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::source::Span;
 
 use super::common::{self, Names};
@@ -9,7 +9,7 @@ use super::section::{keys, Form, Section};
 use crate::declared::{
     DeclaredNetwork, DeclaredNode, DeclaredParameter, ObjectName, HEARTBEAT_MULTIPLIER, RETRY_FACTOR,
 };
-use crate::syntax::{At, Content, Entry, Node, Scalar};
+use crate::syntax::{extent, At, Content, Entry, Node, Scalar, MAX_ELEMENTS};
 
 const U8: Form = Form::Integer(0, 0xFF);
 const U16: Form = Form::Integer(0, 0xFFFF);
@@ -153,12 +153,10 @@ static SECTIONS: [&Section; 6] = [&OPTIONS, &MASTER, &NODE, &PDO, &MAPPED, &SDO]
 const NAMES: Names = Names { id: "node_id", heartbeat: "heartbeat_producer", mapping: "mapping" };
 
 /// Options that apply to all nodes.
-struct Defaults<'n> {
+struct Defaults {
     dcf_path: Option<At<String>>,
     heartbeat_multiplier: f64,
     retry_factor: u8,
-    /// Entries of the section `defaults`.
-    entries: &'n [Entry],
 }
 
 /// Reads the tree of a file.
@@ -166,12 +164,8 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> DeclaredNetwor
     let mut reader = Reader { diagnostics, sections: &SECTIONS };
     let entries = reader.entries(root, "sections of the master and of the nodes");
     let section = |name: &str| entries.iter().find(|entry| *entry.key.value == *name);
-    let mut defaults = Defaults {
-        dcf_path: None,
-        heartbeat_multiplier: HEARTBEAT_MULTIPLIER,
-        retry_factor: RETRY_FACTOR,
-        entries: section("defaults").map_or(&[][..], |entry| reader.entries(&entry.value, "defaults of `nodes`")),
-    };
+    let mut defaults =
+        Defaults { dcf_path: None, heartbeat_multiplier: HEARTBEAT_MULTIPLIER, retry_factor: RETRY_FACTOR };
     if let Some(options) = section("options") {
         let options = reader.table(&options.value, &OPTIONS);
         defaults.dcf_path = reader.text(options, "dcf_path");
@@ -198,11 +192,24 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> DeclaredNetwor
         network.nodes.push(node(&mut reader, entry.key.clone(), &entry.value, &defaults));
     }
     let nodes = section("nodes").map_or(&[][..], |entry| reader.entries(&entry.value, "name of the node = table"));
+    let common = section("defaults").filter(|defaults| is_repeatable(&mut reader, defaults, nodes.len()));
+    let common = common.map_or(&[][..], |entry| reader.entries(&entry.value, "defaults of `nodes`"));
     for entry in nodes {
-        let whole = with_defaults(&mut reader, &entry.value, defaults.entries);
+        let whole = with_defaults(&mut reader, &entry.value, common);
         network.nodes.push(node(&mut reader, entry.key.clone(), &whole, &defaults));
     }
     network
+}
+
+/// Returns whether the section `defaults` can be repeated for each node. Reports a section that is too long.
+fn is_repeatable(reader: &mut Reader<'_>, defaults: &Entry, nodes: usize) -> bool {
+    let (elements, _) = extent(&defaults.value);
+    let is_repeatable = elements.saturating_mul(nodes) <= MAX_ELEMENTS;
+    if !is_repeatable {
+        let message = format!("`defaults` has more than {MAX_ELEMENTS} elements, repeated for {nodes} nodes");
+        reader.diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, defaults.key.span, message));
+    }
+    is_repeatable
 }
 
 /// Returns a node of the section `nodes` with the entries of `defaults` that it does not have.
@@ -214,7 +221,7 @@ fn with_defaults(reader: &mut Reader<'_>, node: &Node, defaults: &[Entry]) -> No
     Node { span: node.span, content: Content::Table(entries) }
 }
 
-fn node(reader: &mut Reader<'_>, name: At<String>, content: &Node, defaults: &Defaults<'_>) -> DeclaredNode {
+fn node(reader: &mut Reader<'_>, name: At<String>, content: &Node, defaults: &Defaults) -> DeclaredNode {
     let table = reader.table(content, &NODE);
     let mut node = DeclaredNode::new(name);
     node.heartbeat_multiplier.value = defaults.heartbeat_multiplier;
@@ -261,4 +268,30 @@ fn parameters(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<DeclaredParamete
         Some(DeclaredParameter { object, value })
     };
     list.iter().filter_map(parameter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use lexibus_codegen::diagnostics::Levels;
+    use lexibus_codegen::source::{FileId, Source};
+
+    use super::*;
+    use crate::syntax::parse_yaml;
+
+    #[test]
+    fn long_defaults_are_not_repeated_without_limit() {
+        let of = |values: usize, nodes: usize| {
+            let values = "{index: 0x2000}, ".repeat(values);
+            let nodes: String = (0..nodes).map(|node| format!("  n{node}: {{node_id: 1}}\n")).collect();
+            let text = format!("defaults:\n  sdo: [{values}]\nnodes:\n{nodes}");
+            let tree = parse_yaml(&Source::new("bus.yml", text.into_bytes()), FileId(0)).expect("a tree");
+            let mut diagnostics = Diagnostics::new(Levels::lenient());
+            let network = read(&tree, &mut diagnostics);
+            let messages: Vec<String> = diagnostics.list().iter().map(|found| found.message.clone()).collect();
+            (network.nodes[0].parameters.len(), messages)
+        };
+        assert_eq!(of(1000, 100), (1000, Vec::new()));
+        let message = "`defaults` has more than 1000000 elements, repeated for 1000 nodes".to_owned();
+        assert_eq!(of(1000, 1000), (0, vec![message]));
+    }
 }

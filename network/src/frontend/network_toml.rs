@@ -13,6 +13,8 @@ const U8: Form = Form::Integer(0, 0xFF);
 const U16: Form = Form::Integer(0, 0xFFFF);
 const U32: Form = Form::Integer(0, 0xFFFF_FFFF);
 const NODE_ID: Form = Form::Integer(1, 127);
+/// Maximum length of a version that `lexibus::clients::canopen::Boot` compares.
+const VERSION: Form = Form::ShortText(64);
 
 /// The whole file.
 pub(super) static FILE: Section = Section {
@@ -84,6 +86,8 @@ static NODE: Section = Section {
         "reset_communication" Form::Flag, "False if the master must not reset a node that is Operational (0x1F81, bit 4).";
         "software_file" Form::Text, "Program that the master downloads to the node (0x1F58).";
         "software_version" U32, "Expected software identification (0x1F55).";
+        "manufacturer_hardware_version" VERSION, "Expected text of 0x1009, which `boot` compares.";
+        "manufacturer_software_version" VERSION, "Expected text of 0x100A, which `boot` compares.";
         "restore_configuration" U8, "Sub-index of 0x1011 that the master writes before the configuration.";
         "retry_factor" U8, "Number of attempts to boot the node.";
         "store" Form::Flag, "True if `boot` stores the configuration in the node (0x1010), and then writes its date to 0x1020.";
@@ -140,6 +144,8 @@ fn node(reader: &mut Reader<'_>, entry: &Entry) -> Option<DeclaredNode> {
     node.device = reader.text(table, "device");
     node.model = reader.text(table, "model");
     node.overlays = reader.texts(table, "overlays");
+    let versions = ["manufacturer_hardware_version", "manufacturer_software_version"];
+    node.versions = versions.map(|key| reader.text(table, key));
     node.store = reader.flag(table, "store").unwrap_or(false);
     for key in ["rpdo", "tpdo"] {
         node.pdos.extend(common::pdos(reader, table, key, &PDO, &NAMES, named_object));

@@ -151,9 +151,17 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns a text.
+    /// Returns a text. The maximum length is that of the key's declaration.
     pub fn text(&mut self, table: Table<'_>, key: &str) -> Option<At<String>> {
-        self.text_of(table.get(key)?)
+        let node = table.get(key)?;
+        let text = self.text_of(node)?;
+        match form(table.section, key) {
+            Some(Form::ShortText(longest)) if text.is_empty() || text.len() > longest => {
+                self.invalid(node, &format!("a text of 1 to {longest} bytes"));
+                None
+            }
+            _ => Some(text),
+        }
     }
 
     /// Returns a text.

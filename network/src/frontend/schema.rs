@@ -37,6 +37,7 @@ fn key(text: &mut String, key: &Key, depth: usize) {
         Form::Number => "\"type\": \"number\", \"exclusiveMinimum\": 0".to_owned(),
         Form::Flag => "\"type\": \"boolean\"".to_owned(),
         Form::Text => "\"type\": \"string\"".to_owned(),
+        Form::ShortText(longest) => format!("\"type\": \"string\", \"minLength\": 1, \"maxLength\": {longest}"),
         Form::Texts | Form::Objects => "\"type\": \"array\", \"items\": { \"type\": \"string\" }".to_owned(),
         Form::Values => {
             "\"type\": \"object\", \"additionalProperties\": { \"type\": [\"number\", \"string\", \"boolean\"] }"

@@ -31,6 +31,8 @@ pub(crate) enum Form {
     Flag,
     /// A text.
     Text,
+    /// A text with a maximum length in bytes, which is not empty.
+    ShortText(usize),
     /// A list of texts.
     Texts,
     /// A table that is described by a section.

@@ -8,22 +8,19 @@ use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Direction, Item, Scale, Type, Value};
 
+use super::dbc_names::{Name, Names, MASTER};
+use super::dbc_text::{encoded, text};
 use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo, EXTENDED};
-
-/// Maximum length of a name in DBC. Longer names are in an attribute.
-const MAX_NAME: usize = 32;
-
-/// Name of the master in the DBC.
-const MASTER: &str = "master";
 
 /// Name of no node.
 const NOBODY: &str = "Vector__XXX";
 
-/// Returns a DBC with a message for each PDO.
-pub fn dbc(network: &Network) -> String {
+/// Returns a DBC with a message for each PDO, in Windows-1252.
+pub fn dbc(network: &Network) -> Vec<u8> {
     let mut out = Dbc::default();
     let mut names = Names::default();
-    let nodes: Vec<String> = network.nodes.iter().map(|node| names.unique(&node.name.value).short).collect();
+    let nodes: Vec<Name> = network.nodes.iter().map(|node| names.unique(&node.name.value)).collect();
+    nodes.iter().for_each(|name| out.long_name("Node", &format!("BU_ {}", name.short), name));
     let nodes = Nodes { network, names: nodes };
     for (node, pdo) in network.pdos(Direction::Transmit) {
         let receivers = network.receivers(pdo.cob_id).map(|node| nodes.of(node).to_owned());
@@ -35,7 +32,7 @@ pub fn dbc(network: &Network) -> String {
         let sender = if network.is_sent_by_master(pdo.can_id()) { MASTER } else { NOBODY };
         message(&mut out, &mut names, (node, pdo), sender, receivers);
     }
-    out.text(&nodes)
+    encoded(&out.text(&nodes))
 }
 
 /// Returns the RPDOs that no node sends. RPDOs with one CAN-ID are one message.
@@ -46,13 +43,13 @@ fn sent_by_others(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
 
 struct Nodes<'n> {
     network: &'n Network,
-    names: Vec<String>,
+    names: Vec<Name>,
 }
 
 impl Nodes<'_> {
     fn of(&self, node: &NetworkNode) -> &str {
         let at = self.network.nodes.iter().position(|other| other.id == node.id);
-        at.map_or(NOBODY, |at| self.names[at].as_str())
+        at.map_or(NOBODY, |at| self.names[at].short.as_str())
     }
 }
 
@@ -67,14 +64,22 @@ struct Dbc {
 }
 
 impl Dbc {
+    /// Writes the attribute with the whole name of an element, if its short name differs.
+    fn long_name(&mut self, kind: &str, element: &str, name: &Name) {
+        if name.long != name.short {
+            let _ = writeln!(self.attributes, "BA_ \"System{kind}LongSymbol\" {element} \"{}\";", name.long);
+        }
+    }
+
     fn text(&self, nodes: &Nodes<'_>) -> String {
         let master = nodes.network.master.as_ref().map(|_| MASTER);
-        let names: Vec<&str> = nodes.names.iter().map(String::as_str).chain(master).collect();
+        let names: Vec<&str> = nodes.names.iter().map(|name| name.short.as_str()).chain(master).collect();
         let name = &nodes.network.name;
-        let comment = if name.is_empty() { String::new() } else { format!("CM_ \"{}\";\n", escaped(name)) };
+        let comment = if name.is_empty() { String::new() } else { format!("CM_ \"{}\";\n", text(name)) };
         format!(
             "VERSION \"\"\n\nNS_ :\n\nBS_:\n\nBU_: {}\n\n{}{comment}{}\
-             BA_DEF_ BO_ \"SystemMessageLongSymbol\" STRING ;\nBA_DEF_ SG_ \"SystemSignalLongSymbol\" STRING ;\n\
+             BA_DEF_ BU_ \"SystemNodeLongSymbol\" STRING ;\nBA_DEF_ BO_ \"SystemMessageLongSymbol\" STRING ;\n\
+             BA_DEF_ SG_ \"SystemSignalLongSymbol\" STRING ;\nBA_DEF_DEF_ \"SystemNodeLongSymbol\" \"\";\n\
              BA_DEF_DEF_ \"SystemMessageLongSymbol\" \"\";\nBA_DEF_DEF_ \"SystemSignalLongSymbol\" \"\";\n{}{}{}",
             names.join(" "),
             self.messages,
@@ -84,54 +89,6 @@ impl Dbc {
             self.types
         )
     }
-}
-
-/// A name with at most [`MAX_NAME`] characters, and the whole name.
-struct Name {
-    short: String,
-    long: String,
-}
-
-/// Names that are in use.
-#[derive(Default)]
-struct Names(HashSet<String>);
-
-impl Names {
-    /// Returns the name for a text: letters, digits and `_`. A number makes it unique.
-    fn unique(&mut self, text: &str) -> Name {
-        let long = identifier(text);
-        let mut short: String = long.chars().take(MAX_NAME).collect();
-        let mut number = 2;
-        while short == MASTER || !self.0.insert(short.clone()) {
-            let suffix = format!("_{number}");
-            short = long.chars().take(MAX_NAME - suffix.len()).collect::<String>() + &suffix;
-            number += 1;
-        }
-        let is_changed = long.len() <= MAX_NAME;
-        Name { long: if is_changed { short.clone() } else { long }, short }
-    }
-}
-
-/// Returns an identifier of DBC.
-fn identifier(text: &str) -> String {
-    let mut name = String::new();
-    for letter in text.chars() {
-        match letter.is_ascii_alphanumeric() {
-            true => name.push(letter),
-            false if !name.ends_with('_') && !name.is_empty() => name.push('_'),
-            false => {}
-        }
-    }
-    let name = name.trim_end_matches('_').to_owned();
-    match name.chars().next() {
-        None => "_".to_owned(),
-        Some(first) if first.is_ascii_digit() => format!("_{name}"),
-        Some(_) => name,
-    }
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('\\', "\\\\").replace('"', "'").replace(['\r', '\n'], " ")
 }
 
 fn message(
@@ -148,9 +105,7 @@ fn message(
     let direction = if pdo.direction == Direction::Transmit { "TPDO" } else { "RPDO" };
     let name = names.unique(&format!("{}_{direction}{}", node.name.value, pdo.number));
     let _ = writeln!(out.messages, "BO_ {id} {}: {} {sender}", name.short, pdo.bytes());
-    if name.long != name.short {
-        let _ = writeln!(out.attributes, "BA_ \"SystemMessageLongSymbol\" BO_ {id} \"{}\";", name.long);
-    }
+    out.long_name("Message", &format!("BO_ {id}"), &name);
     let receivers = if receivers.is_empty() { NOBODY.to_owned() } else { receivers.join(",") };
     let (mut start, mut names) = (0, Names::default());
     for entry in &pdo.entries {
@@ -184,15 +139,13 @@ fn signal(out: &mut Dbc, id: u32, names: &mut Names, signal: &Signal<'_>, receiv
     let _ = writeln!(
         out.messages,
         " SG_ {short} : {start}|{bits}@1{sign} ({factor},{offset}) [{low}|{high}] \"{}\" {receivers}",
-        escaped(unit)
+        text(unit)
     );
-    let _ = writeln!(out.comments, "CM_ SG_ {id} {short} \"{}\";", escaped(&comment(item, entry)));
-    if name.long != name.short {
-        let _ = writeln!(out.attributes, "BA_ \"SystemSignalLongSymbol\" SG_ {id} {short} \"{}\";", name.long);
-    }
+    let _ = writeln!(out.comments, "CM_ SG_ {id} {short} \"{}\";", text(&comment(item, entry)));
+    out.long_name("Signal", &format!("SG_ {id} {short}"), &name);
     if let Some((values, _)) = Owner::of_types(&node.device().types).enumeration(item.object_type()) {
         let single = values.iter().filter(|value| value.last.is_none() && value.is_named());
-        let list: Vec<String> = single.map(|value| format!("{} \"{}\"", value.value, escaped(&value.name))).collect();
+        let list: Vec<String> = single.map(|value| format!("{} \"{}\"", value.value, text(&value.name))).collect();
         if !list.is_empty() {
             let _ = writeln!(out.values, "VAL_ {id} {short} {} ;", list.join(" "));
         }
@@ -252,21 +205,5 @@ fn limits(item: &Item, id: u8, factor: f64, offset: f64) -> (f64, f64) {
         (Some(low), Some(high)) if low <= high => (low, high),
         (Some(low), Some(high)) => (high, low),
         _ => (0.0, 0.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn identifiers_are_unique_and_short() {
-        let mut names = Names::default();
-        assert_eq!(names.unique("Target velocity (rpm)").short, "Target_velocity_rpm");
-        assert_eq!(names.unique("Target velocity, rpm").short, "Target_velocity_rpm_2");
-        assert_eq!(names.unique("1st").short, "_1st");
-        assert_eq!(names.unique("°").short, "_");
-        let long = names.unique("A very long name of a parameter of a drive");
-        assert_eq!((long.short.len(), long.long.as_str()), (32, "A_very_long_name_of_a_parameter_of_a_drive"));
     }
 }

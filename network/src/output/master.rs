@@ -9,6 +9,7 @@ use lexibus_codegen::ir::{
 };
 use lexibus_export::eds::{self, Flavor, Reals};
 
+use super::identity::checked;
 use super::master_objects::{array, item, mappable, record, var, with_default, with_file, with_value, U16, U32, U8};
 use crate::declared::DeclaredMaster;
 use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo, DISABLED};
@@ -38,11 +39,10 @@ pub fn master_writes(network: &Network) -> Vec<((u16, u8), u32)> {
     let Some(master) = &network.master else { return Vec::new() };
     let mut writes = vec![((0x1018, 4), master.identity[3])];
     for node in &network.nodes {
-        let has = |sub_index| node.item((0x1018, sub_index)).is_some();
-        let [_, _, revision, serial] = node.identity;
+        let [_, _, revision, serial] = checked(node);
         writes.push(((0x1F55, node.id), node.software_version));
-        writes.extend(has(3).then_some(((0x1F87, node.id), revision)));
-        writes.extend(has(4).then_some(((0x1F88, node.id), serial)));
+        writes.push(((0x1F87, node.id), revision));
+        writes.push(((0x1F88, node.id), serial));
     }
     writes.retain(|(_, value)| *value != 0);
     writes
@@ -155,8 +155,8 @@ fn manager(network: &Network, master: &DeclaredMaster) -> Vec<Group> {
         of_nodes(0x1F81, "NMT slave assignment", U32, &|node| node.assignment),
         of_nodes(0x1F82, "Request NMT", U8, &|_| 0),
         of_nodes(0x1F84, "Device type identification", U32, &|node| node.device_type),
-        of_nodes(0x1F85, "Vendor identification", U32, &|node| node.identity[0]),
-        of_nodes(0x1F86, "Product code", U32, &|node| node.identity[1] * u32::from(node.item((0x1018, 2)).is_some())),
+        of_nodes(0x1F85, "Vendor identification", U32, &|node| checked(node)[0]),
+        of_nodes(0x1F86, "Product code", U32, &|node| checked(node)[1]),
         of_nodes(0x1F87, "Revision_number", U32, &|_| 0),
         of_nodes(0x1F88, "Serial number", U32, &|_| 0),
         number(0x1F89, "Boot time", master.boot_time),

@@ -3,8 +3,11 @@
 mod concise;
 mod configured;
 mod dbc;
+mod dbc_names;
+mod dbc_text;
 mod dcf;
 mod files;
+mod identity;
 mod master;
 mod master_objects;
 mod rust;

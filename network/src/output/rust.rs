@@ -3,13 +3,15 @@
 use std::fmt::Write as _;
 
 use lexibus_codegen::backend::rust::{emit_catalog, RustOptions};
-use lexibus_codegen::facts::configuration::Configuration;
+use lexibus_codegen::facts::configuration::Setting;
+use lexibus_codegen::ir::Bus;
 use lexibus_codegen::names::{unique, Case, NameRequest};
 use lexibus_codegen::source::Source;
 
 use super::configured::with_pdos;
+use super::identity::checked;
 use crate::check::bus_load;
-use crate::model::{Network, NetworkNode};
+use crate::model::{Network, NetworkNode, Write};
 
 /// Bit of 0x1F81: the master does not reset the node while it is Operational.
 const KEEP_RUNNING: u32 = 0x10;
@@ -27,9 +29,9 @@ pub fn rust(network: &Network, options: &RustOptions) -> Vec<(String, String)> {
     let mut files = Vec::new();
     let mut named = Vec::new();
     for ((node, module), ty) in network.nodes.iter().zip(&modules).zip(&types) {
-        let Some((text, is_configured)) = bindings(network, node, ty, options) else { continue };
+        let Some(text) = bindings(network, node, ty, options) else { continue };
         files.push((format!("network/{module}.rs"), text));
-        named.push(Named { node, module, ty, is_configured });
+        named.push(Named { node, module, ty });
     }
     files.push(("network.rs".to_owned(), module(network, &named)));
     files
@@ -40,15 +42,25 @@ struct Named<'n> {
     node: &'n NetworkNode,
     module: &'n str,
     ty: &'n str,
-    is_configured: bool,
 }
 
-/// Returns the bindings of a node's device with the configured values and PDOs of the node, and whether they contain a configuration.
-fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<(String, bool)> {
-    let catalog = with_pdos(network, node);
-    let is_configured = Configuration::of(&catalog.devices[0]).is_some();
-    let options = RustOptions { device_name: Some(ty.to_owned()), ..options.clone() };
-    Some((emit_catalog(&catalog, &options)?, is_configured))
+/// Returns the bindings of a node's device with the configured values and PDOs of the node.
+fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<String> {
+    let configuration = node.writes.iter().map(|write| setting(node, write)).collect();
+    let options =
+        RustOptions { device_name: Some(ty.to_owned()), configuration: Some(configuration), ..options.clone() };
+    emit_catalog(&with_pdos(network, node), &options)
+}
+
+/// Returns a write as a setting of the constant `CONFIGURATION`.
+fn setting(node: &NetworkNode, write: &Write) -> Setting {
+    Setting {
+        object: write.object,
+        bytes: write.bytes.clone(),
+        adds_node_id: false,
+        is_default: false,
+        is_write_only: node.item(write.object).is_some_and(|item| !item.access_on(Bus::CanOpen).readable()),
+    }
 }
 
 /// Returns the module of the network.
@@ -140,7 +152,7 @@ fn implementation(text: &mut String, network: &Network, named: &Named<'_>) {
 
 /// Returns the expression of a node's boot.
 fn boot(network: &Network, named: &Named<'_>) -> String {
-    let Named { node, module, is_configured, .. } = named;
+    let Named { node, module, .. } = named;
     let mut text = format!("Boot::new({})", error_control(node));
     let mut call = |method: &str, argument: String| {
         let _ = write!(text, "\n        .{method}({argument})");
@@ -150,7 +162,7 @@ fn boot(network: &Network, named: &Named<'_>) -> String {
     }
     let patience = network.master.as_ref().map_or(0, |master| master.boot_time);
     call("reset", format!("Duration::from_millis({})", if patience == 0 { BOOT_TIME } else { patience }));
-    let [vendor, product, revision, serial] = node.identity;
+    let [vendor, product, revision, serial] = checked(node);
     let numbers = [
         ("device_type", node.device_type),
         ("vendor_id", vendor),
@@ -161,7 +173,10 @@ fn boot(network: &Network, named: &Named<'_>) -> String {
     for (method, number) in numbers.into_iter().filter(|(_, number)| *number != 0) {
         call(method, format!("0x{number:08X}"));
     }
-    if *is_configured {
+    for (method, version) in ["hardware_version", "software_version"].into_iter().zip(&node.versions) {
+        version.iter().for_each(|version| call(method, format!("{version:?}")));
+    }
+    if !node.writes.is_empty() {
         call("configuration", format!("{module}::CONFIGURATION"));
     }
     if node.store {

@@ -8,6 +8,7 @@ mod object;
 mod pdo;
 mod run;
 mod value;
+mod versions;
 mod writer;
 
 pub use run::resolve;

@@ -10,6 +10,7 @@ use lexibus_codegen::source::Span;
 use super::cob_ids::CobIds;
 use super::described::initial;
 use super::pdo;
+use super::versions;
 use super::writer::Writer;
 use crate::declared::DeclaredNode;
 use crate::description::{expanded, Description};
@@ -45,6 +46,7 @@ pub(super) fn resolve(
     declared.parameters.iter().for_each(|parameter| writer.parameter(parameter));
     let mut writes = if declared.is_description_written { described(device, id) } else { Vec::new() };
     writes.append(&mut writer.writes);
+    let versions = versions::resolve(device, declared, writer.diagnostics);
     let heartbeat = declared.heartbeat.clone();
     let of_description =
         At::new(initial((0x1017, 0)).and_then(|time| u16::try_from(time).ok()).unwrap_or(0), Span::MISSING);
@@ -54,6 +56,7 @@ pub(super) fn resolve(
         upload_file: String::new(),
         software_file: declared.software_file.as_ref().map_or(String::new(), |file| file.value.clone()),
         software_version: declared.software_version,
+        versions,
         device_type: number(initial((0x1000, 0))),
         identity: identity(device, declared, id),
         emcy_cob_id: match device.entry(0x1014, 0) {

@@ -1,17 +1,21 @@
 //! Reads YAML as PyYAML does, because the files are written for it: version 1.1, with merge keys.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::hash_map::Entry as Place;
+use std::collections::HashMap;
 
 use lexibus_codegen::source::{FileId, Source, Span};
 use saphyr_parser::{Event, Parser, ScalarStyle, Span as Marks};
 
 use super::tree::{At, Content, Entry, Node, Scalar, SyntaxError};
 
-/// Maximum number of elements after the expansion of aliases.
-const MAX_NODES: usize = 1_000_000;
+/// Maximum number of elements, with those that aliases repeat.
+pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
 
-/// Maximum depth of nested lists and tables.
+/// Maximum depth of nested lists and tables, with those that aliases repeat.
 const MAX_DEPTH: usize = 64;
+
+/// Number of bytes of a long text that count as another element.
+const BYTES_OF_ELEMENT: usize = 64;
 
 /// Parses the first document of a YAML file. An empty file is an empty table.
 ///
@@ -64,8 +68,22 @@ struct Open {
     content: Content,
     /// Key of a table whose value follows.
     key: Option<At<String>>,
-    /// Keys of a table, except those of merged tables.
-    keys: HashSet<String>,
+    /// Keys of a table, with the positions of their entries.
+    keys: HashMap<String, Position>,
+}
+
+/// Position of an entry in a table.
+struct Position {
+    at: usize,
+    /// True if the entry is that of a merged table.
+    is_merged: bool,
+}
+
+/// An element with an anchor.
+struct Anchored {
+    node: Node,
+    elements: usize,
+    depth: usize,
 }
 
 struct Loader<'t> {
@@ -74,15 +92,15 @@ struct Loader<'t> {
     file: FileId,
     open: Vec<Open>,
     root: Option<Node>,
-    anchors: HashMap<usize, Node>,
-    nodes: usize,
+    anchors: HashMap<usize, Anchored>,
+    elements: usize,
 }
 
 impl Loader<'_> {
     fn new() -> Self {
         let file = FileId(0);
         let offsets = Offsets::default();
-        Loader { text: "", offsets, file, open: Vec::new(), root: None, anchors: HashMap::new(), nodes: 0 }
+        Loader { text: "", offsets, file, open: Vec::new(), root: None, anchors: HashMap::new(), elements: 0 }
     }
 
     fn event(&mut self, event: Event<'_>, marks: Marks) -> Result<(), SyntaxError> {
@@ -91,15 +109,11 @@ impl Loader<'_> {
         let span = Span::new(self.file, start, end);
         match event {
             Event::Scalar(text, style, anchor, _) => {
+                self.count(elements_of(&text), span)?;
                 let value = if style == ScalarStyle::Plain { plain(&text) } else { Scalar::Text(text.into_owned()) };
                 self.put(Node { span, content: Content::Scalar(value) }, anchor)
             }
-            Event::Alias(anchor) => {
-                let found = self.anchors.get(&anchor).cloned();
-                let node = found.ok_or_else(|| error(span, "the anchor is not complete"))?;
-                self.nodes += size(&node);
-                self.put(node, 0)
-            }
+            Event::Alias(anchor) => self.alias(anchor, span),
             Event::SequenceStart(anchor, _) => self.open(start, anchor, Content::List(Vec::new()), span),
             Event::MappingStart(anchor, _) => self.open(start, anchor, Content::Table(Vec::new()), span),
             Event::SequenceEnd | Event::MappingEnd => {
@@ -112,21 +126,47 @@ impl Loader<'_> {
         }
     }
 
-    fn open(&mut self, start: u32, anchor: usize, content: Content, span: Span) -> Result<(), SyntaxError> {
-        if self.open.len() == MAX_DEPTH {
+    /// Counts elements before they are added.
+    fn count(&mut self, elements: usize, span: Span) -> Result<(), SyntaxError> {
+        self.elements += elements;
+        if self.elements > MAX_ELEMENTS {
+            let message = format!("the file has more than {MAX_ELEMENTS} elements, with those that aliases repeat");
+            return Err(error(span, message));
+        }
+        Ok(())
+    }
+
+    /// Checks the depth of an element with `depth` levels at the current position.
+    fn check_depth(&self, depth: usize, span: Span) -> Result<(), SyntaxError> {
+        if self.open.len() + depth > MAX_DEPTH {
             return Err(error(span, format!("lists and tables are nested deeper than {MAX_DEPTH} levels")));
         }
-        self.open.push(Open { start, anchor, content, key: None, keys: HashSet::new() });
+        Ok(())
+    }
+
+    /// Adds the element of an anchor again.
+    fn alias(&mut self, anchor: usize, span: Span) -> Result<(), SyntaxError> {
+        let incomplete = || error(span, "the anchor is not complete");
+        let Anchored { elements, depth, .. } = *self.anchors.get(&anchor).ok_or_else(incomplete)?;
+        self.check_depth(depth, span)?;
+        self.count(elements, span)?;
+        let node = self.anchors[&anchor].node.clone();
+        self.put(node, 0)
+    }
+
+    fn open(&mut self, start: u32, anchor: usize, content: Content, span: Span) -> Result<(), SyntaxError> {
+        self.check_depth(1, span)?;
+        self.count(1, span)?;
+        self.open.push(Open { start, anchor, content, key: None, keys: HashMap::new() });
         Ok(())
     }
 
     fn put(&mut self, node: Node, anchor: usize) -> Result<(), SyntaxError> {
-        self.nodes += 1;
-        if self.nodes > MAX_NODES {
-            return Err(error(node.span, format!("the file has more than {MAX_NODES} elements")));
-        }
         if anchor != 0 {
-            self.anchors.insert(anchor, node.clone());
+            let (elements, depth) = extent(&node);
+            // The copy for the aliases counts, too.
+            self.count(elements, node.span)?;
+            self.anchors.insert(anchor, Anchored { node: node.clone(), elements, depth });
         }
         let Some(open) = self.open.last_mut() else {
             self.root.get_or_insert(node);
@@ -146,12 +186,24 @@ fn error(span: Span, message: impl Into<String>) -> SyntaxError {
     SyntaxError { span, message: message.into() }
 }
 
-/// Returns the number of elements in a tree.
-fn size(node: &Node) -> usize {
-    1 + match &node.content {
-        Content::Scalar(_) => 0,
-        Content::List(list) => list.iter().map(size).sum(),
-        Content::Table(entries) => entries.iter().map(|entry| size(&entry.value)).sum(),
+/// Returns the number of elements as which a text counts.
+fn elements_of(text: &str) -> usize {
+    1 + text.len() / BYTES_OF_ELEMENT
+}
+
+/// Returns the number of elements in a tree, and the depth of its lists and tables.
+pub(crate) fn extent(node: &Node) -> (usize, usize) {
+    let sum = |(elements, depth): (usize, usize), node: &Node| {
+        let (others, other) = extent(node);
+        (elements + others, depth.max(1 + other))
+    };
+    match &node.content {
+        Content::Scalar(Scalar::Text(text)) => (elements_of(text), 0),
+        Content::Scalar(_) => (1, 0),
+        Content::List(list) => list.iter().fold((1, 1), sum),
+        Content::Table(entries) => entries
+            .iter()
+            .fold((1, 1), |(elements, depth), entry| sum((elements + elements_of(&entry.key), depth), &entry.value)),
     }
 }
 
@@ -170,31 +222,36 @@ impl Open {
     fn insert(&mut self, key: At<String>, value: Node) -> Result<(), SyntaxError> {
         let Content::Table(entries) = &mut self.content else { return Ok(()) };
         if *key == "<<" {
-            merge(entries, value);
+            merge(entries, &mut self.keys, value);
             return Ok(());
         }
-        if !self.keys.insert(key.value.clone()) {
-            return Err(error(key.span, format!("the key `{}` occurs twice", key.value)));
-        }
-        match entries.iter_mut().find(|entry| entry.key.value == key.value) {
-            Some(merged) => *merged = Entry { key, value },
-            None => entries.push(Entry { key, value }),
+        match self.keys.entry(key.value.clone()) {
+            Place::Occupied(mut position) if position.get().is_merged => {
+                position.get_mut().is_merged = false;
+                entries[position.get().at] = Entry { key, value };
+            }
+            Place::Occupied(_) => return Err(error(key.span, format!("the key `{}` occurs twice", key.value))),
+            Place::Vacant(place) => {
+                place.insert(Position { at: entries.len(), is_merged: false });
+                entries.push(Entry { key, value });
+            }
         }
         Ok(())
     }
 }
 
 /// Adds the entries of a table, or of each table in a list, whose keys are missing.
-fn merge(entries: &mut Vec<Entry>, from: Node) {
+fn merge(entries: &mut Vec<Entry>, keys: &mut HashMap<String, Position>, from: Node) {
     match from.content {
         Content::Table(others) => {
             for other in others {
-                if entries.iter().all(|entry| entry.key.value != other.key.value) {
+                if let Place::Vacant(place) = keys.entry(other.key.value.clone()) {
+                    place.insert(Position { at: entries.len(), is_merged: true });
                     entries.push(other);
                 }
             }
         }
-        Content::List(tables) => tables.into_iter().for_each(|table| merge(entries, table)),
+        Content::List(tables) => tables.into_iter().for_each(|table| merge(entries, keys, table)),
         Content::Scalar(_) => {}
     }
 }
@@ -289,7 +346,41 @@ mod tests {
             let list = format!("*a{}, ", level - 1).repeat(10);
             bomb += &format!("a{level}: &a{level} [{list}]\n");
         }
-        assert_eq!(message(&bomb), "the file has more than 1000000 elements");
-        assert!(message(&"[".repeat(100)).contains("nested deeper"));
+        assert_eq!(message(&bomb), "the file has more than 1000000 elements, with those that aliases repeat");
+        assert_eq!(message(&"[".repeat(100)), DEEP);
+    }
+
+    const DEEP: &str = "lists and tables are nested deeper than 64 levels";
+
+    #[test]
+    fn aliases_count_as_what_they_repeat() {
+        let message = |text: &str| tree(text).unwrap_err().message;
+        let many = "the file has more than 1000000 elements, with those that aliases repeat";
+        // Each line adds 30 levels.
+        let line = |level: usize| format!("a{level}: &a{level} {}*a{}{}\n", "[".repeat(30), level - 1, "]".repeat(30));
+        let nested = |lines| "a0: &a0 1\n".to_owned() + &(1..=lines).map(line).collect::<String>();
+        assert!(tree(&nested(2)).is_ok());
+        assert_eq!(message(&nested(3)), DEEP);
+        // A list within the 60 levels of an anchor.
+        assert!(tree(&(nested(2) + "a: [[[*a2]]]\n")).is_ok());
+        assert_eq!(message(&(nested(2) + "a: [[[[*a2]]]]\n")), DEEP);
+        // 100 000 copies of a text or key with 10 000 bytes.
+        let (long, copies) = ("x".repeat(10_000), "*a, ".repeat(100_000));
+        assert_eq!(message(&format!("a: &a {long}\nb: [{copies}]\n")), many);
+        assert_eq!(message(&format!("a: &a {{{long}: 1}}\nb: [{copies}]\n")), many);
+        // 60 copies of 20 000 elements for anchors in anchors.
+        let anchors: String = (0..60).map(|level| format!("&b{level} [")).collect();
+        assert_eq!(message(&format!("a: {anchors}{}{}\n", "1, ".repeat(20_000), "]".repeat(60))), many);
+    }
+
+    /// With a search through the entries for each key, this test would take minutes.
+    #[test]
+    fn tables_can_be_long() {
+        let keys = |range: std::ops::Range<usize>| range.map(|key| format!("  k{key}: 1\n")).collect::<String>();
+        let text = format!("base: &base\n{}all:\n  <<: *base\n{}", keys(0..100_000), keys(50_000..200_000));
+        let Content::Table(entries) = tree(&text).unwrap().content else { panic!("a table") };
+        let Content::Table(all) = &entries[1].value.content else { panic!("a table") };
+        assert_eq!(all.len(), 200_000);
+        assert!(all.iter().enumerate().all(|(at, entry)| entry.key.value == format!("k{at}")));
     }
 }

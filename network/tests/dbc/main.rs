@@ -1,12 +1,16 @@
 //! Decodes random frames with `cantools` and the exported DBC, and compares the physical values with those of the device descriptions.
 //!
-//! The expected values are computed from the mapping words, types and scales of the objects. If there is no corpus or no Python with
-//! `cantools`, the test prints a message and passes.
+//! The expected values are computed from the mapping words, types and scales of the objects. In the full lane, generated Rust unpacks the
+//! frames, too. If there is no corpus or no Python with `cantools`, the tests print a message and pass.
 
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
+#[path = "../generated/mod.rs"]
+mod generated;
+mod names;
 #[path = "../dcfgen/random.rs"]
 mod random;
+mod unpacked;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,8 +21,8 @@ use lexibus_codegen::diagnostics::Levels;
 use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::{Direction, Item, Scale, Type};
 use lexibus_codegen::source::Source;
-use lexibus_network::compile::compile;
-use lexibus_network::model::{Network, NetworkNode, NetworkPdo};
+use lexibus_network::compile::{compile, Compilation};
+use lexibus_network::model::{MappedObject, Network, NetworkNode, NetworkPdo};
 use lexibus_network::output::dbc;
 use random::Random;
 use serde::Deserialize;
@@ -55,24 +59,29 @@ fn physical(node: &NetworkNode, item: &Item, bits: u64, length: u32) -> String {
     }
 }
 
-/// Writes random frames of a PDO with their physical values.
-fn write(text: &mut String, node: &NetworkNode, pdo: &NetworkPdo, random: &mut Random) {
-    for _ in 0..frames() {
-        let data = random.next().to_le_bytes();
-        let word = u64::from_le_bytes(data);
-        let bytes: String = data[..pdo.bytes() as usize].iter().map(|byte| format!("{byte:02x}")).collect();
-        let _ = write!(text, "{};{bytes}", pdo.can_id());
-        let mut start = 0;
-        for entry in &pdo.entries {
-            let length = u32::from(entry.bits);
-            let bits = word >> start & u64::MAX >> (64 - length);
-            if let Some(item) = node.item((entry.index, entry.sub_index)).filter(|_| entry.index >= 0x1000) {
-                let _ = write!(text, ";{}", physical(node, item, bits, length));
-            }
-            start += length;
-        }
-        text.push('\n');
+/// Returns the physical values of a frame.
+fn expected(node: &NetworkNode, pdo: &NetworkPdo, word: u64) -> String {
+    let mut text = String::new();
+    for (start, entry) in signals(node, pdo) {
+        let length = u32::from(entry.bits);
+        let bits = word >> start & u64::MAX >> (64 - length);
+        let item = node.item((entry.index, entry.sub_index)).expect("an item");
+        let _ = write!(text, ";{}", physical(node, item, bits, length));
     }
+    text
+}
+
+/// Returns the mapped objects that the DBC contains, with their first bits.
+fn signals<'p>(node: &NetworkNode, pdo: &'p NetworkPdo) -> Vec<(u32, &'p MappedObject)> {
+    let mut start = 0;
+    let with_start = |entry: &'p MappedObject| {
+        start += u32::from(entry.bits);
+        (start - u32::from(entry.bits), entry)
+    };
+    let is_known = |(_, entry): &(u32, &MappedObject)| {
+        entry.index >= 0x1000 && node.item((entry.index, entry.sub_index)).is_some()
+    };
+    pdo.entries.iter().map(with_start).filter(is_known).collect()
 }
 
 /// Returns the PDOs of a network that the DBC contains, and that a frame can hold.
@@ -82,39 +91,84 @@ fn pdos(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
     all.filter(|(_, pdo)| (1..=64).contains(&pdo.bits()) && known.insert(pdo.can_id())).collect()
 }
 
-#[test]
-fn cantools_decodes_the_same_values() {
-    let (Some(python), Some(corpus)) = (python::with(&["cantools"]), folder_of("eds")) else { return };
-    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("dbc");
-    let _ = std::fs::remove_dir_all(&root);
-    let (mut random, mut folders): (Random, Vec<PathBuf>) = (Random(30), Vec::new());
-    for file in files_of("eds").expect("the corpus") {
-        let text = format!("[master]\nid = 127\n[nodes]\nnode = {{ id = 5, device = {:?} }}\n", file.name);
-        let source = Source::new("network.toml", text.into_bytes()).in_folder(&corpus);
+/// A network of one device of the corpus, in a folder with its DBC.
+pub struct Sample {
+    compilation: Compilation,
+    folder: PathBuf,
+}
+
+impl Sample {
+    /// Compiles a network. Returns `None` if the network has no PDO that `cantools` can decode.
+    fn new(root: &Path, source: Source) -> Option<Self> {
         let compilation = compile(source, Levels::lenient());
-        let Some(network) = &compilation.network else { continue };
-        let pdos = pdos(network);
+        let network = compilation.network.as_ref()?;
         // `cantools` rejects messages that are longer than a frame.
         let is_valid = network.nodes.iter().flat_map(|node| &node.pdos).all(|pdo| pdo.bits() <= 64);
-        if pdos.is_empty() || !is_valid || folders.len() == 50 {
-            continue;
+        if pdos(network).is_empty() || !is_valid {
+            return None;
         }
-        let folder = root.join(folders.len().to_string());
+        let folder = root.join(std::fs::read_dir(root).expect("a folder").count().to_string());
         std::fs::create_dir_all(&folder).expect("a folder");
-        let mut text = String::new();
-        pdos.iter().for_each(|(node, pdo)| write(&mut text, node, pdo, &mut random));
         std::fs::write(folder.join("network.dbc"), dbc(network)).expect("a file");
-        std::fs::write(folder.join("frames.txt"), text).expect("a file");
-        folders.push(folder);
+        Some(Sample { compilation, folder })
     }
+
+    fn network(&self) -> &Network {
+        self.compilation.network.as_ref().expect("a network")
+    }
+
+    /// Writes random frames of all PDOs: the CAN-ID, the data, and the values that `values` returns.
+    fn write_frames(&self, random: &mut Random, values: Values<'_>) {
+        let mut text = String::new();
+        for (node, pdo) in pdos(self.network()) {
+            for _ in 0..frames() {
+                let data = random.next().to_le_bytes();
+                let bytes: String = data[..pdo.bytes() as usize].iter().map(|byte| format!("{byte:02x}")).collect();
+                let _ = writeln!(text, "{};{bytes}{}", pdo.can_id(), values(node, pdo, u64::from_le_bytes(data)));
+            }
+        }
+        std::fs::write(self.folder.join("frames.txt"), text).expect("a file");
+    }
+}
+
+/// Returns the values of a frame, each after a semicolon.
+type Values<'v> = &'v dyn Fn(&NetworkNode, &NetworkPdo, u64) -> String;
+
+/// Returns the networks of the first 50 devices of the corpus with PDOs.
+fn samples(name: &str, corpus: &Path) -> Vec<Sample> {
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&root);
+    std::fs::create_dir_all(&root).expect("a folder");
+    let files = files_of("eds").expect("the corpus").into_iter();
+    let sample = |file: corpus_support::File| {
+        let text = format!("[master]\nid = 127\n[nodes]\nnode = {{ id = 5, device = {:?} }}\n", file.name);
+        Sample::new(&root, Source::new("network.toml", text.into_bytes()).in_folder(corpus))
+    };
+    files.filter_map(sample).take(50).collect()
+}
+
+/// Decodes the frames of all samples with `cantools`, and asserts that the values are equal. Returns the number of values.
+fn compare(python: &Path, samples: &[Sample]) -> usize {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dbc/decode.py");
-    let output = Command::new(&python).arg(script).args(&folders).output().expect("Python runs");
+    let folders = samples.iter().map(|sample| &sample.folder);
+    let output = Command::new(python).arg(script).args(folders).output().expect("Python runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("UTF-8");
     let verdicts: Vec<Verdict> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
-    let compared: usize = verdicts.iter().map(|verdict| verdict.compared).sum();
-    eprintln!("{} files, {compared} values", verdicts.len());
-    assert!(verdicts.len() >= if lane::is_full() { 50 } else { 5 } && compared > 0, "only {} files", verdicts.len());
+    assert_eq!(verdicts.len(), samples.len());
     let differences: Vec<&String> = verdicts.iter().flat_map(|verdict| &verdict.differences).collect();
     assert!(differences.is_empty(), "{differences:#?}");
+    let compared = verdicts.iter().map(|verdict| verdict.compared).sum();
+    eprintln!("{} files, {compared} values", samples.len());
+    compared
+}
+
+#[test]
+fn cantools_decodes_the_same_values() {
+    let (Some(python), Some(corpus)) = (python::with(&["cantools"]), folder_of("eds")) else { return };
+    let samples = samples("dbc", &corpus);
+    assert!(samples.len() >= if lane::is_full() { 50 } else { 5 }, "only {} files", samples.len());
+    let mut random = Random(30);
+    samples.iter().for_each(|sample| sample.write_frames(&mut random, &expected));
+    assert!(compare(&python, &samples) > 0);
 }

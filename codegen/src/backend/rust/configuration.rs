@@ -1,7 +1,8 @@
-//! The constant with the configured values of a DCF or XDC.
+//! The constant with the configured values of a DCF, XDC or network file.
 
 use super::code::{call, list, Doc};
 use super::literal;
+use super::options::RustOptions;
 use crate::facts::address;
 use crate::facts::configuration::{Configuration, LeftOut, Setting};
 use crate::facts::number::{hex16, hex8};
@@ -17,8 +18,21 @@ pub(super) struct ConfigurationModel {
     pub phases: Vec<(&'static str, Vec<Doc>)>,
 }
 
-/// Returns the model of the constant, or `None` if the file configures no value.
-pub(super) fn model(device: &Device) -> Option<ConfigurationModel> {
+/// Returns the model of the constant, or `None` if no value is configured.
+pub(super) fn model(device: &Device, options: &RustOptions) -> Option<ConfigurationModel> {
+    match &options.configuration {
+        Some(settings) => of_network(settings),
+        None => of_description(device),
+    }
+}
+
+fn of_network(settings: &[Setting]) -> Option<ConfigurationModel> {
+    let docs = vec!["Values of the network file, in the order of the concise DCF.".to_owned()];
+    let phases = vec![("network", settings.iter().map(setting).collect())];
+    (!settings.is_empty()).then_some(ConfigurationModel { docs, phases })
+}
+
+fn of_description(device: &Device) -> Option<ConfigurationModel> {
     let configuration = Configuration::of(device)?;
     let mut docs = vec!["Values that the file configures, in the order in which the device accepts them.".to_owned()];
     docs.extend(left_out(&configuration.left_out));

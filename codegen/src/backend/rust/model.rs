@@ -135,7 +135,7 @@ impl Model {
         model.axes = axes::model(device);
         model.bus_facts = bus_facts::models(device);
         model.bus_facts.extend(composite::models(&context));
-        model.configuration = configuration::model(device);
+        model.configuration = configuration::model(device, options);
         model.node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id);
         model
     }

@@ -1,5 +1,7 @@
 //! Options of the generated Rust code.
 
+use crate::facts::configuration::Setting;
+
 /// Specifies whether a part of the output is generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Presence {
@@ -35,6 +37,9 @@ pub struct RustOptions {
     /// Specifies whether generated types implement `serde::Serialize` and `serde::Deserialize`. The crate that contains
     /// the generated code needs the dependency `serde`, and the feature `serde` of `lexibus`.
     pub serde: Presence,
+    /// Values that a network file gives to the device, in the order of the writes. The constant `CONFIGURATION` contains
+    /// these values. `None` means that it contains the values that the description configures.
+    pub configuration: Option<Vec<Setting>>,
 }
 
 impl Default for RustOptions {
@@ -49,6 +54,7 @@ impl Default for RustOptions {
             partial_eq: Presence::Always,
             defmt: Presence::Never,
             serde: Presence::Never,
+            configuration: None,
         }
     }
 }

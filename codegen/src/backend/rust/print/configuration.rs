@@ -1,4 +1,4 @@
-//! Prints the constant with the configured values of a DCF or XDC.
+//! Prints the constant with the configured values.
 
 use crate::backend::rust::code::{line, open, slice, Code};
 use crate::backend::rust::model::Model;
