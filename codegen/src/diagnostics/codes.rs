@@ -954,7 +954,8 @@ codes! {
     NET016 UNMAPPABLE_OBJECT Lint Deny "an object cannot be mapped"
         "The description states that no PDO of this direction can map the object, or the type of the object has no \
         fixed length. The device aborts the write of the mapping. Map another object. If the description is wrong, \
-        correct it with an overlay."
+        correct it with an overlay. A dummy entry (0x0001 to 0x0007) reserves space. Only an RPDO can contain one, and \
+        `[DummyUsage]` lists the data types that the device supports."
     NET017 PDO_LENGTH Lint Deny "a PDO has an invalid length"
         "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the PDO that it receives, because the node \
         then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."
@@ -976,6 +977,10 @@ codes! {
     NET022 SYNC_PERIOD Lint Deny "the synchronous PDOs do not fit in the SYNC period"
         "SYNC and all synchronous PDOs together take longer than the SYNC period or the synchronous window. Or there \
         are synchronous PDOs, but no node sends SYNC. Declare a longer `sync_period`, or map fewer objects."
+    NET023 MULTIPLEXED_NETWORK_PDO Lint Warn "a node has a multiplexed PDO"
+        "In the description, the number of mapped objects is 254 (SAM-MPDO) or 255 (DAM-MPDO): each frame carries the \
+        address of its value, and the PDO has no mapping (CiA 301, 7.5.2.36). The master does not exchange such a PDO, \
+        and the bus load and the DBC leave it out. Declare a mapping with `map`, or disable the PDO."
 }
 
 #[cfg(test)]
