@@ -52,7 +52,7 @@ impl Parameter<'_> {
     /// Parses a value: a number with the unit of the parameter, a raw value (`1550 raw`), a hexadecimal number, the name
     /// of a value, a formula with `$NODEID`, a text, or bytes in hexadecimal.
     ///
-    /// A physical value is rounded to the nearest raw value.
+    /// The physical value of an integer type is rounded to the nearest raw value.
     ///
     /// # Errors
     ///
@@ -94,7 +94,7 @@ impl Parameter<'_> {
             _ => match self.physical() {
                 None => self.raw(number),
                 Some(_) if number.parse::<f64>().is_err() => Err(self.no_value(text)),
-                Some(physical) => physical.raw(number).ok_or(ParseError::NoConversion),
+                Some(physical) => physical.raw(number, self.basic()).ok_or(ParseError::NoConversion),
             },
         }
     }
@@ -179,6 +179,23 @@ mod tests {
         assert!(matches!(of("Mode", "fast"), Err(ParseError::NoValue(..))));
         assert!(matches!(of("Speed", "--1"), Err(ParseError::NoValue(..))));
         assert!(matches!(of("Temperature", "x °C"), Err(ParseError::NoValue(..))));
+    }
+
+    #[test]
+    fn real_numbers_are_not_rounded() {
+        let description = table();
+        let of = |name: &str, text: &str| description.find(name).expect("a parameter").parse(text);
+        assert_eq!(of("Gain", "0.25 V"), Ok(Value::Real(0.25)));
+        assert_eq!(of("Gain", "0.25"), Ok(Value::Real(0.25)));
+        assert_eq!(of("Offset", "0.3 mV"), Ok(Value::Real(3.0)));
+        assert_eq!(of("Offset", "-0.025 mV"), Ok(Value::Real(-0.25)));
+        assert_eq!(of("Offset", "2.5 raw"), Ok(Value::Real(2.5)));
+        assert_eq!(of("Offset", "2.5"), Err(ParseError::UnitNeeded("mV".into())));
+        assert_eq!(of("Period", "8 Hz"), Ok(Value::Real(0.25)));
+        assert_eq!(of("Period", "0 Hz"), Err(ParseError::NoConversion));
+        let offset = description.find("Offset").expect("a parameter");
+        let write = crate::Write::parse(offset, "0.3 mV", None).expect("a write");
+        assert_eq!((write.bytes(), offset.text(write.value())), (&3f32.to_le_bytes()[..], "0.3 mV (raw 3)".to_owned()));
     }
 
     #[test]

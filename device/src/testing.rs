@@ -20,6 +20,9 @@ defaults = { access = "rw" }
 Temperature = { reg = 0, type = "i16", unit = "°C", scale = 0.1, na = { 0x7FFF = "no sensor" } }
 Speed = { reg = 1, type = "i16", unit = "rpm", min = -3000, max = 3000 }
 Mode = { reg = 2, type = "u16", enum = "Mode" }
+Gain = { reg = 3, type = "f32", unit = "V" }
+Offset = { reg = 5, type = "f32", unit = "mV", scale = 0.1 }
+Period = { reg = 7, type = "f64", unit = "Hz", scale = { reciprocal = 2.0 } }
 [enums.Mode.values]
 0 = "manual"
 1 = "automatic"

@@ -154,3 +154,35 @@ fn damaged_files_cause_no_panic() {
     }
     assert!(built > 0);
 }
+
+/// Compiles a network with one node, whose description is the example's drive with replaced texts.
+fn with_drive(name: &str, replaced: &[(&str, &str)], node: &str) -> Compilation {
+    let drive = std::fs::read_to_string(root().join("examples/network/drive.eds")).expect("the example");
+    let drive = replaced.iter().fold(drive, |drive, (from, to)| {
+        assert!(drive.contains(from), "{from}");
+        drive.replace(from, to)
+    });
+    let network = format!("[master]\nid = 127\n[nodes]\naxis = {{ id = 3, device = \"drive.eds\", {node} }}\n");
+    compiled(name, &[("drive.eds", drive), ("network.toml", network)])
+}
+
+#[test]
+fn a_declared_zero_is_written_unless_the_description_states_it() {
+    let inhibit = "[1800sub3]\r\nParameterName=Inhibit time\r\nObjectType=0x7\r\nDataType=0x0006\r\nAccessType=rw\r\n";
+    let replaced = [(&*format!("{inhibit}DefaultValue=0\r\n"), inhibit)];
+    let node = "tpdo = { 1 = { inhibit_time = 0, event_timer = 0 } }";
+    let compilation = with_drive("zero", &replaced, node);
+    let files = files(compilation.usable().expect("a network"));
+    let bin = files.iter().find(|file| file.name == "axis.bin").expect("a concise DCF");
+    let written: Vec<(u16, u8)> = entries(&bin.content).into_iter().map(|(index, sub, _)| (index, sub)).collect();
+    assert_eq!(written, [(0x1800, 1), (0x1800, 3), (0x1800, 1)], "the event timer is 0 in the description");
+}
+
+#[test]
+fn dummy_entries_reserve_space_in_an_rpdo() {
+    let node = "rpdo = { 1 = { map = [\"0x0005\", \"Controlword\"] } }";
+    let compilation = with_drive("dummy", &[], node);
+    let pdos = &compilation.usable().expect("a network").nodes[0].pdos;
+    let mapped: Vec<(u16, u8)> = pdos[0].entries.iter().map(|entry| (entry.index, entry.bits)).collect();
+    assert_eq!(mapped, [(5, 8), (0x6040, 16)]);
+}

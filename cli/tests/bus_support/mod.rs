@@ -41,11 +41,18 @@ fn drive() -> Device {
 fn serve_can(mut pty: Pty, delay: Duration) -> ! {
     let mut bus = CanBus::new();
     bus.add(CanNode::new(drive()));
-    let (mut decoder, mut buffer) = (Decoder::default(), [0; 1024]);
+    let (mut decoder, mut buffer, mut command) = (Decoder::default(), [0; 1024], Vec::new());
     let mut last = Instant::now();
     loop {
         let count = pty.read(&mut buffer, Duration::from_millis(1)).unwrap_or(0);
         decoder.push(&buffer[..count]);
+        for byte in &buffer[..count] {
+            command.push(*byte);
+            if *byte == b'\r' {
+                let _ = pty.write(reply(&command), Duration::from_millis(100));
+                command.clear();
+            }
+        }
         bus.advance(last.elapsed());
         last = Instant::now();
         while let Some(frame) = decoder.next_frame() {
@@ -55,6 +62,16 @@ fn serve_can(mut pty: Pty, delay: Duration) -> ! {
         while let Ok(Some(frame)) = bus.receive(Duration::ZERO, &mut |_| true) {
             let _ = pty.write(line(&frame).as_bytes(), Duration::from_millis(100));
         }
+    }
+}
+
+/// Returns the reply of the adapter to a line. The channel counts as closed, so the adapter refuses to close it.
+fn reply(line: &[u8]) -> &'static [u8] {
+    match line {
+        b"\r" | b"C\r" => b"\x07",
+        [b't' | b'r', ..] => b"z\r",
+        [b'T' | b'R', ..] => b"Z\r",
+        _ => b"\r",
     }
 }
 

@@ -968,7 +968,8 @@ codes! {
     NET016 UNMAPPABLE_OBJECT Lint Deny "an object cannot be mapped"
         "The description states that no PDO of this direction can map the object, or the type of the object has no \
         fixed length. The device aborts the write of the mapping. Map another object. If the description is wrong, \
-        correct it with an overlay."
+        correct it with an overlay. A dummy entry (0x0001 to 0x0007) reserves space. Only an RPDO can contain one, and \
+        `[DummyUsage]` lists the data types that the device supports."
     NET017 PDO_LENGTH Lint Deny "a PDO has an invalid length"
         "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the PDO that it receives, because the node \
         then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."
@@ -993,6 +994,10 @@ codes! {
         "CiA 301 (7.3.5) reserves the CAN-IDs 0x000 to 0x07F, 0x101 to 0x180, 0x581 to 0x5FF, 0x601 to 0x67F, 0x6E0 to \
         0x6FF and 0x701 to 0x7FF for NMT, SDO, heartbeat, node guarding, LSS and other uses. A CAN-ID above 0x7FF needs \
         a frame with 29 bits, so bit 29 of the COB-ID must be 1. Choose another `cob_id`, or use `auto`."
+    NET024 MULTIPLEXED_NETWORK_PDO Lint Warn "a node has a multiplexed PDO"
+        "In the description, the number of mapped objects is 254 (SAM-MPDO) or 255 (DAM-MPDO): each frame carries the \
+        address of its value, and the PDO has no mapping (CiA 301, 7.5.2.36). The master does not exchange such a PDO, \
+        and the bus load and the DBC leave it out. Declare a mapping with `map`, or disable the PDO."
 }
 
 #[cfg(test)]

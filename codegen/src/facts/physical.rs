@@ -1,6 +1,6 @@
 //! Physical values with raw values.
 
-use crate::ir::{Limits, Quantity, Scale, Value};
+use crate::ir::{Limits, Quantity, Scale, Type, Value};
 
 /// Conversion from raw values of an item to physical values.
 #[derive(Clone, Copy)]
@@ -57,18 +57,28 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Returns the raw value that is nearest to a physical value: 1550 for `15.5` with scale factor 0.01. Returns `None` if `text` is not
-    /// a number, if the raw value is not finite, or if the scale depends on another item or on the model.
-    pub fn raw(&self, text: &str) -> Option<Value> {
-        let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
-        let whole = |raw: f64| (raw.is_finite() && raw.abs() < 1e30).then(|| Value::Int(raw.round() as i128));
-        match *self.scale {
-            Scale::Linear { factor, offset } => {
-                number()?;
-                exact_raw(text, factor, offset).map(Value::Int).or_else(|| whole((number()? - offset) / factor))
+    /// Returns the raw value of a physical value: 1550 for `15.5` with scale factor 0.01. The raw value of an integer type is rounded to
+    /// the nearest integer. Returns `None` if `text` is not a number, if the raw value is not finite, or if the scale depends on another
+    /// item or on the model.
+    pub fn raw(&self, text: &str, ty: Type) -> Option<Value> {
+        let number = text.parse::<f64>().ok().filter(|number| number.is_finite())?;
+        let exact = |factor, offset| Ratio::of_raw(text, factor, offset);
+        let raw = match *self.scale {
+            Scale::Linear { factor, offset } if !is_real(ty) => {
+                return exact(factor, offset)
+                    .and_then(|raw| raw.rounded())
+                    .or_else(|| whole((number - offset) / factor))
+                    .map(Value::Int);
             }
-            Scale::Reciprocal { numerator } => whole(numerator / number()?),
-            _ => None,
+            Scale::Linear { factor, offset } => {
+                exact(factor, offset).map_or((number - offset) / factor, |raw| raw.real())
+            }
+            Scale::Reciprocal { numerator } => numerator / number,
+            _ => return None,
+        };
+        match is_real(ty) {
+            true => raw.is_finite().then_some(Value::Real(raw)),
+            false => whole(raw).map(Value::Int),
         }
     }
 
@@ -168,17 +178,40 @@ fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
     }
 }
 
-/// Returns the raw value that is nearest to the decimal number `text`. The calculation is exact. Returns `None` if factor, offset or `text`
-/// has too many digits.
-fn exact_raw(text: &str, factor: f64, offset: f64) -> Option<i128> {
-    let (value, factor, offset) = (Decimal::parsed(text)?, Decimal::of(factor)?, Decimal::of(offset)?);
-    let places = value.places.max(factor.places).max(offset.places);
-    let difference = value.scaled(places)?.checked_sub(offset.scaled(places)?)?;
-    let factor = factor.scaled(places)?;
-    // Halves are rounded away from zero.
-    let rounded = difference.checked_abs()?.checked_mul(2)?.checked_add(factor.checked_abs()?)?;
-    let raw = rounded.checked_div(factor.checked_abs()?.checked_mul(2)?)?;
-    Some(if (difference < 0) == (factor < 0) { raw } else { -raw })
+fn is_real(ty: Type) -> bool {
+    matches!(ty, Type::Real32 | Type::Real64)
+}
+
+/// Returns the nearest integer, or `None` if the number is not finite or too large.
+fn whole(number: f64) -> Option<i128> {
+    (number.is_finite() && number.abs() < 1e30).then(|| number.round() as i128)
+}
+
+/// The exact raw value of a physical value with a linear scale.
+struct Ratio {
+    numerator: i128,
+    denominator: i128,
+}
+
+impl Ratio {
+    /// Returns the raw value of the decimal number `text`, or `None` if factor, offset or `text` has too many digits.
+    fn of_raw(text: &str, factor: f64, offset: f64) -> Option<Self> {
+        let (value, factor, offset) = (Decimal::parsed(text)?, Decimal::of(factor)?, Decimal::of(offset)?);
+        let places = value.places.max(factor.places).max(offset.places);
+        let numerator = value.scaled(places)?.checked_sub(offset.scaled(places)?)?;
+        Some(Ratio { numerator, denominator: factor.scaled(places)? })
+    }
+
+    fn real(&self) -> f64 {
+        self.numerator as f64 / self.denominator as f64
+    }
+
+    /// Returns the nearest integer. Halves are rounded away from zero.
+    fn rounded(&self) -> Option<i128> {
+        let (numerator, denominator) = (self.numerator.checked_abs()?, self.denominator.checked_abs()?);
+        let raw = numerator.checked_mul(2)?.checked_add(denominator)?.checked_div(denominator.checked_mul(2)?)?;
+        Some(if (self.numerator < 0) == (self.denominator < 0) { raw } else { -raw })
+    }
 }
 
 /// A decimal number: `number` / 10^`places`.
@@ -262,8 +295,9 @@ mod tests {
 
     #[test]
     fn a_physical_value_becomes_the_nearest_raw_value() {
-        let raw =
-            |text: &str, scale: Scale| Physical { unit: "", scale: &scale }.raw(text).and_then(|raw| raw.as_int());
+        let raw = |text: &str, scale: Scale| {
+            Physical { unit: "", scale: &scale }.raw(text, Type::Integer(64)).and_then(|raw| raw.as_int())
+        };
         let linear = |factor, offset| Scale::Linear { factor, offset };
         assert_eq!(raw("15.5", linear(0.01, 0.0)), Some(1550));
         assert_eq!(raw("-15.5", linear(0.01, 0.0)), Some(-1550));
@@ -282,6 +316,19 @@ mod tests {
         assert_eq!(raw("1", linear(0.0, 0.0)), None);
         assert_eq!(raw(&i128::MAX.to_string(), linear(0.1, 0.0)), None, "too large");
         assert_eq!(raw("1", Scale::Fraction { bits: 15, base: "I".into() }), None);
+    }
+
+    #[test]
+    fn the_raw_value_of_a_real_type_is_not_rounded() {
+        let raw = |text: &str, scale: Scale| Physical { unit: "", scale: &scale }.raw(text, Type::Real64);
+        let linear = |factor, offset| Scale::Linear { factor, offset };
+        assert_eq!(raw("0.3", linear(0.1, 0.0)), Some(Value::Real(3.0)), "the quotient of the decimal numbers");
+        assert_eq!(raw("-0.25", linear(2.0, 0.0)), Some(Value::Real(-0.125)));
+        assert_eq!(raw("1e-3", linear(0.5, -0.5)), Some(Value::Real(1.002)));
+        assert_eq!(raw("8", Scale::Reciprocal { numerator: 2.0 }), Some(Value::Real(0.25)));
+        assert_eq!(raw("0", Scale::Reciprocal { numerator: 2.0 }), None);
+        assert_eq!(raw("1", linear(0.0, 0.0)), None);
+        assert_eq!(raw("x", linear(0.1, 0.0)), None);
     }
 
     #[test]

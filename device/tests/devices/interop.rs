@@ -1,21 +1,18 @@
 //! The functions of the crate with independent programs: a node of the Python library `canopen` behind an slcan adapter
 //! on a pseudo-terminal, and servers of `pymodbus`.
-#[path = "../../../tests/interop/pty.rs"]
-#[allow(dead_code)]
-mod pty;
 #[path = "../../../tests/interop/python.rs"]
 #[allow(dead_code)]
 mod python;
 
 use std::time::Duration;
 
+use crate::pty::Cable;
 use crate::support::{dictionary, file, repository};
 use lexibus_device::backup::{backup, difference, Backup, Options, Skipped};
 use lexibus_device::restore::{Plan, Status};
 use lexibus_device::scan::{scan, Fit};
 use lexibus_device::verify::{verify, Options as VerifyOptions, Report};
 use lexibus_device::{BusAddress, Connection, Description, Network, Write};
-use pty::Cable;
 use python::{python, Script};
 use serde_json::{json, Value};
 

@@ -126,17 +126,43 @@ fn no_frame_and_no_line_causes_a_panic() {
         events += usize::from(interpreter.interpret(&frame).is_some());
     }
     let pieces = [
-        "(", ")", "1.5", " can0 ", "185", "#", "0A", "[2]", "R", "T", "t1852", "date", "base dec", "d", "Rx", "\r",
-        "é", " ", "x", "-1",
+        "(",
+        ")",
+        "1.5",
+        " can0 ",
+        "185",
+        "#",
+        "0A",
+        "[2]",
+        "R",
+        "T",
+        "t1852",
+        "date",
+        "base dec",
+        "d",
+        "Rx",
+        "\r",
+        "é",
+        " ",
+        "x",
+        "-1",
+        "(1.5) can0 ",
+        "1.5 1 185 Rx d 1 0A ",
+        "185#0A",
     ];
-    let mut reader = Reader::new();
-    let mut decoder = Decoder::default();
+    let slcan = ["t185", "T", "00000185", "r", "2", "0A", "1234", "é", "x", "\r", "\r", "\x07"];
+    let (mut reader, mut decoder, mut decoded) = (Reader::new(), Decoder::default(), 0);
     for _ in 0..100_000 {
         let count = random(&mut state) % 9;
-        let line: String = (0..count).map(|_| pieces[random(&mut state) as usize % pieces.len()]).collect();
-        frames += usize::from(matches!(reader.line(&line), Line::Frame(_)));
-        decoder.push(line.as_bytes());
-        frames += usize::from(decoder.next_frame().is_some());
+        let mut line = |pieces: &[&str]| {
+            (0..count).map(|_| pieces[random(&mut state) as usize % pieces.len()]).collect::<String>()
+        };
+        frames += usize::from(matches!(reader.line(&line(&pieces)), Line::Frame(_)));
+        decoder.push(line(&slcan).as_bytes());
+        decoded += std::iter::from_fn(|| decoder.next_frame()).count();
     }
-    assert!(events > 5_000 && frames > 10, "{events} events, {frames} frames");
+    assert!(
+        events > 5_000 && frames > 10 && decoded > 10,
+        "{events} events, {frames} frames of traces, {decoded} of an adapter"
+    );
 }

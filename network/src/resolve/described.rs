@@ -49,8 +49,18 @@ pub(super) fn pdo(device: &Device, direction: Direction, number: u16, id: u8) ->
     })
 }
 
+/// Returns the kind of a multiplexed PDO if the number of mapped objects is the code of one (CiA 301 7.5.2.36).
+pub(super) fn multiplexed_name(count: i128) -> Option<&'static str> {
+    match count {
+        254 => Some("SAM-MPDO"),
+        255 => Some("DAM-MPDO"),
+        _ => None,
+    }
+}
+
 fn mapping(device: &Device, index: u16, id: u8) -> Vec<MappedObject> {
-    let count = initial(device, (index, 0), id).and_then(|count| u8::try_from(count).ok()).unwrap_or(0);
+    let count = initial(device, (index, 0), id).filter(|count| multiplexed_name(*count).is_none());
+    let count = count.and_then(|count| u8::try_from(count).ok()).unwrap_or(0);
     let words = (1..=count.min(64)).filter_map(|sub_index| initial(device, (index, sub_index), id));
     let entry =
         |word: i128| MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 };

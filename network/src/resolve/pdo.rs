@@ -1,12 +1,13 @@
 //! Resolves the PDOs of a node, and the values that configure them (CiA 301 7.5.2.35 to 7.5.2.38).
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
+use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
-use lexibus_codegen::ir::{Direction, Type};
+use lexibus_codegen::ir::{CanOpenSettings, Direction, Type};
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
-use super::described::{described, direction, initial};
+use super::described::{described, direction, initial, multiplexed_name};
 use super::object::find;
 use super::writer::{title, Writer};
 use crate::declared::{DeclaredNode, DeclaredPdo, ObjectName};
@@ -31,8 +32,23 @@ pub(super) fn resolve(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer
     }
     for pdo in &mut pdos {
         pdo.is_enabled = pdo.cob_id & DISABLED == 0 && !pdo.entries.is_empty();
+        if pdo.cob_id & DISABLED == 0 && pdo.entries.is_empty() {
+            multiplexed(pdo, node, writer);
+        }
     }
     pdos
+}
+
+/// Reports a multiplexed PDO, which the output files do not contain.
+fn multiplexed(pdo: &NetworkPdo, node: &DeclaredNode, writer: &mut Writer<'_>) {
+    let count = initial(writer.device, (pdo.index() + 0x200, 0), writer.id);
+    let Some(name) = count.and_then(multiplexed_name) else { return };
+    let message =
+        format!("{} of `{}` is multiplexed ({name}), so the network leaves it out", pdo.title(), node.name.value);
+    let found = Diagnostic::new(&codes::MULTIPLEXED_NETWORK_PDO, pdo.span.or(node.name.span), message);
+    let kind = if pdo.direction == Direction::Transmit { "tpdo" } else { "rpdo" };
+    let help = format!("declare `map` in `{kind}.{}`, or disable the PDO with `enabled = false`", pdo.number);
+    writer.diagnostics.push(found.help(help));
 }
 
 fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>) {
@@ -74,16 +90,16 @@ fn configure(pdo: &mut NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: 
 /// Writes transmission type and timers that differ from the description. Timers of the other side of an RPDO or TPDO belong to the
 /// master, and are not written to the node.
 fn parameters(pdo: &mut NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
-    fn change<T: Copy + PartialEq + Into<i128>>(
+    fn change<T: Copy + Into<i128>>(
         current: &mut T,
         given: &Option<At<T>>,
         object: Option<(u16, u8)>,
         writer: &mut Writer<'_>,
     ) {
-        let Some(given) = given.as_ref().filter(|given| given.value != *current) else { return };
+        let Some(given) = given else { return };
         *current = given.value;
         if let Some(object) = object {
-            writer.write(object, given.value, given.span);
+            writer.change(object, Some(given));
         }
     }
     let (index, pdo_direction) = (pdo.index(), pdo.direction);
@@ -122,8 +138,7 @@ fn write_mapping(pdo: &mut NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer
 /// Returns the entry for an object. Reports an object that a PDO of this direction cannot map.
 fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>) -> Option<MappedObject> {
     if let ObjectName::Address(code @ 1..=0x1B, 0) = object.value {
-        let bits = Type::from_cia301(code.into()).and_then(Type::bits)?;
-        return Some(MappedObject { index: code, sub_index: 0, bits: bits as u8 });
+        return dummy(direction, code, object.span, writer);
     }
     let (item, address) = find(writer.device, object, writer.diagnostics)?;
     let able = mappable(item, &mapped_objects(&writer.device.process_data.pdos));
@@ -142,4 +157,32 @@ fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>
         writer.diagnostics.push(found.label(reason));
     }
     Some(MappedObject { index: address.0, sub_index: address.1, bits: u8::try_from(bits?).ok()? })
+}
+
+/// Returns the entry for a data type, which reserves space in an RPDO (CiA 301 7.4.7). Reports a data type that a PDO of this
+/// direction or this device cannot map.
+fn dummy(direction: Direction, code: u16, span: Span, writer: &mut Writer<'_>) -> Option<MappedObject> {
+    let Some(bits) = Type::from_cia301(code.into()).and_then(Type::bits) else {
+        let message = format!("the data type {} has no fixed length, so it cannot be a dummy entry", hex16(code));
+        let found = Diagnostic::new(&codes::NETWORK_VALUE, span, message);
+        writer.diagnostics.push(found.help("write a data type with a fixed length, such as `0x0005` (UNSIGNED8)"));
+        return None;
+    };
+    let settings = writer.device.canopen.as_deref().filter(|settings| settings.dummies_given);
+    let refused = |settings: &&CanOpenSettings| !settings.dummies.iter().any(|allowed| u16::from(*allowed) == code);
+    let message = format!("the dummy entry {} cannot be mapped", hex16(code));
+    let found = Diagnostic::new(&codes::UNMAPPABLE_OBJECT, span, message);
+    if direction == Direction::Transmit {
+        let found = found.label("a TPDO cannot contain dummy entries");
+        writer.diagnostics.push(found.help("map an object of the device instead"));
+    } else if let Some(settings) = settings.filter(refused) {
+        let allowed: Vec<String> = settings.dummies.iter().map(|code| format!("`{}`", hex16(*code))).collect();
+        writer.diagnostics.push(match allowed.is_empty() {
+            true => found.label("the device supports no dummy entries ([DummyUsage])").help("remove the entry"),
+            false => found
+                .label("the description does not allow this data type ([DummyUsage])")
+                .help(format!("use one of the data types {}", allowed.join(", "))),
+        });
+    }
+    Some(MappedObject { index: code, sub_index: 0, bits: bits as u8 })
 }
