@@ -1,4 +1,4 @@
-//! Resolves the PDOs of a node, and the values that configure them (CiA 301 7.5.2.35 to 7.5.2.38).
+//! Writes the values that configure the PDOs of a node (CiA 301 7.5.2.35 to 7.5.2.38).
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
 use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
@@ -6,33 +6,23 @@ use lexibus_codegen::ir::{Direction, Type};
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
-use super::described::{described, direction, initial};
 use super::object::find;
+use super::pdo_values::{direction, pdos};
 use super::writer::{title, Writer};
 use crate::declared::{DeclaredNode, DeclaredPdo, ObjectName};
 use crate::model::{MappedObject, NetworkPdo, DISABLED};
 use crate::syntax::At;
 
-/// Maximum length of a PDO on CAN in bits.
-const MAX_BITS: u32 = 64;
-
-/// Resolves all PDOs of a node, and writes those that the file declares.
-pub(super) fn resolve(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer<'_>) -> Vec<NetworkPdo> {
-    let mut pdos: Vec<NetworkPdo> = [Direction::Receive, Direction::Transmit]
-        .into_iter()
-        .flat_map(|direction| described(writer.device, direction, writer.id))
-        .collect();
+/// Writes the PDOs that the file declares.
+pub(super) fn write(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer<'_>) {
+    let pdos = pdos(writer.initial());
     for declared in &node.pdos {
         let (direction, number) = (direction(declared), declared.number.value);
-        match pdos.iter_mut().find(|pdo| pdo.direction == direction && pdo.number == number) {
+        match pdos.iter().find(|pdo| pdo.direction == direction && pdo.number == number) {
             Some(pdo) => configure(pdo, declared, cob_ids.of(&node.name.value, direction, number), writer),
             None => missing(declared, &pdos, writer),
         }
     }
-    for pdo in &mut pdos {
-        pdo.is_enabled = pdo.cob_id & DISABLED == 0 && !pdo.entries.is_empty();
-    }
-    pdos
 }
 
 fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>) {
@@ -49,14 +39,12 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
 
 /// Applies the declaration of a PDO, and writes the changed values: disable the PDO, set the parameters, clear the mapping, write the
 /// mapping, enable the PDO.
-fn configure(pdo: &mut NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
+fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
     let index = pdo.index();
     let span = declared.cob_id.as_ref().map_or(declared.number.span, |cob_id| cob_id.span);
-    (pdo.span, pdo.cob_id_at) = (declared.number.span, span);
     if pdo.cob_id != cob_id | DISABLED {
         writer.write((index, 1), cob_id | DISABLED, span);
     }
-    pdo.cob_id = cob_id;
     if cob_id & DISABLED != 0 {
         return;
     }
@@ -66,40 +54,39 @@ fn configure(pdo: &mut NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: 
     }
     if declared.enabled {
         writer.write((index, 1), cob_id, span);
-    } else {
-        pdo.cob_id |= DISABLED;
     }
 }
 
 /// Writes transmission type and timers that differ from the description. Timers of the other side of an RPDO or TPDO belong to the
 /// master, and are not written to the node.
-fn parameters(pdo: &mut NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
+fn parameters(pdo: &NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
     fn change<T: Copy + PartialEq + Into<i128>>(
-        current: &mut T,
+        current: T,
         given: &Option<At<T>>,
-        object: Option<(u16, u8)>,
+        object: (u16, u8),
         writer: &mut Writer<'_>,
     ) {
-        let Some(given) = given.as_ref().filter(|given| given.value != *current) else { return };
-        *current = given.value;
-        if let Some(object) = object {
+        if let Some(given) = given.as_ref().filter(|given| given.value != current) {
             writer.write(object, given.value, given.span);
         }
     }
-    let (index, pdo_direction) = (pdo.index(), pdo.direction);
-    let of = |direction, sub_index| (pdo_direction == direction).then_some((index, sub_index));
-    change(&mut pdo.transmission, &declared.transmission, Some((index, 2)), writer);
-    change(&mut pdo.inhibit_time, &declared.inhibit_time, of(Direction::Transmit, 3), writer);
-    change(&mut pdo.event_timer, &declared.event_timer, of(Direction::Transmit, 5), writer);
-    change(&mut pdo.event_deadline, &declared.event_deadline, of(Direction::Receive, 5), writer);
-    change(&mut pdo.sync_start, &declared.sync_start, of(Direction::Transmit, 6), writer);
+    let index = pdo.index();
+    change(pdo.transmission, &declared.transmission, (index, 2), writer);
+    match pdo.direction {
+        Direction::Transmit => {
+            change(pdo.inhibit_time, &declared.inhibit_time, (index, 3), writer);
+            change(pdo.event_timer, &declared.event_timer, (index, 5), writer);
+            change(pdo.sync_start, &declared.sync_start, (index, 6), writer);
+        }
+        Direction::Receive => change(pdo.event_deadline, &declared.event_deadline, (index, 5), writer),
+    }
 }
 
-fn write_mapping(pdo: &mut NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &mut Writer<'_>) {
+fn write_mapping(pdo: &NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &mut Writer<'_>) {
     let index = pdo.index() + 0x200;
     let entries: Vec<(MappedObject, Span)> =
         objects.value.iter().filter_map(|object| Some((mapped(pdo.direction, object, writer)?, object.span))).collect();
-    let is_empty = initial(writer.device, (index, 0), writer.id).is_none_or(|count| count == 0);
+    let is_empty = writer.initial().get((index, 0)).is_none_or(|count| count == 0);
     if !is_empty || !entries.is_empty() {
         writer.write((index, 0), 0, objects.span);
     }
@@ -110,12 +97,6 @@ fn write_mapping(pdo: &mut NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer
     }
     if !entries.is_empty() {
         writer.write((index, 0), entries.len() as i128, objects.span);
-    }
-    pdo.entries = entries.into_iter().map(|(entry, _)| entry).collect();
-    if pdo.bits() > MAX_BITS {
-        let message = format!("{} maps {} bits, but a PDO has at most {MAX_BITS}", pdo.title(), pdo.bits());
-        let found = Diagnostic::new(&codes::PDO_LENGTH, objects.span, message);
-        writer.diagnostics.push(found.help("move objects to another PDO"));
     }
 }
 
