@@ -25,6 +25,7 @@
 //! | device descriptions of the nodes | [`description`] |
 //! | look-up of objects and PDOs, values as bytes | [`resolve`] |
 //! | the resolved network | [`model`] |
+//! | values of objects after the configuration | [`values`] |
 //! | faults that would occur on the bus | [`check`] |
 //! | output files | [`output`] |
 //!
@@ -41,3 +42,4 @@ pub mod model;
 pub mod output;
 pub mod resolve;
 pub mod syntax;
+pub mod values;

@@ -9,12 +9,16 @@ use lexibus_codegen::source::Span;
 use crate::declared::DeclaredMaster;
 use crate::description::Description;
 use crate::syntax::At;
+use crate::values::Values;
 
 /// Bit of a COB-ID that disables a PDO or an EMCY (CiA 301 7.5.2.17, 7.5.2.35).
 pub const DISABLED: u32 = 1 << 31;
 
 /// Bit of a COB-ID with a 29-bit CAN-ID.
 pub const EXTENDED: u32 = 1 << 29;
+
+/// Bit of the COB-ID of a TPDO that the node does not send on RTR (CiA 301 7.5.2.37).
+pub const NO_RTR: u32 = 1 << 30;
 
 /// A network whose nodes have descriptions.
 #[derive(Debug, Default)]
@@ -141,21 +145,9 @@ impl NetworkNode {
         self.device().entry(object.0, object.1)
     }
 
-    /// Returns the value that an object has after the configuration: the last value that is written, or the initial value.
-    pub fn value(&self, object: (u16, u8)) -> Option<i128> {
-        let written =
-            self.writes.iter().rev().find(|write| write.object == object).and_then(|write| write.value.as_ref());
-        written.or_else(|| self.item(object)?.initial())?.resolved(self.id).as_int()
-    }
-
-    /// Returns whether the network file sets an object.
-    pub fn sets(&self, object: (u16, u8)) -> bool {
-        self.writes.iter().any(|write| write.object == object && write.value.is_some())
-    }
-
-    /// Returns the location of the last value of an object in the network file; empty if the file does not set the object.
-    pub fn set_at(&self, object: (u16, u8)) -> Span {
-        self.writes.iter().rev().find(|write| write.object == object).map_or(Span::MISSING, |write| write.span)
+    /// Returns the values that the objects have after the configuration.
+    pub fn values(&self) -> Values<'_> {
+        Values { device: self.device(), id: self.id, writes: &self.writes }
     }
 
     /// Returns the PDO with this direction and number.

@@ -83,7 +83,7 @@ fn services(network: &Network) -> Vec<Sender> {
     }
     producers.into_iter().for_each(|producer| add(producer.cob_id, producer.name, producer.span));
     for node in network.nodes.iter().filter(|node| node.emcy_cob_id & DISABLED == 0) {
-        add(node.emcy_cob_id, format!("the EMCY of `{}`", node.name.value), node.set_at((0x1014, 0)));
+        add(node.emcy_cob_id, format!("the EMCY of `{}`", node.name.value), node.values().set_at((0x1014, 0)));
     }
     senders
 }

@@ -57,8 +57,8 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
 fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostics) {
     let written: BTreeSet<(u16, u8)> = node.writes.iter().map(|write| write.object).collect();
     for object in written.range((0x1016, 1)..=(0x1016, u8::MAX)) {
-        let value = node.value(*object).unwrap_or(0);
-        let (time, producer) = ((value & 0xFFFF) as u32, (value >> 16) as u8);
+        let value: u32 = node.values().number(*object).unwrap_or(0);
+        let (time, producer) = (value & 0xFFFF, (value >> 16) as u8);
         if time == 0 || !(1..=127).contains(&producer) {
             continue;
         }
@@ -72,7 +72,7 @@ fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostic
             Some(_) => continue,
         };
         let message = format!("`{}` expects a heartbeat of node {producer} each {time} ms", node.name.value);
-        let span = node.set_at(*object).or(node.name.span);
+        let span = node.values().set_at(*object).or(node.name.span);
         diagnostics.push(Diagnostic::new(&codes::HEARTBEAT_TIME, span, message).label(problem));
     }
 }

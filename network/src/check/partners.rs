@@ -6,6 +6,9 @@ use lexibus_codegen::ir::Direction;
 use super::cob_ids::place;
 use crate::model::Network;
 
+/// Maximum length of a PDO on CAN in bits.
+const MAX_BITS: u32 = 64;
+
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     lengths(network, diagnostics);
     if network.master.as_ref().is_none_or(|master| master.exchanges_pdos) {
@@ -31,8 +34,18 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports RPDOs that are longer than the TPDO that they receive.
+/// Reports PDOs that the file maps and that are too long, and RPDOs that are longer than the TPDO that they receive.
 fn lengths(network: &Network, diagnostics: &mut Diagnostics) {
+    for node in &network.nodes {
+        for pdo in node.pdos.iter().filter(|pdo| pdo.bits() > MAX_BITS) {
+            let span = node.values().set_at((pdo.index() + 0x200, 0));
+            if !span.is_empty() {
+                let message = format!("{} maps {} bits, but a PDO has at most {MAX_BITS}", pdo.title(), pdo.bits());
+                let found = Diagnostic::new(&codes::PDO_LENGTH, span, message);
+                diagnostics.push(found.help("move objects to another PDO"));
+            }
+        }
+    }
     for (node, rpdo) in network.pdos(Direction::Receive) {
         let sender = network.pdos(Direction::Transmit).find(|(_, tpdo)| tpdo.can_id() == rpdo.can_id());
         let Some((sender, tpdo)) = sender.filter(|(_, tpdo)| tpdo.bytes() < rpdo.bytes()) else { continue };

@@ -55,7 +55,7 @@ pub(super) fn fastest(producers: &[SyncProducer]) -> Option<&SyncProducer> {
 }
 
 fn of_node(node: &NetworkNode) -> Option<SyncProducer> {
-    let number = |index| node.value((index, 0)).and_then(|value| u32::try_from(value).ok()).unwrap_or(0);
+    let number = |index| node.values().number((index, 0)).unwrap_or(0u32);
     let (cob_id, period) = (number(0x1005), number(0x1006));
     (cob_id & PRODUCER != 0 && period > 0).then(|| SyncProducer {
         name: format!("SYNC of `{}`", node.name.value),
@@ -64,6 +64,6 @@ fn of_node(node: &NetworkNode) -> Option<SyncProducer> {
         period,
         window: number(0x1007),
         has_counter: number(0x1019) > 0,
-        span: node.set_at((0x1006, 0)).or(node.set_at((0x1005, 0))).or(node.name.span),
+        span: node.values().set_at((0x1006, 0)).or(node.values().set_at((0x1005, 0))).or(node.name.span),
     })
 }

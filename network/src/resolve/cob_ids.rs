@@ -1,17 +1,16 @@
 //! COB-IDs of the PDOs that a file declares. An RPDO can receive a PDO of any other node, so the COB-IDs of all nodes are computed
 //! first.
 
-use std::collections::HashMap;
-use std::rc::Rc;
+use std::collections::{HashMap, HashSet};
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::ir::Direction;
+use lexibus_codegen::ir::{Direction, Group};
 use lexibus_codegen::text::similar;
 
-use super::described::{direction, pdo};
-use crate::declared::{DeclaredCobId, DeclaredNode, DeclaredPdo};
-use crate::description::Description;
-use crate::model::DISABLED;
+use super::described_node::DescribedNode;
+use super::pdo_values::{direction, pdo, pdos};
+use crate::declared::{DeclaredCobId, DeclaredMaster, DeclaredPdo};
+use crate::model::{can_id, communication_index, DISABLED, NO_RTR};
 use crate::syntax::At;
 
 /// CAN-IDs for PDOs above the fourth, which have no CAN-ID in the predefined connection set (CiA 301 7.3.5).
@@ -24,35 +23,52 @@ type Key = (String, Direction, u16);
 pub(super) struct CobIds(HashMap<Key, u32>);
 
 impl CobIds {
-    /// Assigns COB-IDs to the declared PDOs of all nodes.
-    pub fn new(nodes: &[(&DeclaredNode, u8, Rc<Description>)], diagnostics: &mut Diagnostics) -> Self {
+    /// Assigns COB-IDs to the declared PDOs of all nodes: first those that the file, the descriptions and the predefined connection set
+    /// state, then free ones, then those of the TPDOs of other nodes.
+    pub fn new(nodes: &[DescribedNode<'_>], master: Option<&DeclaredMaster>, diagnostics: &mut Diagnostics) -> Self {
         let mut ids = CobIds(HashMap::new());
-        let mut free = FREE;
-        for (node, id, description) in nodes {
-            for declared in &node.pdos {
-                if let Some(cob_id) = own(declared, *id, description, &mut free, diagnostics) {
-                    ids.0.insert(key(node, declared), cob_id);
-                }
+        let all = || nodes.iter().flat_map(|node| node.declared.pdos.iter().map(move |declared| (node, declared)));
+        let mut without = Vec::new();
+        for (node, declared) in all() {
+            match own(node, declared) {
+                Some(cob_id) => drop(ids.0.insert(key(node, declared), cob_id)),
+                None => without.push((node, declared)),
             }
         }
-        for (node, _, _) in nodes {
-            for declared in &node.pdos {
-                let Some(At { value: DeclaredCobId::Of(sender, number), span }) = &declared.cob_id else { continue };
-                match ids.sent(sender, *number, nodes) {
-                    Some(cob_id) => drop(ids.0.insert(key(node, declared), cob_id)),
-                    None => {
-                        let names = nodes.iter().map(|(node, ..)| node.name.value.as_str());
-                        let message = format!("no node `{sender}` sends TPDO {number}");
-                        let found = Diagnostic::new(&codes::NO_SUCH_PDO, *span, message);
-                        diagnostics.push(match similar(sender, names) {
-                            Some(name) if name != sender => found.help(format!("write `{name}.tpdo{number}`")),
-                            _ => found.help(format!("declare TPDO {number} of `{sender}`")),
-                        });
-                    }
-                }
+        let used = ids.used(nodes, master);
+        let mut free = FREE.filter(|id| !used.contains(id));
+        let (of_others, automatic): (Vec<_>, Vec<_>) =
+            without.into_iter().partition(|(_, declared)| is_of_other(declared));
+        for (node, declared) in automatic {
+            match free.next() {
+                Some(id) => drop(ids.0.insert(key(node, declared), id | flags(node, declared))),
+                None => diagnostics.push(exhausted(declared)),
             }
+        }
+        for (node, declared) in of_others {
+            ids.receive(node, declared, nodes, diagnostics);
         }
         ids
+    }
+
+    /// Assigns the COB-ID of another node's TPDO to an RPDO.
+    fn receive(
+        &mut self,
+        node: &DescribedNode<'_>,
+        declared: &DeclaredPdo,
+        nodes: &[DescribedNode<'_>],
+        diagnostics: &mut Diagnostics,
+    ) {
+        let Some(At { value: DeclaredCobId::Of(sender, number), span }) = &declared.cob_id else { return };
+        if let Some(cob_id) = self.sent(sender, *number, nodes) {
+            self.0.insert(key(node, declared), cob_id);
+            return;
+        }
+        let found = Diagnostic::new(&codes::NO_SUCH_PDO, *span, format!("no node `{sender}` sends TPDO {number}"));
+        diagnostics.push(match similar(sender, nodes.iter().map(DescribedNode::name)) {
+            Some(name) if name != sender => found.help(format!("write `{name}.tpdo{number}`")),
+            _ => found.help(format!("declare TPDO {number} of `{sender}`")),
+        });
     }
 
     /// Returns the COB-ID of a declared PDO. A PDO without a valid COB-ID is disabled.
@@ -60,58 +76,88 @@ impl CobIds {
         self.0.get(&(node.to_owned(), direction, number)).copied().unwrap_or(DISABLED)
     }
 
-    /// Returns the COB-ID of a TPDO: the declared one, or that of the description.
-    fn sent(&self, node: &str, number: u16, nodes: &[(&DeclaredNode, u8, Rc<Description>)]) -> Option<u32> {
-        let declared = self.0.get(&(node.to_owned(), Direction::Transmit, number)).copied();
-        let described = || {
-            let (_, id, description) = nodes.iter().find(|(other, ..)| other.name.value == node)?;
-            pdo(description.device(), Direction::Transmit, number, *id).map(|pdo| pdo.cob_id)
-        };
+    /// Returns the COB-ID of a TPDO.
+    fn sent(&self, name: &str, number: u16, nodes: &[DescribedNode<'_>]) -> Option<u32> {
+        let node = nodes.iter().find(|node| node.name() == name)?;
+        let cob_id = self.last(node, Direction::Transmit, number).filter(|cob_id| cob_id & DISABLED == 0)?;
         // Flags of a TPDO have another meaning in an RPDO.
-        declared.or_else(described).filter(|cob_id| cob_id & DISABLED == 0).map(|cob_id| cob_id & 0x3FFF_FFFF)
+        Some(cob_id & 0x3FFF_FFFF)
+    }
+
+    /// Returns the COB-ID of a PDO after the configuration: that of `parameters`, the declared one, or that of the description.
+    fn last(&self, node: &DescribedNode<'_>, direction: Direction, number: u16) -> Option<u32> {
+        let values = node.values();
+        if node.declares(direction, number) && !values.is_set((communication_index(direction, number), 1)) {
+            return self.0.get(&(node.name().to_owned(), direction, number)).copied();
+        }
+        pdo(values, direction, number).map(|pdo| pdo.cob_id)
+    }
+
+    /// Returns the CAN-IDs that are in use: those of SYNC, TIME, EMCY, SDO and of PDOs.
+    fn used(&self, nodes: &[DescribedNode<'_>], master: Option<&DeclaredMaster>) -> HashSet<u32> {
+        let mut used = HashSet::from([0x80]);
+        used.extend(master.map(|master| can_id(master.time_cob_id)));
+        for node in nodes {
+            let pdos = pdos(node.values()).into_iter().filter_map(|pdo| self.last(node, pdo.direction, pdo.number));
+            let enabled = pdos.chain(services(node)).filter(|cob_id| cob_id & DISABLED == 0);
+            used.extend(enabled.map(can_id));
+        }
+        used
     }
 }
 
-fn key(node: &DeclaredNode, declared: &DeclaredPdo) -> Key {
-    (node.name.value.clone(), direction(declared), declared.number.value)
+fn key(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Key {
+    (node.name().to_owned(), direction(declared), declared.number.value)
 }
 
-/// Returns the COB-ID of a PDO that does not refer to another node: the declared one, that of the description, or an automatic one.
-fn own(
-    declared: &DeclaredPdo,
-    id: u8,
-    description: &Description,
-    free: &mut std::ops::Range<u32>,
-    diagnostics: &mut Diagnostics,
-) -> Option<u32> {
+/// Returns the COB-IDs of the services of a node except PDOs. Bit 31 is set if the service is disabled.
+fn services(node: &DescribedNode<'_>) -> Vec<u32> {
+    let values = node.values();
+    let time = node.declared.time_cob_id.as_ref().map(|time| time.value);
+    let consumed = [values.number((0x1005, 0)), values.number((0x1012, 0)), time];
+    // Bit 31 of TIME means that the node receives TIME.
+    let consumed = consumed.into_iter().flatten().map(|cob_id: u32| cob_id & !DISABLED);
+    let sdo = values.device.groups.iter().filter_map(Group::index).filter(|index| (0x1200..0x1300).contains(index));
+    let sdo = sdo.flat_map(|index| [1, 2].map(|sub_index| values.number((index, sub_index))));
+    consumed.chain(sdo.chain([values.number((0x1014, 0))]).flatten()).collect()
+}
+
+/// Returns the COB-ID of a PDO that does not depend on other PDOs: the declared one, that of the description, or that of the predefined
+/// connection set.
+fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let of_description = || {
-        let pdo = pdo(description.device(), direction(declared), declared.number.value, id)?;
+        let pdo = pdo(node.initial(), direction(declared), declared.number.value)?;
         (pdo.cob_id & DISABLED == 0 || !declared.enabled).then_some(pdo.cob_id)
     };
     match declared.cob_id.as_ref().map(|cob_id| &cob_id.value) {
         Some(DeclaredCobId::Number(cob_id)) => Some(*cob_id),
         Some(DeclaredCobId::Of(..)) => None,
-        Some(DeclaredCobId::Automatic) => automatic(declared, id, free, diagnostics),
-        None => of_description().or_else(|| automatic(declared, id, free, diagnostics)),
+        Some(DeclaredCobId::Automatic) => predefined(node, declared),
+        None => of_description().or_else(|| predefined(node, declared)),
     }
 }
 
-/// Returns the COB-ID of the predefined connection set for the first four PDOs, and otherwise the next free one.
-fn automatic(
-    declared: &DeclaredPdo,
-    id: u8,
-    free: &mut std::ops::Range<u32>,
-    diagnostics: &mut Diagnostics,
-) -> Option<u32> {
+/// Returns the COB-ID of the predefined connection set, which has CAN-IDs for the first four PDOs.
+fn predefined(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let first = if declared.is_tpdo { 0x80 } else { 0x100 };
-    if let number @ 1..=4 = declared.number.value {
-        return Some(u32::from(number) * 0x100 + first + u32::from(id));
+    let number = Some(declared.number.value).filter(|number| (1..=4).contains(number))?;
+    Some((u32::from(number) * 0x100 + first + u32::from(node.id)) | flags(node, declared))
+}
+
+/// Returns the flags that an automatic COB-ID takes from the description: a device that does not answer RTR can refuse a COB-ID without
+/// this bit (CiA 301 7.5.2.37).
+fn flags(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> u32 {
+    match pdo(node.initial(), direction(declared), declared.number.value) {
+        Some(pdo) if declared.is_tpdo => pdo.cob_id & NO_RTR,
+        _ => 0,
     }
-    let next = free.next();
-    if next.is_none() {
-        let message = format!("no CAN-ID from 0x{:X} to 0x{:X} is free", FREE.start, FREE.end - 1);
-        let found = Diagnostic::new(&codes::COB_ID_CONFLICT, declared.number.span, message);
-        diagnostics.push(found.help("declare `cob_id`"));
-    }
-    next
+}
+
+fn is_of_other(declared: &DeclaredPdo) -> bool {
+    matches!(&declared.cob_id, Some(At { value: DeclaredCobId::Of(..), .. }))
+}
+
+fn exhausted(declared: &DeclaredPdo) -> Diagnostic {
+    let message = format!("no CAN-ID from 0x{:X} to 0x{:X} is free", FREE.start, FREE.end - 1);
+    Diagnostic::new(&codes::COB_ID_CONFLICT, declared.number.span, message).help("declare `cob_id`")
 }

@@ -47,8 +47,9 @@ type Entries = Vec<(u8, u32)>;
 fn entries(node: &NetworkNode) -> (Entries, Entries) {
     let items = node.device().object(0x1016).into_iter().flat_map(|group| &group.items);
     let subs = items.filter_map(|item| Some(item.object()?.1)).filter(|sub_index| *sub_index > 0);
-    let value = |sub_index| node.value((0x1016, sub_index)).unwrap_or(0) as u32;
-    subs.map(|sub_index| (sub_index, value(sub_index))).partition(|(sub_index, _)| node.sets((0x1016, *sub_index)))
+    let values = node.values();
+    let value = |sub_index| values.number((0x1016, sub_index)).unwrap_or(0);
+    subs.map(|sub_index| (sub_index, value(sub_index))).partition(|(sub_index, _)| values.is_set((0x1016, *sub_index)))
 }
 
 /// Returns the entry that monitors the master, or the first unused entry.

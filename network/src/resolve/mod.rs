@@ -1,11 +1,12 @@
 //! Declared network → network: reads descriptions, looks up objects, and computes the values to write.
 
 mod cob_ids;
-mod described;
+mod described_node;
 mod heartbeat;
 mod node;
 mod object;
 mod pdo;
+mod pdo_values;
 mod run;
 mod value;
 mod versions;

@@ -1,21 +1,21 @@
 //! Resolves one node: the values that configure it, in the order in which they are written.
 
-use std::rc::Rc;
-
 use lexibus_codegen::diagnostics::Diagnostics;
 use lexibus_codegen::facts::configuration::{Configuration, Setting};
 use lexibus_codegen::ir::Device;
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
-use super::described::initial;
+use super::described_node::DescribedNode;
 use super::pdo;
+use super::pdo_values::{configured, report_multiplexed};
 use super::versions;
 use super::writer::Writer;
 use crate::declared::DeclaredNode;
 use crate::description::{expanded, Description};
-use crate::model::{NetworkNode, Write, DISABLED};
+use crate::model::{file_stem, NetworkNode, Write, DISABLED};
 use crate::syntax::At;
+use crate::values::Values;
 
 /// Default COB-ID of EMCY without the node-ID (CiA 301 7.5.2.17).
 const EMCY: u32 = 0x80;
@@ -24,16 +24,53 @@ const EMCY: u32 = 0x80;
 ///
 /// The order of the writes is that of `dcfgen`: heartbeat consumer, TIME, heartbeat producer, node guarding, error behavior, RPDOs,
 /// TPDOs, and all other values in the order of the file.
-pub(super) fn resolve(
+pub(super) fn resolve(node: DescribedNode<'_>, cob_ids: &CobIds, diagnostics: &mut Diagnostics) -> NetworkNode {
+    let DescribedNode { declared, id, description, parameters } = node;
+    let writes = writes(declared, id, &description, cob_ids, parameters, diagnostics);
+    let values = Values { device: description.device(), id, writes: &writes };
+    let versions = versions::resolve(values.device, declared, diagnostics);
+    let pdos = configured(declared, values);
+    report_multiplexed(declared, &pdos, values, diagnostics);
+    let guard_time = values.number((0x100C, 0)).unwrap_or(0);
+    let heartbeat_at = declared.heartbeat.as_ref().map_or(Span::MISSING, |heartbeat| heartbeat.span);
+    NetworkNode {
+        name: declared.name.clone(),
+        id,
+        upload_file: upload_file(declared),
+        software_file: declared.software_file.as_ref().map_or(String::new(), |file| file.value.clone()),
+        software_version: declared.software_version,
+        versions,
+        device_type: values.number((0x1000, 0)).unwrap_or(0),
+        identity: identity(declared, values),
+        emcy_cob_id: match values.device.entry(0x1014, 0) {
+            Some(_) => values.number((0x1014, 0)).unwrap_or(EMCY + u32::from(id)),
+            None => DISABLED,
+        },
+        heartbeat: At::new(values.number((0x1017, 0)).unwrap_or(0), values.set_at((0x1017, 0)).or(heartbeat_at)),
+        heartbeat_multiplier: declared.heartbeat_multiplier.clone(),
+        guard_time,
+        life_time_factor: values.number((0x100D, 0)).unwrap_or(0),
+        pdos,
+        assignment: assignment(declared, guard_time),
+        restore: declared.restore,
+        store: declared.store,
+        writes,
+        description,
+    }
+}
+
+/// Returns all values that configure a node, except heartbeat consumers. Other nodes and the master use the last value of an object.
+fn writes(
     declared: &DeclaredNode,
     id: u8,
-    description: Rc<Description>,
+    description: &Description,
     cob_ids: &CobIds,
+    parameters: Vec<Write>,
     diagnostics: &mut Diagnostics,
-) -> NetworkNode {
+) -> Vec<Write> {
     let device = description.device();
-    let mut writer = Writer { device, id, writes: Vec::new(), diagnostics };
-    let initial = |object| initial(device, object, id);
+    let writes = if declared.is_description_written { described(device, id) } else { Vec::new() };
+    let mut writer = Writer { device, id, writes, diagnostics };
     writer.change((0x1012, 0), declared.time_cob_id.as_ref());
     writer.change((0x1017, 0), declared.heartbeat.as_ref());
     writer.change((0x100C, 0), declared.guard_time.as_ref());
@@ -42,45 +79,16 @@ pub(super) fn resolve(
         let (sub_index, value) = behavior.value;
         writer.change((0x1029, sub_index), Some(&At::new(value, behavior.span)));
     }
-    let pdos = pdo::resolve(declared, cob_ids, &mut writer);
-    declared.parameters.iter().for_each(|parameter| writer.parameter(parameter));
-    let mut writes = if declared.is_description_written { described(device, id) } else { Vec::new() };
-    writes.append(&mut writer.writes);
-    let versions = versions::resolve(device, declared, writer.diagnostics);
-    let heartbeat = declared.heartbeat.clone();
-    let of_description =
-        At::new(initial((0x1017, 0)).and_then(|time| u16::try_from(time).ok()).unwrap_or(0), Span::MISSING);
-    let mut node = NetworkNode {
-        name: declared.name.clone(),
-        id,
-        upload_file: String::new(),
-        software_file: declared.software_file.as_ref().map_or(String::new(), |file| file.value.clone()),
-        software_version: declared.software_version,
-        versions,
-        device_type: number(initial((0x1000, 0))),
-        identity: identity(device, declared, id),
-        emcy_cob_id: match device.entry(0x1014, 0) {
-            Some(_) => initial((0x1014, 0)).map_or(EMCY + u32::from(id), |cob_id| cob_id as u32),
-            None => DISABLED,
-        },
-        heartbeat: heartbeat.unwrap_or(of_description),
-        heartbeat_multiplier: declared.heartbeat_multiplier.clone(),
-        guard_time: 0,
-        life_time_factor: 0,
-        pdos,
-        writes,
-        assignment: 0,
-        restore: declared.restore,
-        store: declared.store,
-        description: Rc::clone(&description),
-    };
-    node.guard_time = node.value((0x100C, 0)).and_then(|time| u16::try_from(time).ok()).unwrap_or(0);
-    node.life_time_factor = node.value((0x100D, 0)).and_then(|factor| u8::try_from(factor).ok()).unwrap_or(0);
-    node.assignment = assignment(declared, &node);
+    pdo::write(declared, cob_ids, &mut writer);
+    writer.writes.extend(parameters);
+    writer.writes
+}
+
+/// Returns the path of the node's concise DCF, as the master finds it.
+fn upload_file(declared: &DeclaredNode) -> String {
     let folder = declared.upload_folder.as_ref().map(|folder| expanded(&folder.value, &mut Vec::new()));
-    let file = format!("{}.bin", node.file_stem());
-    node.upload_file = folder.unwrap_or_default().join(file).to_string_lossy().into_owned();
-    node
+    let file = format!("{}.bin", file_stem(&declared.name.value));
+    folder.unwrap_or_default().join(file).to_string_lossy().into_owned()
 }
 
 /// Returns the writes of the values that the description configures.
@@ -101,14 +109,10 @@ fn described(device: &Device, id: u8) -> Vec<Write> {
     settings.map(write).collect()
 }
 
-fn number(value: Option<i128>) -> u32 {
-    value.and_then(|value| u32::try_from(value).ok()).unwrap_or(0)
-}
-
 /// Returns the expected identity. Numbers in the header of the description take precedence over the object 0x1018.
-fn identity(device: &Device, declared: &DeclaredNode, id: u8) -> [u32; 4] {
-    let of_object = |sub_index| number(initial(device, (0x1018, sub_index), id));
-    let header = &device.identity;
+fn identity(declared: &DeclaredNode, values: Values<'_>) -> [u32; 4] {
+    let of_object = |sub_index| values.number((0x1018, sub_index)).unwrap_or(0);
+    let header = &values.device.identity;
     [
         header.vendor_id.unwrap_or_else(|| of_object(1)),
         header.product_code.unwrap_or_else(|| of_object(2)),
@@ -118,7 +122,7 @@ fn identity(device: &Device, declared: &DeclaredNode, id: u8) -> [u32; 4] {
 }
 
 /// Returns the bits of the node in 0x1F81 (CiA 302-2).
-fn assignment(declared: &DeclaredNode, node: &NetworkNode) -> u32 {
+fn assignment(declared: &DeclaredNode, guard_time: u16) -> u32 {
     let flags = [
         (declared.boot, 0x04),
         (declared.mandatory, 0x08),
@@ -128,5 +132,5 @@ fn assignment(declared: &DeclaredNode, node: &NetworkNode) -> u32 {
         (declared.restore != 0, 0x80),
     ];
     let bits = flags.iter().filter(|(is_set, _)| *is_set).fold(1, |bits, (_, bit)| bits | bit);
-    bits | u32::from(declared.retry_factor) << 8 | u32::from(node.guard_time) << 16
+    bits | u32::from(declared.retry_factor) << 8 | u32::from(guard_time) << 16
 }

@@ -1,4 +1,4 @@
-//! Resolves the PDOs of a node, and the values that configure them (CiA 301 7.5.2.35 to 7.5.2.38).
+//! Writes the values that configure the PDOs of a node (CiA 301 7.5.2.35 to 7.5.2.38).
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
 use lexibus_codegen::facts::number::hex16;
@@ -7,48 +7,23 @@ use lexibus_codegen::ir::{CanOpenSettings, Direction, Type};
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
-use super::described::{described, direction, initial, multiplexed_name};
 use super::object::find;
+use super::pdo_values::{direction, pdos};
 use super::writer::{title, Writer};
 use crate::declared::{DeclaredNode, DeclaredPdo, ObjectName};
 use crate::model::{MappedObject, NetworkPdo, DISABLED};
 use crate::syntax::At;
 
-/// Maximum length of a PDO on CAN in bits.
-const MAX_BITS: u32 = 64;
-
-/// Resolves all PDOs of a node, and writes those that the file declares.
-pub(super) fn resolve(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer<'_>) -> Vec<NetworkPdo> {
-    let mut pdos: Vec<NetworkPdo> = [Direction::Receive, Direction::Transmit]
-        .into_iter()
-        .flat_map(|direction| described(writer.device, direction, writer.id))
-        .collect();
+/// Writes the PDOs that the file declares.
+pub(super) fn write(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer<'_>) {
+    let pdos = pdos(writer.initial());
     for declared in &node.pdos {
         let (direction, number) = (direction(declared), declared.number.value);
-        match pdos.iter_mut().find(|pdo| pdo.direction == direction && pdo.number == number) {
+        match pdos.iter().find(|pdo| pdo.direction == direction && pdo.number == number) {
             Some(pdo) => configure(pdo, declared, cob_ids.of(&node.name.value, direction, number), writer),
             None => missing(declared, &pdos, writer),
         }
     }
-    for pdo in &mut pdos {
-        pdo.is_enabled = pdo.cob_id & DISABLED == 0 && !pdo.entries.is_empty();
-        if pdo.cob_id & DISABLED == 0 && pdo.entries.is_empty() {
-            multiplexed(pdo, node, writer);
-        }
-    }
-    pdos
-}
-
-/// Reports a multiplexed PDO, which the output files do not contain.
-fn multiplexed(pdo: &NetworkPdo, node: &DeclaredNode, writer: &mut Writer<'_>) {
-    let count = initial(writer.device, (pdo.index() + 0x200, 0), writer.id);
-    let Some(name) = count.and_then(multiplexed_name) else { return };
-    let message =
-        format!("{} of `{}` is multiplexed ({name}), so the network leaves it out", pdo.title(), node.name.value);
-    let found = Diagnostic::new(&codes::MULTIPLEXED_NETWORK_PDO, pdo.span.or(node.name.span), message);
-    let kind = if pdo.direction == Direction::Transmit { "tpdo" } else { "rpdo" };
-    let help = format!("declare `map` in `{kind}.{}`, or disable the PDO with `enabled = false`", pdo.number);
-    writer.diagnostics.push(found.help(help));
 }
 
 fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>) {
@@ -65,14 +40,12 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
 
 /// Applies the declaration of a PDO, and writes the changed values: disable the PDO, set the parameters, clear the mapping, write the
 /// mapping, enable the PDO.
-fn configure(pdo: &mut NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
+fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
     let index = pdo.index();
     let span = declared.cob_id.as_ref().map_or(declared.number.span, |cob_id| cob_id.span);
-    (pdo.span, pdo.cob_id_at) = (declared.number.span, span);
     if pdo.cob_id != cob_id | DISABLED {
         writer.write((index, 1), cob_id | DISABLED, span);
     }
-    pdo.cob_id = cob_id;
     if cob_id & DISABLED != 0 {
         return;
     }
@@ -82,40 +55,29 @@ fn configure(pdo: &mut NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: 
     }
     if declared.enabled {
         writer.write((index, 1), cob_id, span);
-    } else {
-        pdo.cob_id |= DISABLED;
     }
 }
 
-/// Writes transmission type and timers that differ from the description. Timers of the other side of an RPDO or TPDO belong to the
+/// Writes transmission type and timers that differ from the description or that it does not state. Timers of the other side of an RPDO or TPDO belong to the
 /// master, and are not written to the node.
-fn parameters(pdo: &mut NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
-    fn change<T: Copy + Into<i128>>(
-        current: &mut T,
-        given: &Option<At<T>>,
-        object: Option<(u16, u8)>,
-        writer: &mut Writer<'_>,
-    ) {
-        let Some(given) = given else { return };
-        *current = given.value;
-        if let Some(object) = object {
-            writer.change(object, Some(given));
+fn parameters(pdo: &NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
+    let index = pdo.index();
+    writer.change((index, 2), declared.transmission.as_ref());
+    match pdo.direction {
+        Direction::Transmit => {
+            writer.change((index, 3), declared.inhibit_time.as_ref());
+            writer.change((index, 5), declared.event_timer.as_ref());
+            writer.change((index, 6), declared.sync_start.as_ref());
         }
+        Direction::Receive => writer.change((index, 5), declared.event_deadline.as_ref()),
     }
-    let (index, pdo_direction) = (pdo.index(), pdo.direction);
-    let of = |direction, sub_index| (pdo_direction == direction).then_some((index, sub_index));
-    change(&mut pdo.transmission, &declared.transmission, Some((index, 2)), writer);
-    change(&mut pdo.inhibit_time, &declared.inhibit_time, of(Direction::Transmit, 3), writer);
-    change(&mut pdo.event_timer, &declared.event_timer, of(Direction::Transmit, 5), writer);
-    change(&mut pdo.event_deadline, &declared.event_deadline, of(Direction::Receive, 5), writer);
-    change(&mut pdo.sync_start, &declared.sync_start, of(Direction::Transmit, 6), writer);
 }
 
-fn write_mapping(pdo: &mut NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &mut Writer<'_>) {
+fn write_mapping(pdo: &NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &mut Writer<'_>) {
     let index = pdo.index() + 0x200;
     let entries: Vec<(MappedObject, Span)> =
         objects.value.iter().filter_map(|object| Some((mapped(pdo.direction, object, writer)?, object.span))).collect();
-    let is_empty = initial(writer.device, (index, 0), writer.id).is_none_or(|count| count == 0);
+    let is_empty = writer.initial().get((index, 0)).is_none_or(|count| count == 0);
     if !is_empty || !entries.is_empty() {
         writer.write((index, 0), 0, objects.span);
     }
@@ -126,12 +88,6 @@ fn write_mapping(pdo: &mut NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer
     }
     if !entries.is_empty() {
         writer.write((index, 0), entries.len() as i128, objects.span);
-    }
-    pdo.entries = entries.into_iter().map(|(entry, _)| entry).collect();
-    if pdo.bits() > MAX_BITS {
-        let message = format!("{} maps {} bits, but a PDO has at most {MAX_BITS}", pdo.title(), pdo.bits());
-        let found = Diagnostic::new(&codes::PDO_LENGTH, objects.span, message);
-        writer.diagnostics.push(found.help("move objects to another PDO"));
     }
 }
 

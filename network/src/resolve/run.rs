@@ -1,15 +1,15 @@
 //! Resolves all nodes.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::source::{FileId, Source, Span};
 
 use super::cob_ids::CobIds;
+use super::described_node::DescribedNode;
 use super::{heartbeat, node};
 use crate::declared::{DeclaredNetwork, DeclaredNode};
-use crate::description::{Description, Descriptions};
+use crate::description::Descriptions;
 use crate::model::{file_stem, Network};
 
 /// Default bit rate in kbit/s, as in `dcfgen`.
@@ -21,20 +21,15 @@ pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Dia
     let mut repeated = check_node_ids(&declared, diagnostics);
     repeated.extend(check_names(&declared, diagnostics));
     let mut descriptions = Descriptions::new(source);
-    let nodes: Vec<(&DeclaredNode, u8, Rc<Description>)> = declared
-        .nodes
-        .iter()
-        .filter(|node| !repeated.contains(&node.name.span))
-        .filter_map(|node| {
-            let description = descriptions.of(node, diagnostics);
-            Some((node, node.node_id.as_ref()?.value, description?))
-        })
-        .collect();
-    let cob_ids = CobIds::new(&nodes, diagnostics);
-    let mut resolved = Vec::new();
-    for (node, id, description) in nodes {
-        resolved.push(node::resolve(node, id, description, &cob_ids, diagnostics));
+    let mut nodes = Vec::new();
+    for node in declared.nodes.iter().filter(|node| !repeated.contains(&node.name.span)) {
+        let description = descriptions.of(node, diagnostics);
+        if let (Some(id), Some(description)) = (&node.node_id, description) {
+            nodes.push(DescribedNode::new(node, id.value, description, diagnostics));
+        }
     }
+    let cob_ids = CobIds::new(&nodes, declared.master.as_ref(), diagnostics);
+    let resolved = nodes.into_iter().map(|node| node::resolve(node, &cob_ids, diagnostics)).collect();
     let mut network = Network {
         name: declared.name.map_or(String::new(), |name| name.value),
         bit_rate: declared.bit_rate.as_ref().map_or(BIT_RATE, |rate| rate.value),

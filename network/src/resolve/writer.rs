@@ -5,12 +5,12 @@ use lexibus_codegen::facts::encoding;
 use lexibus_codegen::ir::{Bus, Device, Item, Value};
 use lexibus_codegen::source::Span;
 
-use super::described::initial;
 use super::object::{address, find};
 use super::value::{basic_type, broken_limit, convert};
 use crate::declared::{DeclaredParameter, ObjectName};
 use crate::model::Write;
 use crate::syntax::{At, Scalar};
+use crate::values::Values;
 
 /// Collects the values that are written to a node.
 pub(super) struct Writer<'a> {
@@ -21,11 +21,16 @@ pub(super) struct Writer<'a> {
 }
 
 impl Writer<'_> {
+    /// Returns the initial values of all objects.
+    pub fn initial(&self) -> Values<'_> {
+        Values { device: self.device, id: self.id, writes: &[] }
+    }
+
     /// Writes a number if it differs from the initial value.
     pub fn change<T: Copy + Into<i128>>(&mut self, object: (u16, u8), value: Option<&At<T>>) {
         let Some(value) = value else { return };
         let number: i128 = value.value.into();
-        if initial(self.device, object, self.id) != Some(number) {
+        if self.initial().get(object) != Some(number) {
             self.write(object, number, value.span);
         }
     }

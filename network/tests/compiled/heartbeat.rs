@@ -19,7 +19,7 @@ fn the_time_for_the_master_replaces_that_of_a_dcf() {
         compiled("heartbeat-dcf", &[("axis.dcf", dcf.clone()), ("network.toml", network("heartbeat_consumer = true"))]);
     let axis = node(valid(&compilation), "axis");
     assert_eq!(written(axis, CONSUMER), [127 << 16 | 50, OF_MASTER]);
-    assert_eq!(axis.value(CONSUMER), Some(OF_MASTER.into()));
+    assert_eq!(axis.values().get(CONSUMER), Some(OF_MASTER.into()));
     // Without `heartbeat_consumer`, the node does not monitor the master.
     let compilation = compiled("heartbeat-dcf-off", &[("axis.dcf", dcf), ("network.toml", network(""))]);
     assert_eq!(written(node(valid(&compilation), "axis"), CONSUMER).last(), Some(&(127 << 16)));

@@ -17,8 +17,9 @@ use lexibus_codegen::diagnostics::{Level, Levels};
 use lexibus_codegen::ir::Direction;
 use lexibus_codegen::source::Source;
 use lexibus_network::compile::{compile, Compilation};
-use lexibus_network::model::{Network, NetworkNode, NetworkPdo};
+use lexibus_network::model::{Network, NetworkNode, NetworkPdo, NO_RTR};
 use lexibus_network::output::files;
+use lexibus_network::values::Values;
 use networks::{network, Model};
 use random::Random;
 use serde::Deserialize;
@@ -99,21 +100,59 @@ fn reason(difference: &str, network: &Network) -> Option<&'static str> {
             "0x1014 has no default value: dcfgen expects EMCY with CAN-ID 0, Lexibus with the default of CiA 301",
         );
     }
+    if let Some((object, values)) = difference.split_once(": lexibus ") {
+        let number = |text: &str| text.rsplit_once(", ")?.1.trim_end_matches(')').parse::<u32>().ok();
+        let (ours, theirs) = values.split_once(", dcfgen ")?;
+        let is_flag = number(ours)? == number(theirs)? | NO_RTR;
+        return (object.contains("TPDO") && object.ends_with("communication:1") && is_flag).then_some(RTR);
+    }
     let (name, entries) = difference.split_once(".bin: ")?;
     let node = network.nodes.iter().find(|node| node.name.value == name)?;
-    let is_unknown_zero = |entry: &str| {
-        let write = entry.strip_prefix("only lexibus ").and_then(|entry| entry.split_once(" = "));
-        write.is_some_and(|(object, value)| {
-            let (index, sub_index) = object.split_once(':').expect("an address");
-            let index = u16::from_str_radix(index.trim_start_matches("0x"), 16).expect("an index");
-            let item = node.item((index, sub_index.parse().expect("a sub-index")));
-            value.bytes().all(|digit| digit == b'0') && item.is_some_and(|item| item.initial().is_none())
-        })
-    };
-    entries
-        .split("; ")
-        .all(is_unknown_zero)
-        .then_some("the object has no default value: dcfgen assumes that it is 0, Lexibus writes 0")
+    let entries: Vec<Entry> = entries.split("; ").map(Entry::read).collect::<Option<_>>()?;
+    let reasons: Vec<&str> = entries.iter().map(|entry| entry.reason(&entries, node)).collect::<Option<_>>()?;
+    reasons.into_iter().max()
+}
+
+const RTR: &str = "dcfgen removes bit 30 of the description from an automatic COB-ID, Lexibus keeps it";
+
+const ZERO: &str = "the object has no default value: dcfgen assumes that it is 0, Lexibus writes 0";
+
+/// An entry of a concise DCF that only one program writes: `only lexibus 0x1017:0 = 0000`.
+#[derive(Debug, PartialEq)]
+struct Entry {
+    is_ours: bool,
+    object: (u16, u8),
+    value: u64,
+}
+
+impl Entry {
+    fn read(text: &str) -> Option<Self> {
+        let (who, rest) = text.strip_prefix("only ")?.split_once(' ')?;
+        let (object, value) = rest.split_once(" = ")?;
+        let (index, sub_index) = object.split_once(':')?;
+        let index = u16::from_str_radix(index.trim_start_matches("0x"), 16).ok()?;
+        let value = u64::from_str_radix(value, 16).ok()?.swap_bytes() >> (64 - 4 * value.len());
+        Some(Entry { is_ours: who == "lexibus", object: (index, sub_index.parse().ok()?), value })
+    }
+
+    /// Returns the reason why only one program writes the entry.
+    fn reason(&self, entries: &[Entry], node: &NetworkNode) -> Option<&'static str> {
+        let other = Entry { is_ours: !self.is_ours, value: self.value ^ u64::from(NO_RTR), ..*self };
+        // Lexibus does not write a value that the description states.
+        let is_described = || !self.is_ours && initial(node, self.object) == Some(other.value.into());
+        let is_automatic = matches!(self.object, (0x1800..=0x19FF, 1));
+        let is_flag = (self.value & u64::from(NO_RTR) != 0) == self.is_ours;
+        if is_automatic && is_flag && (entries.contains(&other) || is_described()) {
+            return Some(RTR);
+        }
+        let is_zero = self.is_ours && self.value == 0;
+        (is_zero && node.item(self.object).is_some_and(|item| item.initial().is_none())).then_some(ZERO)
+    }
+}
+
+/// Returns the value of an object in the description of a node.
+fn initial(node: &NetworkNode, object: (u16, u8)) -> Option<i128> {
+    Values { writes: &[], ..node.values() }.get(object)
 }
 
 /// Returns the reason why only `dcfgen` exchanges a PDO: `RPDO 3 of node 92`.

@@ -1,0 +1,41 @@
+//! Values of the objects of a device after its configuration.
+
+use lexibus_codegen::ir::Device;
+use lexibus_codegen::source::Span;
+
+use crate::model::Write;
+
+/// Values of the objects of a device: the last value that is written, or else the initial value of the description.
+#[derive(Clone, Copy, Debug)]
+pub struct Values<'a> {
+    /// The device.
+    pub device: &'a Device,
+    /// Node-ID, for values that depend on it.
+    pub id: u8,
+    /// Values that are written, in their order.
+    pub writes: &'a [Write],
+}
+
+impl Values<'_> {
+    /// Returns the value of an object. Values that the description configures are its initial values.
+    pub fn get(&self, object: (u16, u8)) -> Option<i128> {
+        let last = self.writes.iter().rev().find(|write| write.object == object);
+        let written = last.and_then(|write| write.value.as_ref());
+        written.or_else(|| self.device.entry(object.0, object.1)?.initial())?.resolved(self.id).as_int()
+    }
+
+    /// Returns the value of an object as an unsigned number. Returns `None` for a value that does not fit, too.
+    pub fn number<T: TryFrom<i128>>(&self, object: (u16, u8)) -> Option<T> {
+        self.get(object).and_then(|value| T::try_from(value).ok())
+    }
+
+    /// Returns whether the network file sets an object.
+    pub fn is_set(&self, object: (u16, u8)) -> bool {
+        self.writes.iter().any(|write| write.object == object && write.value.is_some())
+    }
+
+    /// Returns the location of the last value of an object in the network file; empty if the file does not set the object.
+    pub fn set_at(&self, object: (u16, u8)) -> Span {
+        self.writes.iter().rev().find(|write| write.object == object).map_or(Span::MISSING, |write| write.span)
+    }
+}

@@ -1,0 +1,101 @@
+//! COB-IDs that the compiler chooses.
+
+use crate::support::{compiled, example_file, messages, node, valid, written};
+
+/// Returns the description of a drive with TPDO 5 instead of TPDO 2.
+fn drive_with_tpdo_5() -> String {
+    let drive = example_file("drive.eds");
+    [("[1801", "[1804"), ("[1A01", "[1A04"), ("=0x1801", "=0x1804"), ("=0x1A01", "=0x1A04")]
+        .into_iter()
+        .fold(drive, |drive, (old, new)| drive.replace(old, new))
+}
+
+#[test]
+fn automatic_cob_ids_keep_the_rtr_bit_of_a_tpdo() {
+    let drive = example_file("drive.eds")
+        .replace("$NODEID+0x180", "$NODEID+0x40000180")
+        .replace("$NODEID+0x80000280", "$NODEID+0xC0000280")
+        .replace("$NODEID+0x80000300", "$NODEID+0xC0000300");
+    let text = r#"
+[master]
+id = 127
+
+[nodes.axis1]
+id = 1
+device = "drive.eds"
+tpdo = { 1 = { cob_id = "auto" }, 2 = { map = ["Position actual value"] } }
+rpdo = { 2 = { map = ["Target position"] } }
+
+[nodes.axis2]
+id = 2
+device = "drive.eds"
+rpdo = { 2 = { cob_id = "axis1.tpdo2", map = ["Target position"] } }
+"#;
+    let compilation = compiled("cob-ids-rtr", &[("drive.eds", drive), ("network.toml", text.to_owned())]);
+    let network = valid(&compilation);
+    let axis1 = node(network, "axis1");
+    assert_eq!(written(axis1, (0x1800, 1)), [0xC000_0181, 0x4000_0181]);
+    assert_eq!(written(axis1, (0x1801, 1)), [0x4000_0281]);
+    assert_eq!(written(axis1, (0x1401, 1)), [0x8000_0301, 0x301], "bit 30 of an RPDO has no meaning");
+    assert_eq!(written(node(network, "axis2"), (0x1401, 1)).last(), Some(&0x281));
+}
+
+#[test]
+fn automatic_cob_ids_are_not_in_use() {
+    let text = r#"
+[master]
+id = 127
+time_cob_id = 0x680
+
+[nodes.axis1]
+id = 1
+device = "drive.eds"
+tpdo = { 5 = { map = ["Position actual value"] } }
+rpdo = { 1 = { cob_id = "axis3.tpdo5" } }
+
+[nodes.axis2]
+id = 2
+device = "drive.eds"
+tpdo = { 1 = { cob_id = 0x681 } }
+parameters = { "0x1014" = 0x682, "0x1400:1" = 0x683 }
+
+[nodes.axis3]
+id = 3
+device = "other.eds"
+tpdo = { 5 = { cob_id = "auto", map = ["Position actual value"] } }
+"#;
+    let drive = drive_with_tpdo_5();
+    // TPDO 1 of the other drive is enabled, and RPDO 2 is disabled.
+    let other = drive.replace("$NODEID+0x180", "$NODEID+0x681").replace("$NODEID+0x80000300", "0x80000685");
+    let compilation =
+        compiled("cob-ids-free", &[("drive.eds", drive), ("other.eds", other), ("network.toml", text.to_owned())]);
+    let network = valid(&compilation);
+    assert_eq!(written(node(network, "axis1"), (0x1804, 1)).last(), Some(&0x685));
+    assert_eq!(written(node(network, "axis3"), (0x1804, 1)).last(), Some(&0x686));
+    assert_eq!(written(node(network, "axis1"), (0x1400, 1)).last(), Some(&0x686));
+}
+
+#[test]
+fn receivers_use_the_cob_id_that_parameters_set() {
+    let text = r#"
+[master]
+id = 127
+
+[nodes.axis1]
+id = 1
+device = "drive.eds"
+tpdo = { 1 = { map = ["Position actual value"] } }
+parameters = { "0x1800:1" = 0x1C1 }
+
+[nodes.axis2]
+id = 2
+device = "drive.eds"
+rpdo = { 1 = { cob_id = "axis1.tpdo1", map = ["Target position"] } }
+"#;
+    let files = |text: String| [("drive.eds", example_file("drive.eds")), ("network.toml", text)];
+    let compilation = compiled("cob-ids-parameters", &files(text.to_owned()));
+    assert_eq!(written(node(valid(&compilation), "axis2"), (0x1400, 1)).last(), Some(&0x1C1));
+    let disabled = text.replace("0x1C1", "0x800001C1");
+    let compilation = compiled("cob-ids-disabled", &files(disabled));
+    assert_eq!(messages(&compilation), ["NET015 no node `axis1` sends TPDO 1"]);
+}
