@@ -57,7 +57,8 @@ pub struct Configuration {
     pub pdo_parameters: &'static [Setting],
     /// COB-IDs of the PDOs that the configuration enables at the end.
     pub enable_pdos: &'static [Setting],
-    /// Values of a node of a network file, of all kinds, in the order of the concise DCF of the node.
+    /// Values of a node of a network file, of all kinds, in the order of the concise DCF of the node. None of them is
+    /// marked as equal to the default.
     pub network: &'static [Setting],
     /// True if the configuration leaves out values that are equal to the default value in the description. See
     /// [`without_defaults`](Self::without_defaults).

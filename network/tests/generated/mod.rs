@@ -21,7 +21,7 @@ pub fn run(name: &str, files: &[(String, String)], arguments: &[&Path]) -> Strin
     // Use the dependency versions of the workspace, so that nothing is downloaded.
     std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
     let output = Command::new(env!("CARGO"))
-        .args(["run", "--quiet", "--offline", "--"])
+        .args(["run", "--quiet", "--"])
         .args(arguments)
         .current_dir(&folder)
         // Share the target folder with the drive crates of other tests, because they have the same dependencies.
