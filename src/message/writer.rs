@@ -28,7 +28,7 @@ pub enum WriteError {
     /// A length is wrong: the data are longer than the buffer or than the protocol allows, a value doesn't have the
     /// length of its type, or the request is too short for the reply.
     Length(LengthError),
-    /// The parameter doesn't exist, or the protocol has no message that reads or writes the parameter.
+    /// The parameter doesn't exist, or the protocol has no message for this access to the parameter.
     NoMessage,
 }
 

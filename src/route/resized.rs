@@ -1,4 +1,4 @@
-//! Items whose value has a different width on a bus.
+//! Routes of integers whose width on the bus differs from the width of the item.
 
 use super::{ReadRoute, Route, WriteRoute};
 use crate::bus::{Bus, Object};

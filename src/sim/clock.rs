@@ -4,7 +4,8 @@ use core::time::Duration;
 use std::time::Instant;
 
 /// Duration of one step of the simulation. The simulation advances in whole steps, and the remaining time is added to
-/// the next advance. The result therefore doesn't depend on how a test divides the time.
+/// the next advance. The result therefore doesn't depend on how many calls of `Device::step` a test uses to advance
+/// the time.
 pub(super) const STEP: Duration = Duration::from_millis(1);
 
 /// Selects whether client accesses advance the simulated time, in addition to `Device::step`.

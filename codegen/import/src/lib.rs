@@ -104,7 +104,7 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
         diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message).label("read as part of the text"));
     }
     if !columns.has_address() {
-        let message = "no line contains the title of an address column";
+        let message = "no line contains the titles of an address column and of another column";
         let help = "use titles such as Name, Address, Type and Access, or name the address column with `--map reg=#2`";
         diagnostics.push(Diagnostic::new(&codes::CSV_NO_COLUMNS, Span::new(FILE, 0, 0), message).help(help));
         return None;

@@ -26,7 +26,7 @@ fn bounds(group: &Group, record: &Record, diagnostics: &mut Diagnostics) {
         let Some((offset, bits)) = bits_of(item) else { continue };
         let end = (offset + bits).div_ceil(8);
         if end > length {
-            let message = format!("the parameter ends at byte {end}, but the record has {length} bytes");
+            let message = format!("the parameter needs a record of {end} bytes, but the record has {length} bytes");
             let found = codes::RECORD_BOUNDS.at(item.origin.span, message).label("kept unchanged");
             diagnostics.push(found.note_at(group.origin.span, "the record"));
         }
@@ -34,7 +34,7 @@ fn bounds(group: &Group, record: &Record, diagnostics: &mut Diagnostics) {
     for (offset, bytes) in &record.constants {
         let end = u64::from(*offset) + bytes.len() as u64;
         if end > length {
-            let message = format!("a constant ends at byte {end}, but the record has {length} bytes");
+            let message = format!("a constant needs a record of {end} bytes, but the record has {length} bytes");
             diagnostics.push(codes::RECORD_BOUNDS.at(group.origin.span, message).label("kept unchanged"));
         }
     }

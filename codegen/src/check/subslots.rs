@@ -1,6 +1,7 @@
 //! Built-in submodules of a PROFINET module or device: duplicate subslots.
 
 use crate::diagnostics::{codes, Diagnostics};
+use crate::facts::number::hex16;
 use crate::ir::{Catalog, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse};
 
 pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
@@ -35,7 +36,7 @@ fn distinct(uses: &[SubmoduleUse], submodules: &[Submodule], diagnostics: &mut D
 
 fn report(subslot: u16, pair: [Option<&Submodule>; 2], diagnostics: &mut Diagnostics) {
     let [Some(first), Some(second)] = pair else { return };
-    let message = format!("another submodule already occupies subslot {subslot:#06x}");
+    let message = format!("another submodule already occupies subslot {}", hex16(subslot));
     let found = codes::SUBSLOT_TAKEN.at(second.origin.span, message).label("both are kept");
     diagnostics.push(found.note_at(first.origin.span, "the other submodule"));
 }

@@ -888,7 +888,7 @@ codes! {
         "`[M<n>SubExtends]` must list the extension `[M<n>SubExt<index>]`. Count is a number of sub-indices, or 0, `;` \
         and a number of bits. ObjExtend is 0 or 1, and the other keys are those of a VAR. The extended object must \
         have sub-indices. Correct the section."
-    CSV001 CSV_NO_COLUMNS Error Deny "a register list has no column titles"
+    CSV001 CSV_NO_COLUMNS Error Deny "a register list has no address column or no other column"
         "Lexibus recognizes English, German and Italian titles, in any order. It needs an address and at least one \
         other column, and writes no table without them. Use `--map FIELD=TITLE` for other titles, and `--map \
         FIELD=#NUMBER` for a list without titles."

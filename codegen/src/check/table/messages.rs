@@ -196,8 +196,8 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
         };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
         let text = format!(
-            "the message `{name}` {stated} the state `{state}`, but according to the \
-             matrix of `{machine}`, the device {table} the command in this state"
+            "`accepted_in` of the message `{name}` {stated} the state `{state}`, but the matrix of `{machine}` states \
+             that the device {table} the command in this state"
         );
         let found = codes::STATES_DIFFER.at(message.origin.span, text);
         diagnostics.push(found.help("keep the statement that lists the states one by one, and add a `doubt`"));

@@ -88,10 +88,10 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
     }
     let (kind, message) = match code {
         0x20..=0x23 => {
-            (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is a record type, but a single value needs a basic type"))
+            (&codes::COMPLEX_DATA_TYPE, format!("{code:#06X} is a record type, but a single value needs a basic type"))
         }
-        0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
-        _ => (&codes::UNKNOWN_DATA_TYPE, format!("neither CiA 301 nor this file defines the data type {code:#06x}")),
+        0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06X} is reserved")),
+        _ => (&codes::UNKNOWN_DATA_TYPE, format!("neither CiA 301 nor this file defines the data type {code:#06X}")),
     };
     diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
     Type::Opaque(Some(code))

@@ -1164,7 +1164,7 @@ tables! {
         pub when: Option<Conditions>,
         /// Approximate time in ms until a late reply arrives.
         pub reply_time: Option<u32>,
-        /// Earlier message that selects the reply of this message, if several messages have identical requests.
+        /// Message after which the device answers with this reply, if several messages have identical requests.
         pub after: Option<At<String>>,
         /// Whether the device answers the request with this reply after power-on, until it receives a message that selects another
         /// reply.

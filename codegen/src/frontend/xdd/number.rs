@@ -34,7 +34,7 @@ impl Reader<'_, '_> {
                 let message = format!("{text} has a prefix, but CiA 311 requires hexadecimal digits without a prefix");
                 self.diagnostics.push(
                     Diagnostic::new(&codes::XDD_VALUE, given.span, message)
-                        .label(format!("read as {value:#06x}"))
+                        .label(format!("read as {value:#06X}"))
                         .fix(digits),
                 );
             }

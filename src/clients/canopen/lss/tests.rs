@@ -28,7 +28,7 @@ fn a_node_id_of_a_dropped_call_is_removed() {
     assert_eq!(messages, [[0x11, 5], [0x11, 0xFF], [4, 0]]);
 }
 
-/// An interface on which answers of slaves arrive at fixed times in milliseconds.
+/// CAN interface that delivers the answers of slaves at fixed times. All times are in milliseconds.
 struct Scripted {
     now: u64,
     answers: Vec<(u64, Message)>,
