@@ -9,3 +9,4 @@ mod eds;
 mod esi;
 mod gsdml;
 mod oracle;
+mod sii;
