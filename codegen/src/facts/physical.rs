@@ -22,8 +22,8 @@ impl<'q> Physical<'q> {
         (!is_raw).then_some(Physical { unit, scale })
     }
 
-    /// Returns the physical number, such as `25.0` for raw value 250 with scale factor 0.1. Returns `None` if the scale
-    /// depends on another item or on the model, or if the raw value has no physical value.
+    /// Returns the physical value without its unit, such as `25.0` for raw value 250 with scale factor 0.1. Returns
+    /// `None` if the scale depends on another item or on the model, or if the raw value has no physical value.
     fn number(&self, raw: &Value) -> Option<String> {
         match *self.scale {
             Scale::Linear { factor, offset } => linear(raw, factor, offset),
@@ -57,8 +57,9 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Returns the raw value that is nearest to a physical value: 1550 for `15.5` with scale factor 0.01. Returns `None` if `text` is not
-    /// a number, if the raw value is not finite, or if the scale depends on another item or on the model.
+    /// Returns the raw value that is nearest to a physical value: 1550 for `15.5` with scale factor 0.01. Returns
+    /// `None` if `text` is not a number, if the raw value is not finite or too large, or if the scale depends on
+    /// another item or on the model.
     pub fn raw(&self, text: &str) -> Option<Value> {
         let number = || text.parse::<f64>().ok().filter(|number| number.is_finite());
         let whole = |raw: f64| (raw.is_finite() && raw.abs() < 1e30).then(|| Value::Int(raw.round() as i128));
@@ -168,8 +169,9 @@ fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
     }
 }
 
-/// Returns the raw value that is nearest to the decimal number `text`. The calculation is exact. Returns `None` if factor, offset or `text`
-/// has too many digits.
+/// Returns the raw value that is nearest to the decimal number `text`. The calculation is exact. Returns `None` if
+/// factor, offset or `text` has an exponent or more than nine decimals, if the factor is 0, or if the calculation
+/// overflows.
 fn exact_raw(text: &str, factor: f64, offset: f64) -> Option<i128> {
     let (value, factor, offset) = (Decimal::parsed(text)?, Decimal::of(factor)?, Decimal::of(offset)?);
     let places = value.places.max(factor.places).max(offset.places);

@@ -7,7 +7,7 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EtherCatSettings {
-    /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = enhanced link, blank = no port.
+    /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = MII with Fast Hot Connect, blank = no port.
     pub physics: CompactString,
     /// Name of the device family (`GroupType`).
     pub group: FamilyRef,
