@@ -50,7 +50,7 @@ lexibus-with() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure "$1"
 }
-# Measures the build time of the compiler with the features for EDS and overlays.
+# Measures the build time of the compiler with the features for EDS and register tables.
 lexibus-eds-table() { lexibus-with lexibus-eds-table '"eds", "table"'; }
 # Measures the build time of the compiler with only the feature for EDS.
 lexibus-eds() { lexibus-with lexibus-eds '"eds"'; }

@@ -20,8 +20,9 @@ peak() {
     tail -1 "$work/peak"
 }
 
-# Writes the smallest description in the format of $1 and prints its path. The memory for compiling this description
-# does not depend on the input: it contains, for example, the profiles.
+# Writes the smallest description with the extension of $1 and prints its path. For XML files of all formats, writes an
+# ESI. The memory for compiling this description does not depend on the input: this memory contains, for example, the
+# profiles.
 empty() {
     case $1 in
     *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;

@@ -43,7 +43,7 @@ impl Iterator for SetFlags {
 struct Field<'l> {
     name: &'l str,
     mask: u64,
-    /// True if the flag is set while its bit is 0.
+    /// True if the flag is active low, that is, active while its bit is 0.
     is_inverted: bool,
     /// True if the field has an enumeration type.
     is_value: bool,

@@ -99,7 +99,7 @@ fn device(entries: &'static [Entry]) -> Device {
     };
     set(0x1000, 0, &0x0002_0192_u32.to_le_bytes());
     set(0x1009, 0, b"rev B");
-    // A text that is padded with zeros to a fixed length.
+    // The software version is padded with zeros to a fixed length.
     set(0x100A, 0, b"1.4.2\0\0\0");
     for (sub_index, value) in [(1, 0x1234_u32), (2, 7), (3, 0x0001_0002), (4, 99)] {
         set(0x1018, sub_index, &value.to_le_bytes());

@@ -266,7 +266,7 @@ fn modes() {
 
 #[test]
 fn a_new_mode_starts_nothing() {
-    // Bit 4 is "new set-point" in the mode 1, and "homing operation start" in the mode 6.
+    // Bit 4 is "new set-point" in mode 1, and "homing operation start" in mode 6.
     let mut rig = Rig::enabled(1);
     rig.write(0x6040, &0x887F_u16.to_le_bytes());
     rig.motion().set_mode(Mode::Homing, DEADLINE).unwrap();
@@ -565,7 +565,7 @@ fn a_quick_stop() {
     rig.writes.clear();
     assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::SwitchOnDisabled));
     assert_eq!(rig.controls(), [0x02]);
-    // A drive whose statusword doesn't show the standstill.
+    // The statusword of this drive doesn't show that the axis has stopped.
     let mut rig = moving();
     rig.cleared = 0x0460;
     rig.set = 0x0017;
@@ -590,7 +590,7 @@ fn an_old_bit_10_does_not_end_a_quick_stop() {
     assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::QuickStopActive));
     assert_eq!(rig.drive.device().get(VELOCITY), Ok(0));
     assert!(rig.time >= 95, "{}", rig.time);
-    // Even if the axis already stands still, a quick stop fails with a shorter deadline.
+    // With a deadline of 50 ms, a quick stop fails even if the axis already stands still.
     assert!(matches!(rig.motion().quick_stop(ms(50)), Err(MotionError::Deadline { .. })));
 }
 

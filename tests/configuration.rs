@@ -108,7 +108,7 @@ fn over_can() {
     assert_eq!(CONFIGURATION.verify(&mut node, NODE, &mut buffer, |difference| panic!("{difference}")), Ok(0));
 }
 
-/// Reads the concise DCF as a CANopen manager does, and compares it with the writes.
+/// Writes the concise DCF to a device as a CANopen manager does, and verifies the values in the device.
 #[test]
 fn concise_dcf() {
     let mut buffer = [0; CONFIGURATION.concise_dcf_len()];

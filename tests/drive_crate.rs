@@ -1,5 +1,5 @@
 //! Builds drive crates outside the workspace, as a user would. Only the full lane runs these tests, because each build
-//! compiles the compiler again. In the fast lane, `tests/drive-crate` is a member of the workspace.
+//! compiles the compiler again. The fast lane compiles `tests/drive-crate` as a member of the workspace.
 
 #[path = "support/lane.rs"]
 mod lane;
@@ -112,7 +112,7 @@ fn the_macro_warns_and_refuses_unknown_options() {
     }
 }
 
-/// A TPDO with an INTEGER24, three single bits and a time. The runtime defines the types of these fields.
+/// A TPDO with an INTEGER24 and a field of three bits, and a TPDO with a time. The runtime defines the types of these fields.
 const SENSOR: &str = "[DeviceInfo]\nProductName=Sensor\nGranularity=1\nNrOfRXPDO=0\nNrOfTXPDO=2\n\
     [1A00]\nParameterName=Mapping\nObjectType=9\n\
     [1A00sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
@@ -165,7 +165,7 @@ lexibus::dictionary! {
 }
 use thing::submodules::thing::{Inputs, Outputs, ThingRecord};
 fn both<T: serde::Serialize + for<'d> serde::Deserialize<'d> + defmt::Format>() {}
-/// All structs must implement the traits. This includes structs with long byte strings.
+/// All types must implement the traits, including structs with long byte strings.
 pub fn all() {
     both::<sensor::pdo::TxPdo1>();
     both::<sensor::pdo::TxPdo2>();

@@ -405,7 +405,7 @@ fn the_mapping_of_the_example() {
 
 #[test]
 fn values_of_several_parameters() {
-    // P1 and P2 contain the hundreds and units of a number. H5 to H8 contain sign, ten thousands, hundreds and units.
+    // P1 and P2 contain the hundreds and units of a number. H5 to H8 contain sign, tens of thousands, hundreds and units.
     assert_eq!(eco::PULSES_PER_TURN.split(4096), Ok([40, 96]));
     assert_eq!(eco::SPACE_OFFSET.join_signed(1, [12, 34, 56]), Ok(-123_456));
     let both: [Item<u16, Rw, _>; 2] = [objects::P1, objects::P2];

@@ -35,7 +35,7 @@ lexibus::ethercrab_wire!(Outputs, Outputs::LEN);
 const OUTPUTS: Outputs = Outputs { controlword: 0x000F, target_position: -2 };
 const BYTES: [u8; 6] = [0x0F, 0, 0xFE, 0xFF, 0xFF, 0xFF];
 
-/// The methods `pack` and `unpack` are still those of the struct, and not those of the traits.
+/// Calls to `pack` and `unpack` must still use the struct's own methods, and not those of the traits.
 #[test]
 fn own_methods() {
     assert_eq!(OUTPUTS.pack(), BYTES);

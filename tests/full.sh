@@ -63,7 +63,7 @@ part_features() {
     cargo check --quiet -p lexibus-cli --no-default-features || failed=1
     return $failed
 }
-# Checks crates outside the workspace, which need a C++ compiler or the newest Rust, and tests the CANopen client with `zencan-node`.
+# Checks crates outside the workspace, which need a C++ compiler or the newest Rust. Tests the CANopen client with `zencan-node`.
 part_outside() {
     local crate failed=0
     for crate in codegen/fuzz benches/packing benches/peers tests/zencan; do

@@ -22,7 +22,7 @@ use inverter::{objects, Inverter};
 
 type Client = ModbusClient<sync::Context>;
 
-/// Returns the registers of the inverter. Each register has a value.
+/// Returns the registers of the inverter with their initial values.
 fn registers() -> Map {
     Map::default()
         .with(Holding, 0, &[1500, 25, 0x0001, 0x86A0, 0xFFFD, 0x6400, 0x5678, 0x1234, 0x2211, 0x4433])
@@ -175,7 +175,7 @@ fn runtime() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_current_thread().enable_io().build().expect("a runtime")
 }
 
-/// Tests asynchronous clients with the requests that the blocking clients send.
+/// Tests asynchronous clients, which must send the same requests as blocking clients.
 async fn without_blocking(mut inverter: Inverter<ModbusClient<tokio_modbus::client::Context>>, device: &Device<Map>) {
     inverter.distance().write_async(123_456).await.unwrap();
     inverter.mode().write_async(Mode::Position).await.unwrap();

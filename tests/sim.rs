@@ -111,7 +111,7 @@ fn faulty_drive() -> Device {
     device
 }
 
-/// Time for which the tests wait at most.
+/// Maximum time that the tests wait.
 const DEADLINE: Duration = Duration::from_secs(5);
 
 #[test]
@@ -361,7 +361,7 @@ fn values_of_every_kind() {
     assert_eq!(drive.motor_temperature().read(), Ok(36.5));
     assert_eq!(drive.position_actual_value().read(), Ok(i32::MIN));
     assert_eq!(drive.cob_id_emcy().read().map(|own| own.raw()), Ok(0x85));
-    // The constants in `objects` belong to another device.
+    // The constants in `vector_step::objects` belong to another device.
     let device = drive.client().device();
     assert_eq!(device.get(vector_step::objects::RPOSTARG), Err(AbortCode::NO_OBJECT));
     assert_eq!(device.set_bytes(objects::ENCODER_COUNTS, &[0; 4]), Err(AbortCode::TOO_LONG));

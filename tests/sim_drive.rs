@@ -69,7 +69,7 @@ const fn sub_entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
 fn drive() -> Device {
     let mut entries = demo_drive::ENTRIES.to_vec();
     entries.extend(MORE);
-    // The highest mode in the description of the demo drive is 8.
+    // The description of the demo drive limits the mode to 8, but these tests use higher modes.
     let mode = entries.iter_mut().find(|entry| entry.object == Some(Object::new(0x6060, 0))).unwrap();
     mode.high = Bound::Unlimited;
     Device::new(&entries).with_node_id(NODE).with_cia402()
@@ -114,7 +114,7 @@ fn bit(device: &Device, bit: u32) -> bool {
     device.get(objects::STATUSWORD).unwrap().raw() >> bit & 1 == 1
 }
 
-/// Returns the bits 10, 12 and 13 of the statusword.
+/// Returns bits 10, 12 and 13 of the statusword.
 fn bits(device: &Device) -> [bool; 3] {
     [10, 12, 13].map(|at| bit(device, at))
 }
@@ -190,7 +190,7 @@ fn a_walk_from_a_fault_with_the_reset_bit_set() {
     assert_eq!(state(&device), State::FaultReactionActive);
     device.step(ms(1));
     assert_eq!(state(&device), State::Fault);
-    // The bit without a rising edge has no effect.
+    // Without a rising edge, bit 7 does not reset the fault.
     write(&mut device, 0x6040, 0x80);
     device.step(ms(10));
     assert_eq!(state(&device), State::Fault);
@@ -285,7 +285,7 @@ fn velocity_ramps() {
     assert_eq!(until(&mut device, |device| bit(device, 10)), 50);
     assert_eq!(number(&device, 0x606C), 1000);
     write(&mut device, 0x60FF, -500);
-    // 0.2 s of deceleration, then 0.05 s in the other direction.
+    // The axis decelerates for 0.2 s, then accelerates in the other direction for 0.05 s.
     device.step(ms(200));
     assert_eq!((number(&device, 0x606C), bit(&device, 12)), (0, true));
     assert_eq!(until(&mut device, |device| bit(device, 10)), 50);

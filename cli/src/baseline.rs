@@ -125,7 +125,7 @@ impl Baseline {
         format!(" ({} in the baseline)", self.left_out)
     }
 
-    /// Returns a note about entries for which no diagnostic exists any more.
+    /// Returns a note about entries for which no diagnostic exists any more, or `None` if there are no such entries.
     pub(super) fn obsolete(&self) -> Option<String> {
         let is_checked = |key: &Key| self.checked.contains(&key.file);
         let counts = self.counts.iter().filter(|(key, _)| is_checked(key));

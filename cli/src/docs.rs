@@ -28,8 +28,8 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let mut files = inputs::sorted(&docs.inputs)?;
     let networks = Networks::take(&mut files, &options.levels, &mut reporter)?;
     let names = Names::new(&files);
-    // A single input needs no first pass, because its folder names do not depend on other files. Several inputs are
-    // compiled twice, because keeping all of them in memory would cost more.
+    // A single input needs no first pass, because the names of its folders in the site do not depend on other files.
+    // Several inputs are compiled twice, because keeping all of them in memory would cost more.
     if files.len() > 1 || !networks.is_empty() {
         inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
             compilation.usable().into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
@@ -95,7 +95,8 @@ fn pairs(paths: &[PathBuf]) -> Result<impl Iterator<Item = [&Path; 2]>, Failure>
     }))
 }
 
-/// The names of the descriptions: file names without extension, or whole paths if several files have the same name.
+/// The names of the descriptions: the file name without its extension, or the whole path if several files have the same
+/// name.
 struct Names(HashMap<PathBuf, String>);
 
 impl Names {

@@ -69,7 +69,7 @@ impl Format {
     }
 }
 
-/// An exported file, with its device if the file describes only one device.
+/// An exported file, with its device if the format needs one file per device.
 struct File<'c> {
     device: Option<&'c Device>,
     /// File name that the format requires. `None` means that the name of the input is used.
@@ -91,7 +91,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     }
     let format = Format::new(export)?;
     let mut options = export.inputs.options()?;
-    // Leave out the facts that profiles add, because profiles are public documents.
+    // Export only facts of the description, without those that profiles add.
     options.no_profiles = true;
     let mut reporter = Reporter::new(&export.inputs, false)?;
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
@@ -139,8 +139,8 @@ fn write(
 
 /// Returns the exported files of an input: one EDS or SII per device, or one file for all devices.
 ///
-/// Returns `None` if the input contains nothing to export, which is an error only if it is the only input. Also reports
-/// an error and returns `None` if facts that the format requires are missing.
+/// Returns `None` if the input contains nothing to export. Reports this as an error only if there is a single input.
+/// Also reports an error and returns `None` if facts that the format requires are missing.
 fn files<'c>(
     format: &Format,
     input: &Path,

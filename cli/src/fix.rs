@@ -15,7 +15,7 @@ use super::args::Fix;
 use super::report::Reporter;
 use super::{inputs, say, unified, Failure};
 
-/// Maximum number of times that a file is compiled. One round applies up to 10,000 fixes of each code.
+/// Maximum number of rounds for a file. Each round applies up to 10,000 fixes of each code and compiles the file again.
 const MAX_ROUNDS: usize = 100;
 
 pub(super) fn run(fix: &Fix) -> Result<bool, Failure> {
@@ -53,7 +53,7 @@ pub(super) fn run(fix: &Fix) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Returns the list without repetitions of a file, such as a link to another file of the list.
+/// Removes repeated files from a list, such as a link to another file of the list.
 fn distinct(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     let mut seen = HashSet::new();
     files.retain(|path| seen.insert(fs::canonicalize(path).unwrap_or_else(|_| path.clone())));
@@ -106,7 +106,8 @@ impl Fixed {
     }
 }
 
-/// Returns the fixes in the first file of a compilation, in ascending order. Leaves out fixes that overlap an earlier one.
+/// Returns the fixes in the first file of a compilation, in ascending order. Leaves out fixes that overlap an earlier fix
+/// or change nothing.
 fn replacements(compilation: &Compilation) -> Vec<(Range<usize>, &str)> {
     let source = &compilation.sources[0];
     let mut all: Vec<(Range<usize>, &str)> = Vec::new();
@@ -159,7 +160,7 @@ fn back_up(path: &Path) -> io::Result<PathBuf> {
     let mut name = path.as_os_str().to_owned();
     name.push(".bak");
     let backup = PathBuf::from(name);
-    // Use a link: the file is later replaced by a new file, so the link keeps the old content.
+    // Use a hard link: the file is later replaced by a new file, so the link keeps the old content.
     let linked = fs::canonicalize(path).and_then(|target| fs::hard_link(target, &backup));
     let made = match linked {
         Err(error) if error.kind() != io::ErrorKind::AlreadyExists => copy(path, &backup),
@@ -175,7 +176,7 @@ fn back_up(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Copies a file to a new file, for file systems without links.
+/// Copies a file to a new file, for file systems without hard links.
 fn copy(path: &Path, backup: &Path) -> io::Result<()> {
     let _writing = writing();
     let mut file = fs::File::options().write(true).create_new(true).open(backup)?;

@@ -1,8 +1,9 @@
-//! Deferred Ctrl-C. A command that writes to a device ends between two writes, and reports what it has written.
+//! Deferred Ctrl-C. After Ctrl-C, a command that writes to a device ends between two writes, and reports what it has
+//! written.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// True while Ctrl-C doesn't end the process at once.
+/// True while Ctrl-C is deferred.
 static DEFERS: AtomicBool = AtomicBool::new(false);
 /// True if Ctrl-C was pressed while it was deferred.
 static IS_REQUESTED: AtomicBool = AtomicBool::new(false);

@@ -8,8 +8,8 @@
 //! $ lexibus explain EDS020
 //! ```
 //!
-//! Exit codes: 0 on success; 1 for errors in the input, output that cannot be written, stale output or breaking
-//! changes; 2 for invalid arguments; 130 after Ctrl-C.
+//! Exit codes: 0 on success; 1 for errors in the input, output that cannot be written, stale output, breaking changes,
+//! device failures, deviations or differences; 2 for invalid arguments; 130 after Ctrl-C.
 //!
 //! `args` declares the arguments of all subcommands. Most subcommands have a module with the same name; the others are
 //! implemented in this file. `inputs` reads files in parallel, `output` writes or compares files, and `report` prints
@@ -53,11 +53,13 @@ use lexibus_export::json;
 use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
 use report::Reporter;
 
-/// Exit code for errors in the input, output that cannot be written, stale output or breaking changes.
+/// Exit code for errors in the input, output that cannot be written, stale output, breaking changes, device failures,
+/// deviations or differences.
 const FAILED: u8 = 1;
 /// Exit code for invalid arguments.
 const USAGE: u8 = 2;
-/// Exit code after Ctrl-C, as in shells: 128 and the number of the signal. Each file is then complete or unchanged.
+/// Exit code after Ctrl-C, as in shells: 128 plus the number of the signal. Each output file is then complete or
+/// unchanged.
 const INTERRUPTED: i32 = 130;
 
 fn main() -> ExitCode {
@@ -104,7 +106,7 @@ enum Failure {
     Usage(String),
     /// The output cannot be written.
     Output(std::io::Error),
-    /// A device or a bus failed.
+    /// A command that accesses devices failed because of a device, a bus, a value or a file.
     #[cfg(feature = "bus")]
     Device(String),
 }

@@ -56,7 +56,8 @@ pub(super) fn report(reporter: &mut Reporter, compilation: &Compilation) -> Resu
     reporter.report(&Reported::of_diagnostics(source.clone(), diagnostics.clone()))
 }
 
-/// Returns the number of nodes and PDOs, and the bus load.
+/// Returns a summary: the number of nodes, the bus load of the cyclic frames, and the PDOs without inhibit time, which
+/// the bus load does not include.
 fn summary(network: &Network) -> String {
     let nodes = network.nodes.len() + usize::from(network.master.is_some());
     let noun = if nodes == 1 { "node" } else { "nodes" };

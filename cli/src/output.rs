@@ -78,8 +78,8 @@ impl<'g> Target<'g> {
         Ok(())
     }
 
-    /// Returns whether a single input is written to a single file. In this case, commands print a message with details
-    /// about the file.
+    /// Returns whether the output of a single input is written to files. In this case, commands print a message with
+    /// details about each file.
     pub(super) fn is_one_file(&self) -> bool {
         self.out.is_some() && !self.check && !self.many
     }
@@ -139,7 +139,8 @@ impl Difference {
     }
 }
 
-/// Reports an error if the content of a file differs from `content`. Texts are compared line by line.
+/// Reports an error if the content of a file differs from `content`. If `content` is a text, also prints the first
+/// lines of the unified diff.
 pub(super) fn check_bytes(path: &Path, content: &[u8], reporter: &mut Reporter) {
     match std::str::from_utf8(content) {
         Ok(text) => check(path, text, reporter),

@@ -92,7 +92,7 @@ fn run(line: &str, folder: &Path) -> Option<Output> {
     Some(command.args(arguments).current_dir(folder).output().expect("lexibus runs"))
 }
 
-/// Replaces the bus of an example with a bus on which a simulated device is.
+/// Replaces the bus of an example with a bus that has a simulated device.
 #[cfg(unix)]
 fn on_simulated_bus(argument: &str) -> String {
     static ADAPTER: std::sync::OnceLock<String> = std::sync::OnceLock::new();
@@ -129,7 +129,8 @@ fn agrees(lines: &[String], expected: &[&str]) -> bool {
     }
 }
 
-/// Runs the commands of a block and returns their number. Each command must succeed, unless its comment states that it fails.
+/// Runs the commands of a block and returns their number. Each command must succeed, unless `exit code 1` is in
+/// its comment.
 fn commands(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for line in block.text.replace("\\\n", " ").lines().filter(|line| !line.trim().is_empty()) {
@@ -181,7 +182,7 @@ fn commands_run_and_print_what_stands_there() {
 }
 
 /// Checks the register tables of the book. Tables that the book saves to files are skipped, because commands in the
-/// book check them.
+/// book check them. `network.md` is skipped, because its TOML blocks are network files.
 #[test]
 fn tables_are_tables() {
     let mut count = 0;
@@ -208,8 +209,7 @@ fn the_catalog_of_codes_is_todays() {
     assert!(is_same, "docs/src/lints.md is stale: tests/bindings.sh writes it again");
 }
 
-/// The README must show the output of its first command. In a line that starts with `wrote`, the numbers after the file name
-/// may differ.
+/// The README must show the output of its first command.
 #[test]
 fn the_readme_shows_what_its_first_command_prints() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

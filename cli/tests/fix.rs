@@ -1,7 +1,7 @@
 //! Tests `lexibus fix` on files of the corpus: afterward, no fix is left, and only the bytes that the fixes replace
 //! have changed.
 
-// Reading the sample of corpus files requires the whole support module.
+// Include the whole support module, because reading the sample of corpus files needs its other parts.
 #[path = "../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
 

@@ -63,8 +63,8 @@ to = "off"
 command = "stop"
 "#;
 
-/// A press whose last state is an alarm. The press enters the alarm without a command. The command that tests the alarm
-/// is on the shortest path from `off` to `ready`.
+/// A press whose last state is an alarm. The press can enter the alarm without a command. The command `test_alarm` also
+/// leads to the alarm, and is on the shortest path from `off` to `ready`.
 const PRESS: &str = r#"lexibus = 1
 
 [device]

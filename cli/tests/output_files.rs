@@ -77,7 +77,7 @@ fn a_pipe_is_no_input() {
     let checked = shell(&folder, "mkfifo p.eds; $LEXIBUS check p.eds");
     assert_eq!(checked.status.code(), Some(1));
     assert!(error(&checked).contains("cannot read the file: it is not a regular file"), "{}", error(&checked));
-    // A search of a folder must skip the pipe, because it reads only regular files.
+    // A search of a folder must skip the pipe, because a search reads only regular files.
     let searched = shell(&folder, "cp $DEMO .; $LEXIBUS check .");
     assert!(error(&searched).contains("1 file"), "{}", error(&searched));
 }

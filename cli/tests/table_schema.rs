@@ -1,5 +1,5 @@
-//! Tests the JSON Schema of register tables: the file must be up to date, accept valid tables, and reject invalid ones.
-//! The module also tests `lexibus new` and `lexibus schema`.
+//! Tests the JSON Schema of register tables: the schema in `dictionaries` must be up to date, accept valid tables, and
+//! reject invalid ones. The module also tests `lexibus new` and `lexibus schema`.
 
 #[path = "../../tests/support/python.rs"]
 mod python;

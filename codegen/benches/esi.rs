@@ -1,5 +1,5 @@
 //! Measures all stages from the bytes of an ESI file to Rust code. Also compares the time for compiling to checked IR
-//! with the time of a loop over the XML events.
+//! with the times of two loops over the XML events. The second loop also splits the attributes.
 //!
 //! The module `inputs` creates the files. The devices in these files have dictionaries, PDOs and sync managers in the
 //! proportions of real files.

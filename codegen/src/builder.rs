@@ -26,8 +26,8 @@ use crate::source::Source;
 /// }
 /// ```
 ///
-/// The output is only written if it changes. Cargo runs the script again if the description changes, and shows the warnings about
-/// the description.
+/// The output file is written only if its content changes. Cargo runs the script again if the description changes, and
+/// shows the warnings about the description.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
     options: Options,
@@ -46,7 +46,7 @@ impl Builder {
         Builder::default()
     }
 
-    /// Turns every repair of the input into an error.
+    /// Turns every repair of the input into an error, unless a level is set for its code.
     pub fn strict(mut self) -> Self {
         self.strict = true;
         self
@@ -118,7 +118,8 @@ impl Builder {
         self
     }
 
-    /// Sets whether profiles (CiA 301, CiA 402, CoE, PROFIdrive) complete the objects of devices that follow them. The default is `true`.
+    /// Sets whether profiles (CiA 301, CiA 402, CoE, PROFIdrive) complete the objects of devices that follow them. The
+    /// default is `true`.
     ///
     /// Profiles add names of bits and values, units and descriptions.
     pub fn profiles(mut self, profiles: bool) -> Self {
@@ -132,7 +133,7 @@ impl Builder {
         self
     }
 
-    /// Sets the path of the runtime crate. The default is `lexibus`.
+    /// Sets the path of the runtime crate. The default is `::lexibus`.
     pub fn runtime(mut self, path: impl Into<String>) -> Self {
         self.options.rust.runtime = path.into();
         self
@@ -181,8 +182,8 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails if the input or an overlay cannot be read, the input has errors or nothing to generate, a level is set for an
-    /// unknown code, a filter is invalid, `OUT_DIR` is missing, or the output cannot be written.
+    /// Fails if the input or an overlay cannot be read, the input has errors, there is nothing to generate, a level is
+    /// set for an unknown code, a filter is invalid, `OUT_DIR` is missing, or the output cannot be written.
     pub fn compile(&self, input: impl AsRef<Path>) -> Result<(), BuildError> {
         self.compile_to(input, None)
     }
@@ -213,8 +214,8 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails if the input or an overlay cannot be read, the input has errors or nothing to generate, a level is set for
-    /// an unknown code, or a filter is invalid.
+    /// Fails if the input or an overlay cannot be read, the input has errors, there is nothing to generate, a level is
+    /// set for an unknown code, or a filter is invalid.
     pub fn generate(&self, input: impl AsRef<Path>) -> Result<String, BuildError> {
         let input = input.as_ref();
         self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));

@@ -1,5 +1,5 @@
-//! The pipeline: source → syntax → front end → resolve → check → output. The build script, the macro and the command line use this
-//! pipeline.
+//! The pipeline: source → syntax → front end → resolve → check → output. The build script, the macro and the command
+//! line use this pipeline.
 
 use std::path::PathBuf;
 
@@ -38,11 +38,11 @@ pub struct Compilation {
     pub sources: Vec<Source>,
     /// IR of the source files; `None` if the source files cannot be used.
     pub catalog: Option<Catalog>,
-    /// Diagnostics, sorted by position.
+    /// Diagnostics. After [`check`], they are sorted by position.
     pub diagnostics: Diagnostics,
     /// Format of the description, if the compiler recognized it.
     pub format: Option<Format>,
-    /// Files in the same folder that the description refers to, but that do not exist.
+    /// Missing files to which the description refers, in the folder of the description or below it.
     pub missing: Vec<PathBuf>,
 }
 
@@ -58,7 +58,7 @@ impl Compilation {
         self.catalog.is_some() && !self.diagnostics.has_errors()
     }
 
-    /// Returns the catalog, or `None` if the compilation has errors.
+    /// Returns the catalog, or `None` if the compilation cannot produce output.
     pub fn usable(&self) -> Option<&Catalog> {
         self.catalog.as_ref().filter(|_| self.is_usable())
     }
@@ -87,7 +87,8 @@ impl Compilation {
     }
 }
 
-/// Parses the choice for an option of a register table in the form `NAME=CHOICE`, which all entry points accept.
+/// Parses the choice for an option of a register table in the form `NAME=CHOICE`. Returns `None` if the name or the
+/// choice is missing.
 pub fn choice(text: &str) -> Option<(String, String)> {
     let (name, choice) = text.split_once('=')?;
     let (name, choice) = (name.trim(), choice.trim());
@@ -121,8 +122,8 @@ pub fn check(source: Source, options: &Options) -> Compilation {
     checked(read(source, options), options)
 }
 
-/// Applies selection and overlays, resolves the IR, which includes profiles, and checks it. These are the stages of [`check`] after
-/// the front end. Use this function for a front end in another crate.
+/// Applies the selection, overlays and profiles, resolves the IR, and checks it. These are the stages of [`check`]
+/// after the front end. Use this function for a front end in another crate.
 pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     if let Some(catalog) = &mut compilation.catalog {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);

@@ -42,7 +42,7 @@
 //! lexibus-codegen = { version = "0.1", default-features = false, features = ["eds"] }
 //! ```
 //!
-//! The feature `serde` implements the traits of the crate `serde` for the types of [`ir`]. This feature is off by default.
+//! With the feature `serde`, the types of [`ir`] implement the traits of the crate `serde`. This feature is off by default.
 //!
 //! Programs can use each stage separately:
 //!

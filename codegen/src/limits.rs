@@ -58,13 +58,14 @@ pub const MAX_MODULE_USES: usize = 200_000;
 /// Maximum number of pages of one kind to which each page of a documentation site links.
 pub const MAX_LINKED_PAGES: usize = 200;
 
-/// Number of pages before and after a page to which the page links, if there are more than [`MAX_LINKED_PAGES`] pages.
+/// Number of preceding pages, and number of following pages, to which a page links if there are more than [`MAX_LINKED_PAGES`]
+/// pages.
 pub const NEAR_LINKED_PAGES: usize = 20;
 
-/// Maximum number of bytes that references to the text list of a GSDML file copy, for each byte of the file.
+/// Maximum number of bytes that are copied for references to the text list of a GSDML file, for each byte of the file.
 pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 
-/// Number of bytes that references to the text list of a GSDML file may copy, even if the file is small.
+/// Number of bytes that may be copied for references to the text list of a GSDML file, even if the file is small.
 pub const MIN_TEXT_COPIES: usize = 1 << 20;
 
 /// Maximum number of single values in a list of values and ranges, for keys of a register table that need single values.

@@ -1,4 +1,4 @@
-//! The namer: gives every element a Rust identifier that is unique in its scope, legal and stable.
+//! The namer: gives every element a Rust identifier that is valid, stable, and unique in its scope.
 //!
 //! An item has one name in generated code. The item's constant, accessor, entry in `mappable` and the PDO field that maps it
 //! share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not contain the
@@ -73,8 +73,8 @@ pub fn joined(owner: &str, name: &str) -> String {
     joined
 }
 
-/// Makes equal and reserved identifiers unique by appending their suffixes and, if necessary, a number. None of the resulting
-/// identifiers is in `reserved`.
+/// Makes equal and reserved identifiers unique: appends their suffixes, if necessary a second time, and then a number. None of the
+/// resulting identifiers is in `reserved`.
 pub fn distinct<'s>(
     plain: &[String],
     suffixes: impl Iterator<Item = &'s str>,
@@ -90,7 +90,7 @@ pub fn distinct<'s>(
     let mut used: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
-    // Last number that was appended to each name that is still ambiguous with its suffix.
+    // Last number that was appended to each name that its suffix did not make unique.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {

@@ -1,4 +1,4 @@
-//! Atomic writing of files that have changed.
+//! Writes files only if their content has changed, and replaces regular files atomically.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead, BufReader, Error, ErrorKind, Result, Write};
@@ -33,7 +33,7 @@ pub fn is_no_regular_file(path: &Path) -> bool {
 ///
 /// # Errors
 ///
-/// Returns errors of the operating system.
+/// Returns the error of the operating system, or an error if `path` has no file name.
 pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
     let content = content.as_ref();
     if is_no_regular_file(path) {

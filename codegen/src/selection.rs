@@ -63,7 +63,7 @@ impl fmt::Display for Filter {
     }
 }
 
-/// A filter for devices by name or product code, and optionally by revision.
+/// A filter for devices by name, order code, identifier or product code, and optionally by revision.
 ///
 /// Examples are `EL3004`, `0x0BBC3052`, `EL3004@0x00110000` and `EL3004@latest`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -191,7 +191,8 @@ fn drop_unreached(catalog: &mut Catalog) {
     }
 }
 
-/// Keeps the elements at the positions in `reached`. Returns the new positions of all elements.
+/// Keeps the elements at the positions in `reached`. Returns the new position of each element; the positions of removed elements
+/// have no meaning.
 fn keep_reached<T>(list: &mut Vec<T>, reached: HashSet<u32>) -> Vec<u32> {
     let is_kept = |at: u32| reached.contains(&at);
     let mut kept = 0;

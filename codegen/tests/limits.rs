@@ -184,7 +184,7 @@ fn texts_of_compact_sub_objects() {
     let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
     assert_eq!(count(&beyond, "IO003"), 1);
     assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
-    // Sub-indices that have separate sections must be kept in order.
+    // Sub-indices that have separate sections must be kept even if the limit is exceeded.
     let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";
     let beyond = eds(&(object(0x2000, 5_000) + described));
     let items = &beyond.catalog.as_ref().expect("the file is usable").devices[0].groups[0].items;

@@ -17,13 +17,13 @@ fn is_bounded(compilation: &Compilation) {
     is_bounded_by(compilation, items);
 }
 
-/// Asserts the same as `is_bounded` if `items` items share the text.
+/// Asserts the same as `is_bounded`, with a limit for an output of `items` items.
 fn is_bounded_by(compilation: &Compilation, items: usize) {
     let found = compilation.diagnostics.list().iter().filter(|found| found.code.id == "IO003").count();
     assert_eq!(found, 1, "{}", compilation.diagnostics.list().len());
     let made = serde_json::to_vec(&compilation.catalog).expect("a catalog").len();
     let given: usize = compilation.sources.iter().map(|source| source.text().len()).sum();
-    // An item without texts, or with an empty text, has a few hundred bytes.
+    // An item without texts, or with an empty text, takes a few hundred bytes of the output.
     let most = given * (limits::MAX_COPIES_PER_BYTE + 20) + items * 2_000;
     assert!(made < most, "{made} bytes from {given}");
 }
@@ -37,7 +37,7 @@ fn esi(vendor: &str, types: &str, objects: &str) -> String {
     )
 }
 
-/// Returns a record type of `count` bytes. The sub-item of each byte contains `elements`.
+/// Returns a record type with `count` sub-items of one byte. Each sub-item contains the XML elements `elements`.
 fn record(count: usize, elements: &str) -> String {
     let subs: String = (1..=count)
         .map(|at| {

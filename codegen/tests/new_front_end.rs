@@ -64,7 +64,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Returns the text between two marks.
+/// Returns the text from the mark `from`, including the mark, up to the mark `to`.
 fn between<'t>(text: &'t str, from: &str, to: &str) -> &'t str {
     let start = text.find(from).unwrap_or_else(|| panic!("no {from:?}"));
     &text[start..start + text[start..].find(to).unwrap_or_else(|| panic!("no {to:?}"))]

@@ -105,7 +105,7 @@ fn run_all(sources: Vec<Source>) -> Counts {
     run(all.into_inner().expect("the bindings"))
 }
 
-/// Runs programs that check all bindings. Returns the sum of their counts.
+/// Runs programs that check all bindings. Returns the number of types of each kind.
 fn run(mut all: Vec<(Bindings, Counts)>) -> Counts {
     all.sort_by(|(one, _), (other, _)| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
     let (mut programs, mut counts) = (vec![Program::default()], Counts::default());

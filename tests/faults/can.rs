@@ -269,7 +269,7 @@ enum Access {
     BlockWrite,
 }
 
-/// Performs a transfer with the number `count`. Panics if its result is wrong.
+/// Transfers a value that depends on `count`. Panics if the result is wrong.
 fn transfer<P>(
     node: &mut Node<P>,
     access: Access,

@@ -201,12 +201,12 @@ fn late_replies_are_not_those_of_the_next_request() {
     assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
 }
 
-/// A SubDevice that sends each reply just before the timeout.
+/// The SubDevice sends each reply just before the timeout.
 #[test]
 fn the_timeout_limits_the_whole_transfer() {
     with_bench(|mut bench| async move {
         let start = Instant::now();
-        // The text has three messages, so the transfer takes at most one timeout and two tenths of it.
+        // The text needs three messages, so the client limits the transfer to one timeout plus two tenths of the timeout.
         let result = bench.request(1, Fault::Late(TIMEOUT * 9 / 10), TEXT).await;
         assert_eq!(
             (result, start.elapsed() <= TIMEOUT * 13 / 10),

@@ -50,9 +50,10 @@ fn late_answers_are_not_those_of_the_next_cycle() {
     for _ in 0..5000 {
         let command = if random.below(2) == 0 { NmtCommand::Start } else { NmtCommand::EnterPreOperational };
         node.nmt(command).expect("a bus");
-        // After a late answer, the request is later than usual, and the next answer must arrive within one guard time.
+        // Never delay two answers in succession. After a late answer, the next request is later than usual, and its answer
+        // must arrive within one guard time.
         is_late = random.below(20) == 0 && !is_late;
-        // The next cycle waits for a late answer for half of the guard time.
+        // The next cycle waits for a late answer for half of the guard time, so the additional delay is shorter.
         let delay = TIMEOUT + Duration::from_millis(random.below(240));
         set(node.port(), is_late.then_some(CanFault::Late(delay)));
         late += u32::from(is_late);

@@ -70,7 +70,7 @@ fn lost_heartbeats_and_a_late_master() {
     let (mut known, mut last, mut missing, mut recovered) = (0, None, 0, 0);
     let mut was_missing = false;
     for cycle in 0..CYCLES {
-        // The cycle time of the master is 10 ms, with a jitter of 20 ms.
+        // The cycle time of the master is 10 ms, plus a random delay of up to 20 ms.
         let result = watch(&mut node, &mut consumer, cycle % 2 == 0, Duration::from_millis(10 + random.below(21)));
         let time = node.port().bus().now();
         if arrived.load(Ordering::Relaxed) != known {
@@ -111,7 +111,7 @@ fn a_restart_is_never_missed() {
     assert_eq!(restarts, seen);
 }
 
-/// Watches the node until the result changes, for at most one timeout.
+/// Watches the node for one timeout, or until a boot-up or an error is reported. Returns the result for the table.
 fn request(node: &mut Node<Faulty>, consumer: &mut HeartbeatConsumer, is_async: bool) -> &'static str {
     for _ in 0..TIMEOUT.as_millis() / 50 {
         match watch(node, consumer, is_async, Duration::from_millis(50)) {

@@ -72,7 +72,7 @@ fn book_result(row: &Row) -> Option<&'static str> {
 /// Checks that the book contains the result of a row.
 fn check_book(row: &Row) -> bool {
     let is_right = book_result(row).map(|cell| match (cell, row.result) {
-        // If the book contains "ignored", the right reply may follow or not.
+        // "ignored" in the book means that the client waits for the right reply, which may be missing.
         ("ignored", result) => ["right value", "`Timeout`"].contains(&result),
         // A blocking stream reports its timeout as an error.
         (cell, "`Client`") if cell.contains("timeout of the stream") => true,

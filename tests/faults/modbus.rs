@@ -287,7 +287,7 @@ fn blocking_calls_after_a_late_reply() {
 
 #[tokio::test(start_paused = true)]
 async fn the_rest_of_a_request_is_not_sent_after_the_timeout() {
-    // The line accepts four bytes until the device reads.
+    // The line accepts only four bytes before the device reads.
     let (line, mut far) = duplex(4);
     let mut device = ModbusClient::new(Link::rtu(line, Slave(DEVICE), TIMEOUT));
     assert!(matches!(device.write(SETPOINT, &[1, 0]).await, Err(Error::Timeout)));

@@ -57,8 +57,8 @@ pub fn rows() -> Vec<Row> {
         }
     }
     for (fault_name, fault) in faults(true) {
-        // A device that replies to a broadcast violates the standard. The link discards replies within the turnaround
-        // delay only.
+        // A device that replies to a broadcast violates the standard. The link discards only replies that arrive
+        // within the turnaround delay, so a late reply must arrive within half of the delay.
         let is_late = fault == StreamFault::Late(TIMEOUT);
         let fault = if is_late { StreamFault::Late(TURNAROUND / 2) } else { fault };
         for is_async in [false, true] {
@@ -195,7 +195,7 @@ async fn a_broadcast_cannot_read() {
     device.context().set_slave(Slave::broadcast());
     let start = Instant::now();
     let part = SETPOINT.part(0, 8);
-    // Without function 22, a write of a part needs a read.
+    // Without function 22, a client must read a register to write a part of the register, and a broadcast cannot read.
     let mut plain = lexibus::clients::modbus::ModbusClient::new(link(true, &world));
     plain.context().set_slave(Slave::broadcast());
     let refused = [

@@ -57,7 +57,7 @@ fn reply(count: u32) -> Vec<u8> {
 
 /// The device's end of a line in simulated time.
 pub struct Wire {
-    /// Time at which the device sends the next byte.
+    /// Time at which the bytes that the device writes next arrive at the client.
     time: Rc<Cell<Duration>>,
     bytes: VecDeque<(Duration, u8)>,
 }
@@ -204,7 +204,7 @@ fn a_repeated_reply_isnt_that_of_the_next_request() {
     }
 }
 
-/// A device that sends a frame without a request, and rejects no request. No read times out.
+/// After each exchange, the device sends a frame without a request. The next exchange must not return this frame as its reply.
 #[test]
 fn a_frame_without_a_request_is_no_reply() {
     let (mut line, now) = blocking();
@@ -219,7 +219,7 @@ fn a_frame_without_a_request_is_no_reply() {
 #[test]
 fn after_a_rejected_reply_the_next_one_is_right() {
     let (mut line, now) = blocking();
-    // The frame arrives during the exchange, so it is the reply. The right reply follows after 50 ms.
+    // The frame arrives during the exchange, so the line returns it as the reply. The right reply follows after 50 ms.
     let noise = StreamFault::Foreign { bytes: reply(99), count: 1, period: Duration::ZERO };
     line.stream().count = 1;
     set(&mut line.stream().device, noise);

@@ -1,5 +1,5 @@
 //! Soak test: an hour of simulated time with random faults, for the clients of SDO, Modbus and serial lines, and for the state
-//! machine walker. No value may be wrong, and neither a buffer nor the memory of the process may grow.
+//! machine walker. No value may be wrong, no buffer may grow, and the memory of the process may grow by at most 1 MiB.
 
 use std::process::Command;
 use std::time::Duration;
@@ -206,7 +206,7 @@ fn an_hour_over_serial() {
     alone("an_hour_over_serial", serial);
 }
 
-/// A fault of one reply in eight.
+/// Returns a fault for one reply in eight, on average.
 fn serial_fault(random: &mut Random) -> Option<StreamFault> {
     match random.below(40) {
         0 => Some(StreamFault::Late(Duration::from_millis(101 + random.below(90)))),

@@ -104,7 +104,7 @@ fn parameters_one_by_one_and_together() {
 fn refusals_and_silence() {
     let mut refusing = motor(5);
     assert!(matches!(refusing.cmd_reg().send(), Err(Failure::Refused(CmdNack { node: 5, .. }))));
-    // No motor on the line has this node number.
+    // No motor on the line has this device number.
     let reply = motor(6).cmd_get_ver().send().map(|reply| reply.version);
     assert!(matches!(reply, Err(Failure::Error(Error::Client(_)))), "{reply:?}");
 }

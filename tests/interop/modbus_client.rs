@@ -14,7 +14,7 @@ use server::{Framing, Registers, Server};
 #[allow(dead_code)] // the registers in memory
 mod server;
 
-/// A simulated device as the device of the server.
+/// A simulated device whose registers the server makes available.
 struct Simulated(Device);
 
 fn refused(exception: Exception) -> ExceptionCode {
@@ -58,7 +58,7 @@ impl Registers for Simulated {
 
 type Served = server::Device<Simulated>;
 
-/// Starts a simulated device and the client of the script.
+/// Starts a simulated device, its server, and the Python client.
 fn start(framing: Framing) -> Option<(Script, Served, Server)> {
     let python = python()?;
     let device = Served::new(Simulated(Device::new(ENTRIES)));
@@ -113,7 +113,7 @@ fn numbers(script: &mut Script, device: &Served) {
     assert_eq!((script.at("input_u32"), script.at("input_low_f32")), (json!(0x89AB_CDEF_u32), json!(-1.5)));
 }
 
-/// Parts of a register, enumerations and bit fields.
+/// Checks parts of a register, enumerations and bit fields.
 fn parts_and_meanings(script: &mut Script, device: &Served) {
     script.ask(json!({ "do": "set", "name": "word_300", "value": 0xFE34 }));
     device.with(|device| {
@@ -140,7 +140,7 @@ fn bits(script: &mut Script, device: &Served) {
     assert_eq!(script.request("read_coils", json!({ "address": 8, "count": 8 }))["bits"], json!(values));
 }
 
-/// The functions 22 and 23, and several items in one request.
+/// Checks the functions 22 and 23, and several items in one request.
 fn further_functions(script: &mut Script, device: &Served) {
     script.ask(json!({ "do": "set", "name": "high_u16", "value": 0x12 }));
     script.request("mask_write_register", json!({ "address": 0, "and_mask": 0xF2, "or_mask": 0x25 }));
@@ -152,10 +152,10 @@ fn further_functions(script: &mut Script, device: &Served) {
     assert_eq!(values, (Ok(-3), Ok(5)));
 }
 
-/// The exceptions of the device: 2 (illegal data address) and 3 (illegal data value).
+/// Checks the exceptions of the device: 2 (illegal data address) and 3 (illegal data value).
 fn refusals(script: &mut Script, device: &Served) {
     let exception = |answer: Value| answer["exception"].as_u64();
-    // The registers 18 and 19 belong to the last number of 64 bits, and register 30 doesn't exist.
+    // Holding register 30, input register 100 and coil 5 don't exist.
     for (method, arguments, expected) in [
         ("read_holding_registers", json!({ "address": 30, "count": 1 }), 2),
         ("read_holding_registers", json!({ "address": 29, "count": 2 }), 2),

@@ -20,7 +20,8 @@ logging.disable(logging.WARNING)
 TIMEOUT = 30
 DEVICE = 1
 
-# Addresses of the registers that exist. Register 349 is read-only, and register 398 is the last one before a gap.
+# Coils, discrete inputs, holding registers and input registers that exist. Holding register 349 is read-only, and
+# holding register 398 is the last one.
 MEMORY = (
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],
     [SimData(0, values=[False] * 64, datatype=DataType.BITS)],

@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// The folder that contains these tests.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/interop");
 
-/// Returns a Python that has the libraries of the scripts. Searches for Python only once.
+/// Returns the path of a Python that has the libraries of the scripts, or `None` if there is none. Searches only once.
 pub fn python() -> Option<&'static Path> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
     PYTHON.get_or_init(|| finder::with(&["canopen", "pymodbus", "serial"])).as_deref()
@@ -60,7 +60,7 @@ impl Script {
         (script, ready["ready"].take())
     }
 
-    /// Sends a command and returns the answer.
+    /// Sends a command and returns the answer. Panics if the answer is an error.
     pub fn ask(&mut self, command: Value) -> Value {
         writeln!(self.commands, "{command}").expect("the script reads");
         let mut answer = self.answer();

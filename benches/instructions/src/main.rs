@@ -39,7 +39,7 @@ fn main() {
 mod tests {
     use super::*;
 
-    /// Calls all pairs. A call panics if the results of both functions differ.
+    /// Calls all pairs. A call panics if the results of the two functions differ.
     #[test]
     fn generated_code_does_what_a_person_would_write() {
         all().for_each(|twins| (0..CALLS).for_each(|seed| (twins.call)(&noise(seed))));

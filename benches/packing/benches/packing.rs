@@ -24,7 +24,7 @@ fn frames() -> Vec<Frame> {
     (0..256).map(|_| *next().first_chunk().unwrap()).collect()
 }
 
-/// Measures `unpack`, then `pack` with the unpacked values. Checks that packing gives the original frames again.
+/// Measures `unpack`. First checks that packing the unpacked values gives the original frames again.
 fn unpacked<T>(bencher: Bencher<'_, '_>, unpack: impl Fn(&Frame) -> T, pack: impl Fn(&T) -> Frame) {
     let frames = frames();
     frames.iter().for_each(|frame| assert_eq!(pack(&unpack(frame)), *frame));

@@ -48,7 +48,7 @@ pub mod whole_bytes {
     }
 }
 
-/// A frame with single bits, three named bits, and a signed 24-bit number at bit 5.
+/// A frame with single bits, a 3-bit enumeration, and a signed 24-bit number at bit 5.
 pub mod odd_bits {
     use bilge::prelude::*;
 

@@ -17,16 +17,16 @@ pub struct Sample {
     pub rounds: usize,
 }
 
-/// Number of rounds that are run unless the time limit ends them earlier.
+/// Maximum number of rounds. The time limit can end the measurement earlier.
 const ROUNDS: usize = 15;
 
 /// Minimum number of rounds.
 const FEWEST: usize = 3;
 
-/// Time limit for a program with one input. The minimum number of rounds is run even if it exceeds this limit.
+/// Time limit for a program with one input. The minimum number of rounds is run even if the rounds take longer.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// Minimum duration of a round. Work that takes less time is repeated until a round takes this long.
+/// Target duration of a round. Work that takes less time is repeated within a round, but at most 1,000 times.
 const ROUND: Duration = Duration::from_millis(10);
 
 impl<'a> Contestant<'a> {

@@ -29,7 +29,8 @@ pub(in super::super) enum Command {
     /// Write a documentation site with a search. The pages can be opened from disk.
     #[command(after_help = "Example:\n  lexibus docs vendor-files/ --out site/")]
     Docs(Docs),
-    /// Compare two versions of a description. The exit code is 1 if a change breaks Rust code or the communication.
+    /// Compare two versions of a description. The exit code is 1 if a change breaks Rust code or the communication, or
+    /// if a description has errors.
     #[command(after_help = "Example:\n  lexibus diff old.eds new.eds --show breaking")]
     Diff(Diff),
     /// Read and check device descriptions.
@@ -93,7 +94,7 @@ pub(in super::super) struct Diff {
     /// Output format of the report.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DiffFormat::Text)]
     pub format: DiffFormat,
-    /// Changes to show. The summary and the exit code count all changes.
+    /// Changes to show. The summary and the exit code do not depend on this option.
     #[arg(long, value_enum, value_name = "CHANGES", default_value_t = Shown::All)]
     pub show: Shown,
     /// File to write; by default, standard output.
@@ -274,8 +275,8 @@ pub(in super::super) struct Schema {
 }
 
 impl Arguments {
-    /// Parses the arguments of this process. `levels` contains the options `--allow`, `--warn` and `--deny` in the order in
-    /// which the user wrote them.
+    /// Parses the arguments of this process. Records the order in which the user wrote the options `--allow`, `--warn` and
+    /// `--deny`.
     pub(in super::super) fn parse_in_order() -> Self {
         let matches = Arguments::command().get_matches();
         let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());

@@ -30,13 +30,14 @@ pub(crate) enum DeviceCommand {
     /// Write saved parameters to a device. All writes are shown before the first one.
     #[command(after_help = "Example:\n  lexibus restore --bus can:can0 --node 5 drive.eds axis.dcf --dry-run")]
     Restore(Restore),
-    /// Compare two backups by name. The exit code is 1 if they differ.
+    /// Compare the values in two backups. The exit code is 1 if they differ.
     #[command(after_help = "Example:\n  lexibus compare drive.eds monday.dcf friday.dcf")]
     Compare(Compare),
-    /// Search the nodes of a CANopen bus, and the descriptions that fit them.
+    /// List the nodes on a CANopen bus, each with the descriptions that fit it.
     #[command(after_help = "Example:\n  lexibus scan --bus can:can0 vendor-files/")]
     Scan(Scan),
-    /// Show the traffic of a CANopen bus, or values of a device, by name. Ends after Ctrl-C.
+    /// Show the traffic on a CANopen bus, or values of a device, with their names. Ends on Ctrl-C or after the time
+    /// `--duration`.
     #[command(after_help = "Example:\n  lexibus monitor --bus can:can0 5=drive.eds")]
     Monitor(Monitor),
     /// Convert a recorded trace of a CANopen bus (candump, ASC) to names and values.
@@ -93,7 +94,8 @@ pub(crate) struct WriteCommand {
     /// Name, path (OBJECT/NAME) or address (0x6081, 0x1018:1, 101) of the value.
     #[arg(value_name = "NAME")]
     pub name: String,
-    /// Value, with its unit if the value is scaled: 15.5 rev/s, 1550 raw, 0x10, or the name of a value.
+    /// Value, such as 15.5 rev/s, 1550 raw, 0x10 or the name of a value. A number for a scaled value needs its unit or
+    /// `raw`.
     #[arg(required = true, value_name = "VALUE", allow_negative_numbers = true)]
     pub value: Vec<String>,
     /// Write without asking.
@@ -111,11 +113,11 @@ pub(crate) struct Verify {
     /// File to write; by default, standard output.
     #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Also list the values that differ from their default value.
+    /// Also list the values that differ from their defaults.
     #[arg(long)]
     pub changed: bool,
-    /// Also search undeclared objects in this range of indices (0x2000..0x5FFF); can be repeated. Reading an undeclared object
-    /// may have unknown effects.
+    /// Also search this range of indices for undeclared objects (0x2000..0x5FFF); can be repeated. Reading an undeclared
+    /// object may have unknown effects.
     #[arg(long, value_name = "RANGE", value_parser = indices)]
     pub search: Vec<std::ops::RangeInclusive<u16>>,
     /// Write an overlay with the facts that were found.
@@ -160,7 +162,7 @@ pub(crate) enum BackupFormat {
 pub(crate) struct Restore {
     #[command(flatten)]
     pub target: Target,
-    /// Backup: a DCF or XDC, or TOML.
+    /// Backup file: DCF, XDC or TOML.
     #[arg(value_name = "BACKUP")]
     pub backup: PathBuf,
     /// Also restore this protected parameter (a name, path or address); can be repeated.
@@ -178,10 +180,10 @@ pub(crate) struct Restore {
 pub(crate) struct Compare {
     #[command(flatten)]
     pub described: Described,
-    /// Old backup: a DCF or XDC, or TOML.
+    /// Old backup file: DCF, XDC or TOML.
     #[arg(value_name = "OLD")]
     pub old: PathBuf,
-    /// New backup: a DCF or XDC, or TOML.
+    /// New backup file: DCF, XDC or TOML.
     #[arg(value_name = "NEW")]
     pub new: PathBuf,
 }
@@ -206,7 +208,7 @@ pub(crate) struct Scan {
 pub(crate) enum ScanFormat {
     /// One line per node.
     Text,
-    /// One JSON object per node and line.
+    /// One line with a JSON object per node.
     Json,
 }
 
@@ -232,7 +234,7 @@ pub(crate) struct Monitor {
     /// Time between two reads of the values, in milliseconds.
     #[arg(long, value_name = "MS", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     pub period: u32,
-    /// End after this time, in milliseconds.
+    /// Stop after this time, in milliseconds.
     #[arg(long, value_name = "MS")]
     pub duration: Option<u32>,
     /// Maximum time for a reply, in milliseconds.
@@ -247,11 +249,12 @@ pub(crate) struct Monitor {
 pub(crate) enum EventFormat {
     /// One line per message.
     Text,
-    /// Table with the last value of each name, which updates on a terminal.
+    /// Table with the last value for each name. A terminal shows each update; otherwise, the table is printed at the
+    /// end.
     Table,
-    /// One line per value, with commas between time, node, kind, address, name and value.
+    /// CSV with the columns time, node, kind, address, name and value, and one row per value.
     Csv,
-    /// One JSON object per message and line.
+    /// One line with a JSON object per message.
     Json,
 }
 

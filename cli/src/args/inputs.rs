@@ -1,4 +1,5 @@
-//! Arguments of all subcommands that read device descriptions: inputs, and how diagnostics are reported.
+//! Arguments that several subcommands share: input files, options for reading them, and options for reporting
+//! diagnostics.
 
 use std::path::PathBuf;
 
@@ -10,11 +11,11 @@ use lexibus_codegen::source::Source;
 
 use crate::Failure;
 
-/// Heading, in the help text, of the options about the content of the input.
+/// Heading in the help text for the options that affect how inputs are read.
 const INPUT: &str = "Input";
-/// Heading, in the help text, of the options about the diagnostics that are reported.
+/// Heading in the help text for the options that select the diagnostics to report.
 pub(super) const DIAGNOSTICS: &str = "Diagnostics";
-/// Heading, in the help text, of the options about the form of printed diagnostics.
+/// Heading in the help text for the options that select the format of diagnostics.
 const OUTPUT: &str = "Output";
 
 /// Input files, and options for reading them.

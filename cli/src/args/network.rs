@@ -17,7 +17,7 @@ pub(crate) enum NetworkCommand {
     /// Read and check a network file, and print its bus load.
     #[command(after_help = "Example:\n  lexibus network check network.toml")]
     Check(NetworkCheck),
-    /// Write DCF and concise DCF of all nodes and of the master, a DBC, and Rust modules.
+    /// Write the DCFs and concise DCFs of the nodes and the master, a DBC, and Rust modules.
     #[command(after_help = "Example:\n  lexibus network build network.toml --out network/")]
     Build(NetworkBuild),
     /// Print the JSON Schema of network.toml.
@@ -43,7 +43,7 @@ pub(crate) struct NetworkBuild {
     pub input: NetworkInput,
 }
 
-/// A network file, and how its diagnostics are reported.
+/// A network file, and options for reporting its diagnostics.
 #[derive(Debug, Args)]
 pub(crate) struct NetworkInput {
     /// Network file: network.toml, bus.yml (dcfgen, ros2_canopen) or .cpj (CiA 306-3).

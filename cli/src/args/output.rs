@@ -7,7 +7,7 @@ use lexibus_codegen::backend::rust::{Presence, RustOptions};
 
 use super::Inputs;
 
-/// Heading, in the help text, of the options about the generated code.
+/// Heading in the help text for the options that affect the generated code.
 const RUST: &str = "Rust";
 
 #[derive(Debug, Args)]
@@ -24,7 +24,7 @@ pub(crate) struct Generate {
     /// Rust path of the runtime crate in the generated code.
     #[arg(long, value_name = "PATH", default_value = "::lexibus", value_parser = rust_path, help_heading = RUST)]
     pub runtime: String,
-    /// Generate only handles, and no device type with accessor methods.
+    /// Do not generate a device type with accessor methods.
     #[arg(long, help_heading = RUST)]
     pub no_accessors: bool,
     /// Do not generate PDO structs.

@@ -1,4 +1,4 @@
-//! Output of events: lines, table, CSV, JSON lines.
+//! Writes events as lines of text, as a table, as CSV or as JSON lines.
 
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
@@ -23,7 +23,7 @@ struct Timed<'e> {
 pub(super) struct Output<W> {
     out: W,
     format: EventFormat,
-    /// Rows of the table: the last text of each node and name.
+    /// Rows of the table: the last text for each node and name.
     rows: BTreeMap<(Option<u8>, String), String>,
     /// Number of rows on the screen.
     shown: usize,
@@ -70,7 +70,7 @@ impl<W: Write> Output<W> {
         Ok(())
     }
 
-    /// Updates the table. On a terminal, the table is drawn again.
+    /// Updates the rows of the table. On a terminal, also redraws the table.
     fn row(&mut self, event: &Event) -> std::io::Result<()> {
         if event.values.is_empty() {
             let name = if event.kind == EventKind::Sdo { return Ok(()) } else { event.kind.name().to_owned() };
@@ -88,7 +88,7 @@ impl<W: Write> Output<W> {
 
     fn draw(&mut self) -> std::io::Result<()> {
         if self.shown > 0 {
-            // Moves the cursor to the first row of the table.
+            // Move the cursor to the first row of the table.
             write!(self.out, "\x1b[{}A", self.shown)?;
         }
         let width = self.rows.keys().map(|(_, name)| name.chars().count()).max().unwrap_or(0);
@@ -102,7 +102,7 @@ impl<W: Write> Output<W> {
         self.out.flush()
     }
 
-    /// Writes the table, if the output isn't a terminal.
+    /// Writes the table if the output is not a terminal.
     pub(super) fn finish(mut self) -> std::io::Result<()> {
         if self.format == EventFormat::Table && !self.is_terminal {
             self.draw()?;
@@ -111,7 +111,7 @@ impl<W: Write> Output<W> {
     }
 }
 
-/// Returns a cell of a CSV file (RFC 4180).
+/// Returns a text as a cell of a CSV file, in quotation marks if necessary (RFC 4180).
 fn cell(text: &str) -> String {
     let text = printable(text);
     match text.contains([',', '"']) {

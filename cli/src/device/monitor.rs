@@ -16,7 +16,7 @@ use crate::Failure;
 /// Maximum time to wait for a frame before the periodic reads are checked.
 const TURN: Duration = Duration::from_millis(50);
 
-/// The time of the monitor: when to read values, and when to end.
+/// Determines when the monitor reads values and when it ends.
 struct Schedule {
     start: Instant,
     next: Instant,
@@ -37,7 +37,7 @@ impl Schedule {
         self.deferred.is_requested() || self.duration.is_some_and(|duration| self.start.elapsed() >= duration)
     }
 
-    /// Returns whether the values have to be read now.
+    /// Returns whether the values must be read now. If so, schedules the next read.
     fn is_due(&mut self) -> bool {
         let is_due = Instant::now() >= self.next;
         if is_due {
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Monitor) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Waits for a frame and writes its event.
+/// Waits up to [`TURN`] for a frame. Writes the event of a received frame, if it has one.
 fn watch<P>(
     connection: &mut CanOpenConnection<lexibus::clients::canopen::Node<P>>,
     interpreter: &mut Interpreter<'_>,

@@ -52,7 +52,7 @@ fn descriptions(arguments: &Scan) -> Result<Vec<Description>, Failure> {
     Ok(sources.filter_map(|source| Description::compile(source, Network::CanOpen, &options).ok()).collect())
 }
 
-/// Returns the descriptions that fit a node, the best first.
+/// Returns the descriptions that fit a node, starting with the best fit.
 fn fitting<'d>(node: &FoundNode, descriptions: &'d [Description]) -> Vec<(Fit, &'d Description)> {
     let fits = descriptions.iter().filter_map(|description| Some((node.fit(description)?, description)));
     let mut fits: Vec<_> = fits.collect();

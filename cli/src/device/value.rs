@@ -53,7 +53,7 @@ pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
         say("nothing was written");
         return Ok(false);
     }
-    // Ctrl-C during the transfer would leave open whether the device has the value.
+    // Defer Ctrl-C, because after an interrupted transfer it would be unknown whether the device has the new value.
     let deferred = Deferred::new();
     let result = write.execute(&mut connection);
     drop(deferred);

@@ -6,10 +6,10 @@ use lexibus_codegen::diagnostics::Code;
 /// cases.
 const EXAMPLES: &str = include_str!("examples.txt");
 
-/// Start of the line that separates two examples.
+/// Start of the line that precedes an example.
 const START: &str = "=== ";
 
-/// Returns the terminal output for an input that causes the diagnostic.
+/// Returns the terminal output for an input that causes the diagnostic, or `None` if the code has no example.
 pub fn example(code: &Code) -> Option<&'static str> {
     let examples = EXAMPLES.split(START).filter_map(|example| example.split_once('\n'));
     examples.filter(|(id, _)| *id == code.id).map(|(_, text)| text.trim_end()).next()

@@ -74,7 +74,7 @@ fn family(code: &Code) -> &'static str {
     code.id.trim_end_matches(|letter: char| letter.is_ascii_digit())
 }
 
-/// Escapes the markup in a text, except code in backticks.
+/// Escapes the markup in a text, except in code between pairs of backticks.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len() + 8);
     let is_paired = text.matches('`').count().is_multiple_of(2);

@@ -52,7 +52,7 @@ struct Support<'s> {
     library: &'s str,
     machine: Option<&'s Machine<'s>>,
     simulation: Option<&'s Simulation>,
-    /// Import of the type of the commands, under the name `Command`.
+    /// Import of the command type under the name `Command`.
     commands_import: String,
 }
 
@@ -73,7 +73,7 @@ struct BusNames {
     type_name: &'static str,
     /// A client of the bus.
     client: &'static str,
-    /// Cargo feature of the runtime that contains the client.
+    /// Cargo feature of the runtime that enables the client.
     feature: &'static str,
 }
 
@@ -97,7 +97,7 @@ struct Machine<'m> {
     walk: &'m str,
     target: &'m str,
     status: &'m str,
-    /// Import of the type of the states, under the name `State`.
+    /// Import of the state type under the name `State`.
     states_import: String,
 }
 

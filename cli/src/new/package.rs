@@ -122,7 +122,7 @@ pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Fai
     Ok(true)
 }
 
-/// Returns the text of a file.
+/// Returns the text of a file from its template.
 pub(super) fn render(template: &impl Template) -> Result<String, Failure> {
     template.render().map_err(|error| Failure::Usage(format!("cannot write a file of the crate: {error}")))
 }
@@ -181,7 +181,8 @@ fn copy_sources(compilation: &Compilation, files: &mut Files) -> Result<String, 
     Ok(literal(&relative(main.name(), &folder).unwrap_or_default()))
 }
 
-/// Returns the path of a file relative to a folder, with `/`. Returns `None` if the file is not in the folder.
+/// Returns the path of a file relative to a folder, with `/` between its parts. Returns `None` if the file is not in
+/// the folder.
 fn relative(file: &str, folder: &str) -> Option<String> {
     let inside = Path::new(file).strip_prefix(folder).ok()?;
     let part = |part: Component<'_>| match part {

@@ -1,18 +1,18 @@
-//! Limits the number of printed diagnostics of a code in a file.
+//! Limits the number of diagnostics that are printed for each code and file.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
 use lexibus_codegen::diagnostics::{Diagnostic, Severity};
 
-/// Maximum number of printed diagnostics of a code in a file, unless the user wants all of them.
+/// Maximum number of diagnostics that are printed for each code and file, unless the user requests all of them.
 const LIMIT: usize = 3;
 
 /// A part of the text output: a diagnostic, or the number of omitted diagnostics.
 pub(super) enum Shown<'d> {
     /// A diagnostic in full.
     Full(&'d Diagnostic),
-    /// A warning without its marked lines, because the file already has a warning of this code.
+    /// A warning without its marked lines, because it is not the first printed diagnostic of its code in the file.
     Brief(&'d Diagnostic),
     /// A line with the number of diagnostics that are left out.
     More(String),
@@ -24,7 +24,8 @@ struct Count {
     total: usize,
     /// Number of diagnostics that were printed.
     shown: usize,
-    /// Number of diagnostics that the printed ones represent, including repetitions.
+    /// Number of diagnostics that the printed ones represent. A closing diagnostic represents all diagnostics that were
+    /// only counted.
     covered: usize,
 }
 

@@ -45,7 +45,7 @@ pub(in super::super) struct Reporter {
     statistics: Option<Statistics>,
     /// Diagnostics that are not reported.
     baseline: Option<Baseline>,
-    /// Diagnostics of all inputs, which are collected only for SARIF output, because it is a single document.
+    /// Diagnostics of all inputs. They are collected only for SARIF output, because a SARIF log is a single document.
     kept: Vec<Diagnostic>,
     sources: Vec<Source>,
 }
@@ -185,7 +185,8 @@ impl Reporter {
         self.errors > 0
     }
 
-    /// Prints the summary, the statistics or the SARIF document. Returns whether no errors occurred.
+    /// Prints the statistics or the SARIF document if they are selected, and a summary in formats for human readers.
+    /// Returns whether no errors occurred.
     pub(in super::super) fn finish(self) -> Result<bool, Failure> {
         match (&self.statistics, self.format) {
             (Some(statistics), MessageFormat::Json) => self.print(&statistics.json()?)?,
@@ -236,7 +237,7 @@ impl Reporter {
     }
 }
 
-/// Returns a value as one line of JSON.
+/// Returns a value as one line of JSON that ends with a line feed.
 pub(crate) fn json_line(value: &impl serde::Serialize) -> Result<String, Failure> {
     Ok(serde_json::to_string(value).map_err(std::io::Error::other)? + "\n")
 }

@@ -1,4 +1,5 @@
-//! Creates the documentation sites that the scripts open. Each site is created only once.
+//! Creates the documentation sites that the scripts open. The site of the four drives, which most scripts open, is
+//! created only once.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

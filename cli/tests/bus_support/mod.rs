@@ -18,7 +18,8 @@ use pty::Pty;
 /// Node-ID of the simulated drive.
 pub const NODE: u8 = 5;
 
-/// Starts a CAN bus with a simulated drive. Returns the path of the adapter. The adapter waits for `delay` before each reply.
+/// Starts a CAN bus with a simulated drive. Returns the path of the adapter. The adapter waits for `delay` before it forwards
+/// a frame to the bus.
 pub fn adapter(delay: Duration) -> String {
     let (sender, receiver) = std::sync::mpsc::channel();
     std::thread::spawn(move || {
@@ -104,7 +105,7 @@ fn serve_modbus(mut stream: TcpStream, device: &mut Device) -> std::io::Result<(
     }
 }
 
-/// Answers the functions 3, 4, 6 and 16.
+/// Answers a request with the function code 3, 4, 6 or 16, and rejects other function codes.
 fn answer(request: &[u8], device: &mut Device) -> Vec<u8> {
     let number = |at: usize| u16::from_be_bytes([request[at], request[at + 1]]);
     let function = request[0];

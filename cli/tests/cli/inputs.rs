@@ -106,7 +106,8 @@ fn links_and_pipes_in_a_folder() {
     let deep = folder.join("a/b");
     std::fs::create_dir_all(&deep).expect("a folder");
     file(&deep, "drive.eds", QUIRKY);
-    // Each folder contains two links to its parent. A search that follows all links would visit 2^32 paths.
+    // The deepest folder contains two links to the top folder, so the number of paths doubles with each link that a
+    // search follows.
     for name in ["one", "other"] {
         std::os::unix::fs::symlink(&folder, deep.join(name)).expect("a link");
     }

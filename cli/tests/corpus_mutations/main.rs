@@ -30,7 +30,7 @@ use proptest::test_runner::{RngSeed, TestError, TestRunner};
 const FEWEST: u32 = 40;
 
 /// Returns a configuration with the given number of cases. A debug build runs a sixth of the cases. In the fast lane,
-/// the number is divided by four.
+/// the number is divided by four. `PROPTEST_CASES` overrides the number.
 fn config(cases: u32) -> ProptestConfig {
     let mut config = ProptestConfig { failure_persistence: None, max_shrink_iters: 3000, ..ProptestConfig::default() };
     if std::env::var_os("PROPTEST_CASES").is_none() {
@@ -430,7 +430,7 @@ fn files_that_start_as_one_and_end_as_another() {
     });
 }
 
-/// Generates a file name with the extension of a format or with an unrelated extension.
+/// Generates a file name with the extension of a format or without an extension.
 fn name() -> impl Strategy<Value = &'static str> {
     select(&["x.eds", "x.dcf", "x.xdd", "x.xdc", "", "x"][..])
 }

@@ -64,7 +64,7 @@ fn rendered(compilation: &Compilation, found: &Diagnostic) {
     assert!(!compilation.one_line(found).contains('\n'));
 }
 
-/// Returns options that enable all lints. By default, most lints are disabled.
+/// Returns options that enable all lints. By default, some lints are disabled.
 fn everything_reported(overlays: Vec<Source>) -> Options {
     let mut options = Options { overlays, ..Options::default() };
     for code in codes::CODES {
@@ -87,7 +87,7 @@ fn emitted(compilation: &Compilation) {
     }
 }
 
-/// Runs all exports. Ignores the notes, and exports that are refused. Exports only the first two devices as DCF.
+/// Exports the catalog as ESI and as GSDML, and the first two devices as DCF. Ignores notes and refusals.
 fn exported(catalog: &Catalog) {
     let _ = esi::export(catalog, &esi::Options::default());
     let _ = gsdml::export(catalog, &gsdml::Options::default());

@@ -23,8 +23,8 @@ const DIAGNOSTICS: &str = "diagnostics";
 pub struct Settings {
     /// One sentence that states the rule that the case tests.
     pub about: String,
-    /// Files to compile in this order. By default, these are all files of the folder. For `diff`, these are the old and
-    /// the new file.
+    /// Files to compile in this order. By default, these are all files of the folder, except settings, overlays and
+    /// expected files. For `diff`, these are the old and the new file.
     inputs: Vec<String>,
     strict: bool,
     allow: Vec<String>,
@@ -37,8 +37,8 @@ pub struct Settings {
     objects: Vec<String>,
     overlays: Vec<String>,
     no_profiles: bool,
-    /// Whether only the original form of the input is compiled. Other line ends, encodings and byte order marks are not
-    /// tested.
+    /// Whether only the original form of the input is compiled, and not forms with other line ends, encodings and byte
+    /// order marks.
     pub one_form: bool,
     /// For each output, the parts to compare; an empty list means the whole output. See `part.rs`.
     pub rust: Option<Vec<String>>,
@@ -53,8 +53,8 @@ pub struct Settings {
     pub diff: bool,
     /// Whether the inputs are network files, whose descriptions are other files of the folder.
     pub network: bool,
-    /// Calls of `lexibus` whose output is compared. A line `cat FILE` shows a file. If there are calls, all other
-    /// outputs are omitted.
+    /// Calls of `lexibus` whose output is compared. A line `cat FILE` shows a file, and a line `cp FROM TO` copies a
+    /// file. If there are calls, all other outputs are omitted.
     pub commands: Vec<String>,
     /// Columns of a register list in the form `field=column`, as for `--map`.
     pub map: Vec<String>,

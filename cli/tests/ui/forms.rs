@@ -1,5 +1,5 @@
-//! Compiles each input with all line ends, with and without a byte order mark and, if it is an EDS, in Windows-1252.
-//! All results must be equal. The fast lane tests fewer combinations, and only the `quirks` cases.
+//! Compiles each EDS and XML input with all line ends, and with and without a byte order mark. Compiles each EDS also
+//! in Windows-1252. All results must be equal. The fast lane tests fewer combinations, and only the `quirks` cases.
 
 use lexibus_codegen::compile::{check, Compilation};
 use lexibus_codegen::source::Source;

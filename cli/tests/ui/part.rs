@@ -1,12 +1,13 @@
 //! Selects the parts of an output that a test case shows.
 //!
-//! The settings name a part by a text in its first line. The extent of the part depends on the form of the output:
+//! The settings name a part by a text in one of its lines. The extent of the part depends on the form of the output:
 //!
-//! - Rust, XML and JSON: the line, all lines that are indented below it, and the closing line. In Rust, the part includes the
-//!   documentation and attributes above the item. The text must be one or more whole words in the item's first line (`SPEED`,
-//!   `fn speed`, `struct RxPdo1`). A `^` at the end of the text selects the enclosing element, and `^^` the next outer element.
-//! - EDS, Markdown and plain text: all lines up to the next empty line. In a Markdown table, the part consists of the header and
-//!   the rows that contain the text.
+//! - Rust, XML and JSON: the line with the text, all lines that are indented below it, and the closing line. In Rust, the part
+//!   includes the documentation and attributes above the item, and the text must be one or more whole words in the item's first
+//!   line (`SPEED`, `fn speed`, `struct RxPdo1`). A `^` at the end of the text selects the enclosing element, and `^^` the next
+//!   outer element.
+//! - EDS, Markdown and plain text: the paragraph that contains the text, up to the next empty line. In a Markdown table, the
+//!   part consists of the header and the rows that contain the text.
 
 use std::ops::Range;
 
@@ -98,7 +99,7 @@ fn outer(lines: &[&str], at: usize, levels: usize) -> usize {
 }
 
 /// Returns the lines of the element that starts at line `at`: the indented lines below and the closing line. In Rust, the
-/// documentation above is included.
+/// documentation and attributes above are included.
 fn indented(lines: &[&str], at: usize, form: Form) -> Range<usize> {
     let depth = indent(lines[at]);
     let is_above =

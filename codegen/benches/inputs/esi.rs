@@ -115,7 +115,7 @@ fn object(text: &mut String, index: usize) {
     );
 }
 
-/// Writes sync managers and PDOs. Each PDO has ten single values.
+/// Writes sync managers and PDOs. Each PDO maps ten single values.
 fn process_data(text: &mut String, shape: Shape) {
     for (name, address, control) in
         [("MBoxOut", 0x1000, 0x26), ("MBoxIn", 0x1080, 0x22), ("Outputs", 0x1100, 0x64), ("Inputs", 0x1400, 0x20)]

@@ -1,7 +1,7 @@
 //! Exports devices from any input format as EDS or DCF (CiA 306), ESI (ETG.2000), EEPROM content of EtherCAT slaves
-//! (SII) or GSDML. Also writes the IR as JSON, and diagnostics as JSON lines or SARIF.
+//! (SII) or GSDML. Also writes the IR as JSON, and diagnostics as JSON lines, SARIF or annotations of GitHub.
 //!
-//! Facts that the output format cannot express are left out. [`Export::notes`] lists the facts that were left out.
+//! Facts that the output format cannot express are left out or changed. [`Export::notes`] lists these facts.
 //!
 //! ```
 //! use lexibus_codegen::compile::{check, Options};

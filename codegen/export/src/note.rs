@@ -64,9 +64,9 @@ macro_rules! kinds {
 kinds! {
     /// A fact from the options that the export does not use.
     GivenFact = "given-fact", "value of an option left out: the file has no field for it";
-    /// A configured value, such as ParameterValue or Denotation, in an EDS.
+    /// A configured value, such as ParameterValue or Denotation, in a format other than DCF.
     Configuration = "configuration", "configured value left out: only a DCF has a field for it";
-    /// A unit, scale, sentinel or step.
+    /// A unit, scale, sentinel value or step.
     Quantity = "unit", "unit or scale left out";
     /// A type with named values.
     Enumeration = "enumeration", "enumeration written as its integer type";
@@ -96,7 +96,7 @@ kinds! {
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
     /// PDO mapping directions that no access type can express.
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
-    /// A PDO that no object describes.
+    /// A PDO, or its communication parameters, that no object of the file describes.
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
     /// Storage behavior, side effects or conditions of an item.
     Behavior = "behavior", "storage, conditions or side effects left out";
@@ -125,7 +125,7 @@ kinds! {
     Completed = "completed", "sub-index 0 added to an object that consists of registers";
     /// A second object or entry at the same address.
     Duplicate = "duplicate", "object or entry left out: another one has the same address";
-    /// An extension attribute for which the format has no key.
+    /// An extension attribute for which the format has no field.
     Extension = "extension", "extension attribute left out: the format has no field for it";
     /// A module of another bus.
     Module = "module", "module of another bus left out";
@@ -133,13 +133,13 @@ kinds! {
     Slot = "slot", "slot, or class or name of a module that a slot accepts, left out";
     /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
-    /// An additional axis. An additional axis, whose objects are derived from the objects of the first axis.
+    /// An additional axis, whose objects are derived from the objects of the first axis.
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
-    /// A PROFINET submodule, message, code table, state machine, procedure or variant.
+    /// A message, code table, state machine, procedure, variant or PROFINET submodule.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
     /// A setting of the device or of one of its objects for which the format has no field.
     Setting = "setting", "setting left out: the format has no field for it";
-    /// A date, time, version or comment that the format writes in another form.
+    /// A date, time, version or comment of the file that the export converts or leaves out.
     FileInfo = "file-info", "file date, time, version or comment converted or left out";
     /// A text that contains a line break.
     LineBreak = "line-break", "line break in a text written as a space";
@@ -247,7 +247,7 @@ pub(super) enum Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// Returns the object of a group.
+    /// Returns the object of a group, or the device if the group is not an object.
     pub(super) fn object(group: &Group) -> Self {
         group.index().map_or(Subject::Device, Subject::Object)
     }

@@ -144,7 +144,7 @@ impl Xml {
         self.close();
     }
 
-    /// Writes an element unless `list` is empty. Calls `write` to write its child elements.
+    /// Writes an element unless `list` is empty. Calls `write` for each item of the list to write the child elements.
     pub(super) fn list<T>(
         &mut self,
         name: &'static str,

@@ -1,5 +1,5 @@
-//! Decodes arbitrary bytes with the serial protocol of the HSD motors: as a stream of frames, and as a request and its
-//! reply. Encoding the decoded data must give the same bytes.
+//! Decodes arbitrary bytes as a stream of HSD frames, and as each request of the HSD motors and the AKD with its reply.
+//! Encoding the decoded data must give the same bytes.
 #![no_main]
 
 use lexibus::framing::Framing;
@@ -7,8 +7,8 @@ use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
 /// Checks that `write` writes as many bytes as `data` has, and that the first `known` bytes are the same. `write` may
-/// fail for settings with a wrong length and for values outside of their limits, because such data can be read, for bus
-/// diagnosis, but not written.
+/// fail for settings with a wrong length and for values outside of their limits. Such data can be decoded for bus
+/// diagnosis, but the writer rejects them.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);
@@ -38,7 +38,7 @@ fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
     }
 }
 
-/// Checks that the data of each decoded frame encode to the same frame.
+/// Encodes the data of each decoded frame, and checks that decoding the result gives the same data.
 fn frames(stream: &[u8]) {
     let (mut decoder, mut data) = (FRAMING.decoder(), [0; MAX_DATA]);
     for &byte in stream {

@@ -1,4 +1,5 @@
-//! Unpacks arbitrary bytes as the process data of each drive. Packing must give the same bytes.
+//! Unpacks arbitrary bytes as the process data of each drive. Packing must give the same bytes, except that padding
+//! bits become 0.
 #![no_main]
 
 use lexibus_drives::{akd, demo_drive, eco, vector_step};

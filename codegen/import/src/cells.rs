@@ -48,7 +48,7 @@ pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
     is_number.then(|| i128::from_str_radix(&digits, 16).ok()).flatten()
 }
 
-/// Parses a number in any notation. `comma` means that the decimal mark is a comma.
+/// Parses a decimal, hexadecimal or binary number. If `comma` is set, the decimal mark is a comma.
 pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     let text: String = text.trim().replace(['\u{a0}', '\u{202f}', '\'', '_'], "").replace(['−', '–'], "-");
     let (sign, digits) = match text.strip_prefix('-') {
@@ -176,7 +176,8 @@ fn symbol(text: &str) -> String {
     usual_unit(text).unwrap_or(text).to_owned()
 }
 
-/// Parses access rights. Returns their key in a register table: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
+/// Parses access rights. Returns the value of the key `access` in a register table: `ro`, `rw`, `wo`, `const`, `rwr` or
+/// `rww`.
 pub(super) fn access(text: &str) -> Option<&'static str> {
     let lower = text.to_lowercase();
     let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();
@@ -202,7 +203,7 @@ pub(super) fn access(text: &str) -> Option<&'static str> {
     })
 }
 
-/// The word and byte order for the keys `low_first` and `swap` of a register table.
+/// The word and byte order, for the keys `order` and `swap` of a register table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Order {
     pub low_first: Option<bool>,

@@ -206,11 +206,11 @@ pub(super) struct Column {
     pub at: usize,
     /// True if the title states that the numbers are hexadecimal.
     pub is_hex: bool,
-    /// Unit or operation that the title mentions: words instead of bytes, or a gain instead of a divisor.
+    /// Detail of the column that the title states: an order of words only, or a gain instead of a divisor.
     pub hint: Hint,
 }
 
-/// The unit or operation that a title mentions.
+/// A detail of a column that its title states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Hint {
     #[default]
@@ -223,7 +223,8 @@ pub(super) enum Hint {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     pub list: Vec<Column>,
-    /// Position of the line with the titles. `None` if the caller identifies all columns by number.
+    /// Position of the line with the titles. `None` if no such line was found. The columns are then those that the
+    /// caller identifies by number.
     pub header: Option<usize>,
     /// Number of cells per line.
     pub width: usize,
@@ -245,13 +246,13 @@ impl Columns {
         self.list.iter().any(|column| column.field.is_address())
     }
 
-    /// Returns a score: the number of recognized columns, plus four if one of them is an address.
+    /// Returns a score: the number of recognized columns, plus four if one of them contains addresses.
     pub fn score(&self) -> usize {
         self.list.len() + if self.has_address() { 4 } else { 0 }
     }
 }
 
-/// Maximum number of lines before the titles.
+/// Number of lines at the start of the list in which the titles are searched.
 const PREAMBLE: usize = 40;
 
 /// Finds the line of titles and determines the field of each column.
@@ -412,8 +413,7 @@ fn field_of(title: &str) -> Option<Field> {
         let has = |list: &[&str]| words().any(|word| list.contains(&word));
         match () {
             () if words().count() > 4 => None,
-            // The title "Indirizzo CAN EtherCAT Profinet", for example, means the object index if another column
-            // contains the Modbus address.
+            // For example, the title "Indirizzo CAN EtherCAT Profinet" means a column of object indices.
             () if is_fieldbus(title) => Some(Field::Index),
             () if has(&["subindex", "sub"]) => Some(Field::Sub),
             () if has(&["address", "adresse", "indirizzo", "addr"]) => Some(Field::Reg),

@@ -245,8 +245,8 @@ impl Reader<'_, '_> {
             .unwrap_or_else(by_address)
     }
 
-    /// Reads the names of values or bits. Returns the index of their definition. Returns the text of the cell instead
-    /// if the cell contains no list, or if the type is not an integer.
+    /// Reads the names of values or bits. Returns the index of their definition. If the cell contains no list or the
+    /// type is not an integer, returns the text of the cell instead.
     pub fn meaning(&mut self, record: &Record, ty: Type, name: &str) -> (Option<usize>, Option<String>) {
         let fields = [(Field::Bits, true), (Field::Enum, false), (Field::Range, false)];
         for (field, of_bits) in fields {

@@ -14,7 +14,8 @@ use super::definitions::Definition;
 use super::rows::{Row, RowAddress, Rows};
 use super::types::Base;
 
-/// Minimum number of rows that must have the same difference between object index and register address.
+/// Number of rows that must have the same difference between object index and register address before the import
+/// reports other differences.
 const ALIKE: usize = 3;
 
 /// A Modbus table, with the base address and the order of words and bytes that all its rows share.
@@ -25,7 +26,7 @@ pub(super) struct Space {
     pub first: i64,
     /// True if the list determines the value of `first`. Otherwise, `first` is 0.
     pub is_first_known: bool,
-    /// True if all rows transfer the low word first.
+    /// True if all values of more than 16 bits have the low word first.
     pub low_first: bool,
     /// True if the bytes of all rows are swapped.
     pub swap: bool,

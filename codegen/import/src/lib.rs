@@ -121,7 +121,7 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
 ///
 /// # Errors
 ///
-/// Returns the title of a column in `options.map` that does not exist.
+/// Returns the title or number of a column in `options.map` that the list does not contain.
 fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), String> {
     let declared = records::declared_delimiter(source.text());
     let start = declared.map_or(0, |(_, length)| length);
@@ -166,7 +166,7 @@ fn unknown_columns(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     diagnostics.push(Diagnostic::new(&codes::CSV_UNKNOWN_COLUMN, first.span, message).help(help));
 }
 
-/// Returns the data lines: those after the titles, except repeated titles.
+/// Returns the data lines: those after the titles, except empty lines and repeated titles.
 fn data<'r>(records: &'r Records, columns: &Columns) -> impl Iterator<Item = &'r Record> {
     let header = columns.header.and_then(|line| records.list.get(line));
     let texts = |record: &Record| record.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>();

@@ -29,7 +29,7 @@ pub(super) struct Type {
     pub base: Base,
     pub bits: u32,
     pub elements: Option<u32>,
-    /// Length of a text in bytes.
+    /// Length of a text or a sequence of bytes, in bytes.
     pub length: Option<u32>,
 }
 

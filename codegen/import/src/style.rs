@@ -15,7 +15,7 @@ pub(super) struct Style {
     pub addresses: [address::Style; 2],
     /// True if minimum, maximum and default are physical values.
     pub physical: bool,
-    /// True if the raw value must be divided by the gain.
+    /// True if the raw value must be divided by the divisor or gain.
     pub gain_divides: bool,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Written {
     pub bits: Option<u32>,
     /// True if the name contains the size.
     pub is_explicit: bool,
-    /// Length of a text in bytes.
+    /// Length of a text or a sequence of bytes, in bytes.
     pub length: Option<u32>,
     /// Number of elements of an array.
     pub elements: Option<u32>,

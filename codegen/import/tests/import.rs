@@ -372,7 +372,7 @@ fn limits_with_a_decimal_point_are_physical() {
     let list = "Address;Name;Type;Unit;Factor;Min;Max;Default\n40001;Set point;INT16;°C;0.1;-20.0;200.0;25.0\n";
     let table = read(list).table.expect("a table");
     assert!(table.contains("min = -200, max = 2000, default = 250"), "{table}");
-    // The decimal point does not mean that limits are physical values if addresses also end with `.0`.
+    // If addresses also end with `.0`, the ending `.0` of a limit does not indicate a physical value.
     let list = list.replace("40001;", "40001.0;");
     let table = read(&list).table.expect("a table");
     assert!(table.contains("min = -20, max = 200, default = 25"), "{table}");

@@ -14,7 +14,7 @@ const LONGEST: usize = 60;
 /// A device of a site: the name of its description, and its position in this description.
 pub(super) type DeviceKey = (String, usize);
 
-/// Revision numbers of the devices of a product.
+/// The devices of a product, each with its revision number.
 type Revisions = Vec<(u32, DeviceKey)>;
 
 /// The folders of a site's devices, and the revisions of each product.
@@ -22,7 +22,7 @@ type Revisions = Vec<(u32, DeviceKey)>;
 pub(super) struct Addresses {
     /// Devices, keyed by the folder of the product and the name of the revision's folder.
     devices: BTreeMap<(String, String), Vec<DeviceKey>>,
-    /// Revisions of each product, see [`product`].
+    /// Revisions of each product, keyed by the text that [`product`] returns.
     products: HashMap<String, Revisions>,
     /// Folder of the pages that the devices of a description share.
     shared: HashMap<String, String>,

@@ -7,7 +7,7 @@ use lexibus_codegen::unique::Unique;
 /// Maximum number of characters of a name that is created from a text.
 const LONGEST: usize = 40;
 
-/// The file names of a site, or the anchors of a page, without duplicates.
+/// The file names of a folder, or the anchors of a page, without duplicates.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: Unique,

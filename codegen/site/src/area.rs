@@ -1,4 +1,4 @@
-//! Pages that list items: a chapter of registers or a range of objects.
+//! Pages that list items, such as the registers of a chapter or the objects of an index range.
 
 use std::collections::HashMap;
 
@@ -42,7 +42,8 @@ impl Area {
 /// The items under one heading: an object with its entries, or registers.
 #[derive(Debug, Default)]
 pub(super) struct Section {
-    /// Anchor of an object with several entries. If the section has a single row, the row has the anchor.
+    /// Anchor of an object with sub-indices. `None` for other objects and for registers, because each row has its own
+    /// anchor.
     pub anchor: Option<String>,
     pub number: String,
     pub name: String,
@@ -69,7 +70,7 @@ struct Part<'g> {
     groups: Vec<(u32, &'g Group)>,
 }
 
-/// Returns the size of a section in bytes.
+/// Function that returns the size of a section in bytes.
 pub(super) type Size = fn(&Section) -> usize;
 
 /// Returns the pages for these groups. `size` returns the size of a section, which limits the number of sections per

@@ -18,7 +18,7 @@ const CELL: u32 = 40;
 /// The bit grids that a page needs: the first bit and the number of bits of each drawing row.
 pub(super) type Grids = BTreeSet<(u32, u32)>;
 
-/// A bit field on a page: its drawing and its list.
+/// A bit field on a page: the drawing of its bits and the list of its fields.
 #[derive(Debug)]
 pub(super) struct Bits {
     /// Rows of the drawing. The row with the most significant bits comes first.
@@ -51,7 +51,7 @@ pub(super) struct Field {
     pub is_reserved: bool,
     /// True if the field has this meaning only while a condition holds.
     pub is_conditional: bool,
-    /// True if the flag is set while its bit is 0.
+    /// True if the flag is active low, that is, active while its bit is 0.
     pub is_inverted: bool,
 }
 
@@ -110,7 +110,7 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32, owner: &str) 
         rows.push(Row { first, bits: last - first, top, cells });
         last = first;
     }
-    // Omit a drawing without any name, because the list contains the names of all fields.
+    // Omit a drawing in which no cell has space for a name. The list contains the names of all fields.
     if rows.iter().flat_map(|row: &Row| &row.cells).all(|cell| cell.label.is_empty()) {
         rows.clear();
     }

@@ -16,7 +16,7 @@ const MAX_BITS: u32 = 64;
 /// Index of the assignment of PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
 const ASSIGNMENT: u16 = 0x1C10;
 
-/// Returns the data as JSON, or `None` if no mapping can be changed.
+/// Returns the data as JSON, or `None` if no mapping can be changed or no object can be mapped.
 pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
     let pdos: Vec<Json> = device.process_data.pdos.iter().filter_map(|pdo| self::pdo(device, pdo, usage)).collect();
     let mapped = pdo::mapped_objects(&device.process_data.pdos);
@@ -26,7 +26,8 @@ pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
     (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
 }
 
-/// Returns the data of a PDO with a changeable mapping: what both buses have in common, and the data of its bus.
+/// Returns the data of a PDO with a changeable mapping: the data that PDOs on both buses have, and the data that only
+/// PDOs on its bus have.
 fn pdo(device: &Device, pdo: &Pdo, usage: &Usage) -> Option<Json> {
     let of_bus = match pdo.communication {
         Some(_) => on_canopen(device, pdo),
@@ -67,8 +68,8 @@ fn on_canopen(device: &Device, pdo: &Pdo) -> Option<Json> {
     }))
 }
 
-/// Returns the data that only a PDO on EtherCAT has. Its assignment has the PDOs that are assigned to the same sync
-/// manager by default.
+/// Returns the data that only a PDO on EtherCAT has. The field `assignment` contains the index of the assignment
+/// object, and the PDOs that are assigned to the same sync manager by default.
 fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
     if device.ethercat.is_none() || device.dictionary_only {
         return None;

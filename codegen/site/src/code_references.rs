@@ -14,7 +14,8 @@ use lexibus_codegen::ir::{CodeRow, Device, ItemId};
 /// First number, last number and name of a code or named value.
 type CodeKey<'d> = (i128, Option<i128>, &'d str);
 
-/// The items that have a value with the same number and name as a code, with this value.
+/// For each number and name of a code, the items that have a named value with this number and name, and the position of
+/// the value.
 struct Values<'d>(HashMap<CodeKey<'d>, Vec<(ItemId, Part)>>);
 
 impl<'d> Values<'d> {
@@ -45,7 +46,8 @@ pub(super) struct CodesOfItems {
 }
 
 impl CodesOfItems {
-    /// Returns the relation of an item to the codes that it reports and to the codes whose descriptions mention it.
+    /// Returns the links of an item to the code tables that mention it or contain codes that it reports, and to the
+    /// codes whose descriptions mention it.
     pub fn of(&self, id: ItemId) -> Option<Relation> {
         Relation::new("Codes", self.links.get(&id).into_iter().flatten())
     }

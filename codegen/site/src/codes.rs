@@ -37,7 +37,7 @@ pub(super) struct Code {
     pub names: Vec<(String, String)>,
     pub facts: String,
     pub cells: Vec<String>,
-    /// Links to the elements that report the code, or that its description mentions.
+    /// Links to the elements that report the code, and to those that the description of the code mentions.
     pub relations: Vec<Relation>,
 }
 

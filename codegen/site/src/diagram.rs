@@ -1,7 +1,7 @@
 //! Draws state machines. The states are in one column, and arrows between neighbors are straight. Each other arrow has
-//! a separate lane next to the column. The lane is on the left if the arrow leads down, and on the right if it leads
-//! up. So no two arrows overlap. The label of a lane is on its outer side, at a height where no arrow of an outer lane
-//! crosses it.
+//! a lane next to the column, which no other arrow uses at the same height. The lane is on the left if the arrow leads
+//! down, and on the right if it leads up. So no two arrows overlap. The label of an arrow is on the outer side of its
+//! lane. If there is space, no arrow of an outer lane crosses the label.
 
 mod lanes;
 
@@ -25,7 +25,7 @@ const GAP_STEP: u32 = 12;
 /// Maximum distance from one box to the next.
 const MOST_GAP: u32 = 240;
 
-/// Distance between two lanes, and between the column and the first lane.
+/// Distance between two lanes, and minimum distance between the column and the first lane.
 const LANE: u32 = 30;
 
 /// Width of a letter in pixels.
@@ -63,7 +63,7 @@ pub(super) struct StateBox {
     pub is_initial: bool,
 }
 
-/// An arrow for all transitions between the same two states.
+/// An arrow for all transitions with the same source state and the same target state.
 #[derive(Debug)]
 pub(super) struct Arrow {
     pub path: String,
@@ -175,8 +175,8 @@ impl<'m> Plan<'m> {
         self.rows.iter().enumerate().filter_map(one).collect()
     }
 
-    /// Returns the distance between the column and the first lane of a side. The distance leaves space for labels of
-    /// straight arrows that extend beyond the column.
+    /// Returns the distance between the column and the first lane of a side. If the label of a straight arrow extends
+    /// beyond the column, the distance leaves space for the label.
     fn gap(&self, is_beside: impl Fn(&Edge, &[Option<usize>]) -> bool) -> u32 {
         let labels = self.edges.iter().filter(|edge| is_beside(edge, &self.rows)).map(Edge::label_length);
         let inside = self.box_width / 2 - ASIDE;
@@ -190,7 +190,7 @@ impl StateBox {
         height / 2 + 5 - if self.pattern.is_empty() { 0 } else { LINE / 2 }
     }
 
-    /// Returns the vertical position of the bits.
+    /// Returns the vertical position of the bit pattern in a box of this height.
     pub fn pattern_y(&self, height: &u32) -> u32 {
         self.name_y(height) + LINE
     }

@@ -64,9 +64,11 @@ pub(super) struct Row {
 /// An ambiguity in the source.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
-    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the ambiguity belongs to an element of the description.
+    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the affected element has its own list of
+    /// ambiguities.
     pub subject: String,
-    /// Subject as it is shown before the ambiguity, without the name of the element that shows it.
+    /// Subject that is shown before the text of the ambiguity. It does not contain the name of the element under which
+    /// the ambiguity is shown.
     pub prefix: String,
     pub severity: Severity,
     pub says: String,

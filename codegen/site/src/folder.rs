@@ -41,7 +41,7 @@ pub(super) struct Folder<'a> {
     name: String,
     /// Folder of the pages that the devices share, relative to the site's folder.
     pub home: String,
-    /// Folder of the pages that are being written, and their names.
+    /// Folder of the pages that are being written, and the file names in this folder.
     open: String,
     files: Names,
     /// Pages with paths relative to the site's folder.
@@ -51,7 +51,7 @@ pub(super) struct Folder<'a> {
     diagnostics: &'a ShownDiagnostics,
     /// Links to the pages of the device that was written last.
     last: Rc<Links>,
-    /// Pages with the changes since a revision that another description contains.
+    /// Pages with the changes since the previous revision, which can be in another description.
     pub changes: Vec<Changes>,
 }
 
@@ -107,7 +107,8 @@ impl<'a> Folder<'a> {
         let first = format!("{FIRST}{}", self.format.ending());
         let mut shared = modules.files.clone();
         shared.extend(diagnostics.iter().cloned());
-        // The first module page links to all module pages.
+        // All pages link to the first module page. If there are many module pages, each page links only to a few of the
+        // others.
         let many = modules.files.len().min(1)..modules.files.len();
         let is_single = catalog.devices.len() == 1;
         let list = (!is_single).then(|| (first.clone(), self.name.clone()));

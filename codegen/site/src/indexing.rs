@@ -42,7 +42,7 @@ pub(super) fn rows(index: &mut Index, rows: &[Row]) {
 fn parts(index: &mut Index, row: &Row) {
     let mut part = |number: &str, anchor: &str, name: &str, names: &[(String, String)]| {
         let anchor = anchor.strip_prefix(&row.anchor).map_or(anchor, |part| part.trim_start_matches('.'));
-        // The script derives the other anchors from the number.
+        // If the anchor is empty, the script derives it from the number.
         let anchor = if anchor == part_anchors::of_number(number) { "" } else { anchor };
         if !name.is_empty() {
             index.entry(&Entry { names, ..entry(anchor, number, name) });

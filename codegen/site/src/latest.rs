@@ -1,12 +1,13 @@
-//! The folder `latest` of each product, which redirects to the newest revision.
+//! The folder `latest` of each product, whose page redirects to the newest revision.
 
 use std::collections::{BTreeMap, HashMap};
 
 use super::pages::{Listed, Pages, FIRST, ROOT};
 use super::Page;
 
-/// Returns a page in each product's folder that redirects to the first page of the newest revision. If the revisions have different
-/// names, the product has several folders, and each of them redirects to the newest revision.
+/// Returns a page for the folder `latest` of each product folder. The page redirects to the first page of the newest
+/// revision. If the revisions have different names, the product has several folders, and there is a page for each of
+/// them.
 pub(super) fn pages(devices: &[Listed], format: &dyn Pages) -> Vec<Page> {
     let (mut folders, mut products) = (BTreeMap::new(), HashMap::new());
     for device in devices {

@@ -144,8 +144,8 @@ impl Site {
         }
     }
 
-    /// Adds a catalog with a name, such as the name of its file, and returns its pages. Each device has a folder for
-    /// its vendor, its product and its revision.
+    /// Adds a catalog with a name, such as the name of its file, and returns its pages. The folder of a device has the
+    /// form `vendor/product/revision`.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
         self.folder(name, catalog, ShownDiagnostics::default())
     }

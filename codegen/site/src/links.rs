@@ -45,7 +45,8 @@ impl Links {
         self.positions.get(file).copied()
     }
 
-    /// Returns all pages if there are only a few. Otherwise returns the pages near `file` and the pages outside `many`.
+    /// Returns all pages if `many` contains only a few. Otherwise returns the pages near `file` and the pages outside
+    /// `many`.
     pub fn near(&self, file: &str) -> impl Iterator<Item = &(String, String)> {
         let Range { start, end } = self.many;
         let near = if end - start <= MAX_LINKED_PAGES {

@@ -22,7 +22,7 @@ pub(super) struct Machine {
     pub anchor: String,
     pub title: String,
     pub facts: Vec<String>,
-    /// Links to the items with the state and the commands.
+    /// Links to the item from which the state is read and to the item to which commands are written.
     pub items: Vec<Link>,
     pub doubts: Vec<Doubt>,
     pub diagram: Option<Diagram>,
@@ -43,7 +43,7 @@ pub(super) struct Named {
     /// Name in the description.
     pub identifier: String,
     pub names: Vec<(String, String)>,
-    /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if a value represents the state.
+    /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if the description states no bit pattern.
     pub bits: String,
     /// `fault` for a state that the device enters because of a fault, `energized` for a state with an energized motor.
     pub class: &'static str,

@@ -114,7 +114,7 @@ impl Pages for Markdown {
         let (title, mut links) = (frame.title.as_str(), links(frame, file));
         match content {
             Content::Overview(overview, contents) => {
-                // Skip the link to the overview itself. Areas, process data and slots have their own lists.
+                // Skip the link to the overview itself and the links to the areas, which have their own list.
                 let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
                 links.retain(|(linked, _)| !areas.contains(linked.as_str()) && linked != file);
                 written(&OverviewPage { title, overview, contents, links: &links })

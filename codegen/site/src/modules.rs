@@ -45,7 +45,7 @@ impl ModuleModel {
     }
 }
 
-/// Returns whether any of the modules has an item whose requests contain a node-ID or a unit.
+/// Returns whether any of the modules has an item whose requests contain a node-ID or a Modbus unit identifier.
 pub(super) fn have_requests(modules: &[ModuleModel]) -> bool {
     modules.iter().flat_map(|module| &module.sections).any(|(_, section)| section.has_requests())
 }

@@ -139,7 +139,7 @@ fn modbus(table: &ModbusTable, is_one_of_several: bool) -> String {
     space + &facts.join("; ")
 }
 
-/// Returns the protocols of the mailbox and the modes of the distributed clocks.
+/// Returns the protocols of the mailbox, the modes of the distributed clocks and the maximum number of slots.
 fn ethercat(settings: &EtherCatSettings) -> String {
     let mailbox = settings.mailbox.as_ref().map(|mailbox| {
         let protocols = [

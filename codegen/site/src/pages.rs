@@ -241,6 +241,6 @@ pub(super) trait Pages {
     /// Returns the files that the pages of one catalog share.
     fn of_catalog(&self, index: &Index) -> Vec<Page>;
     /// Returns the files that all pages share. `further` are the paths and titles of comparisons and networks. `index` is the
-    /// search index of all catalogs if there are several catalogs.
+    /// search index of all catalogs, if a page of the site needs this index.
     fn of_site(&self, catalogs: &[ListedCatalog], further: &[PageLink], index: Option<&Index>) -> Vec<Page>;
 }

@@ -11,9 +11,9 @@ pub(super) fn of_number(number: &str) -> String {
     words.join("-").replace('–', "-")
 }
 
-/// Returns the anchors of the parts of an element. Each part has a number, a name, and whether its meaning depends on a
-/// condition. The anchor contains the name if the meaning depends on a condition or if several parts have the same
-/// number. Therefore, anchors do not depend on the order.
+/// Returns the anchors of the parts of an element. Each part consists of a number, a name, and a flag that is set if
+/// the meaning of the part depends on a condition. The anchor contains the name if the meaning depends on a condition
+/// or if several parts have the same number. Therefore, anchors do not depend on the order.
 pub(super) fn anchors(owner: &str, parts: &[(String, &str, bool)]) -> Vec<String> {
     let mut counts: HashMap<&str, usize> = HashMap::new();
     parts.iter().for_each(|(number, ..)| *counts.entry(number).or_default() += 1);

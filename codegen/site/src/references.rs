@@ -18,7 +18,7 @@ use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef};
 pub(super) struct Targets<'d> {
     pub(super) device: &'d Device,
     items: HashMap<ItemId, Link>,
-    /// The bits and values of the items that show them.
+    /// The bits and values that the rows of items show.
     parts: HashMap<(ItemId, Part), Link>,
     /// The objects with several entries, by their indices in the notation of the pages.
     objects: HashMap<String, Link>,
@@ -114,7 +114,7 @@ impl<'d> Targets<'d> {
         }
     }
 
-    /// Adds the links to the items of the state machines and procedures.
+    /// Adds links from the state machines and procedures to the items that they use.
     pub fn link(&self, behavior: &mut Behavior) {
         for (machine, shown) in self.device.machines.iter().zip(&mut behavior.machines) {
             let items = [machine.status_item.id, machine.control_item.id];

@@ -1,5 +1,5 @@
 //! Requests that read and write an item: bytes on each bus and lines of Python, for pages without a script. The script
-//! `requests.js` shows the same requests for a value, a node-ID and a unit that the reader chooses.
+//! `requests.js` shows the same requests for a value, a node-ID and a Modbus unit identifier that the reader chooses.
 
 mod object;
 
@@ -9,10 +9,10 @@ use lexibus_codegen::facts::{encoding, register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Type, TypeDef};
 use object::Object;
 
-/// The node-ID and Modbus unit of the requests.
+/// The node-ID and Modbus unit identifier of the requests.
 const NODE: u8 = 1;
 
-/// A byte of a frame, or `None` for a byte that depends on the value.
+/// The bytes of a frame. A byte is `None` if it depends on an unknown value.
 type Frame = Vec<Option<u8>>;
 
 /// A request: title and text.
@@ -21,13 +21,14 @@ pub(super) type Request = (&'static str, String);
 /// Titles of the requests for records.
 const RECORD: [&str; 2] = ["PROFINET record read", "PROFINET record write"];
 
-/// Returns whether a request reads or writes a PROFINET record. Such a request has neither a node-ID nor a unit.
+/// Returns whether a request reads or writes a PROFINET record. Such a request contains neither a node-ID nor a Modbus
+/// unit identifier.
 pub(super) fn is_of_record((title, _): &Request) -> bool {
     RECORD.contains(title)
 }
 
-/// Returns the requests of an item. The node-ID or the unit is 1. Write requests have the default value, or `xx` for
-/// its bytes if the item has no default value.
+/// Returns the requests of an item. The node-ID or the Modbus unit identifier is 1. Write requests contain the default
+/// value. If the item has no default value, the bytes of the value are shown as `xx`.
 ///
 /// `of_records` is the address of the submodule that has the records of the item.
 pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> Vec<Request> {
@@ -75,8 +76,8 @@ struct Written {
 }
 
 impl Written {
-    /// Returns the default value of an item on a bus, or unknown bytes if there is no valid default value. Returns `None` for items
-    /// that are not numbers.
+    /// Returns the default value of an item on a bus, or unknown bytes if there is no valid default value. Returns
+    /// `None` for items that are neither numbers nor Booleans.
     fn of(item: &Item, types: &[TypeDef], bus: Bus) -> Option<Self> {
         let ty = types::basic(types, item.type_on(bus));
         let is_number =

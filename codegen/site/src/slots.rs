@@ -134,7 +134,7 @@ fn rows(assigned: &Assigned, named: &Named<'_>, links: ModuleLinks<'_>, left: &m
     rows
 }
 
-/// Returns the different names of slots.
+/// Returns the names of slots without repetitions, but at most [`MOST_NAMES`] names.
 fn names_of(numbers: &Numbers, names: &BTreeMap<u16, &str>) -> String {
     let mut shown: Vec<&str> = Vec::new();
     for &(first, last) in numbers.0.iter().filter(|(first, last)| first <= last) {

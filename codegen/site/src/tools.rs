@@ -3,8 +3,9 @@
 use lexibus_codegen::facts::{register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale, TypeDef, Value};
 
-/// Returns the conversion from raw values to physical values: `0.01 0` (scale factor and offset), or `/25000000` (numerator of a
-/// reciprocal). The text is empty if the two values are equal, or if the conversion needs more than the raw value.
+/// Returns the conversion from raw values to physical values: `0.01 0` (scale factor and offset), or `/25000000`
+/// (numerator of a reciprocal). The text is empty if the raw value equals the physical value, or if the conversion
+/// needs further values.
 pub(super) fn scale(item: &Item) -> String {
     match item.quantity.as_deref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(&Scale::Linear { factor, offset }) if factor != 1.0 || offset != 0.0 => format!("{factor} {offset}"),

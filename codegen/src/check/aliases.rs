@@ -136,7 +136,7 @@ fn joined<T: PartialEq>(ranges: impl Iterator<Item = ((i128, i128), T)>) -> Vec<
 type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
 
 /// Returns the names of values by range, or the names of single bits. The inner key is the name in lower case without
-/// punctuation.
+/// spaces and punctuation.
 fn labels(shape: &Shape) -> Labels<'_> {
     let mut labels = Labels::new();
     fn add<'n>(labels: &mut Labels<'n>, values: (i128, i128), name: &'n str) {

@@ -47,7 +47,7 @@ fn is_odd(owner: Owner<'_>, item: &Item, bits: u32) -> bool {
     matches!(owner.basic(item.ty), Type::Integer(_) | Type::Unsigned(_)) && bits > 1 && !bits.is_multiple_of(8)
 }
 
-/// Reports a default value that is longer than the type of its item.
+/// Reports a default text or byte string that exceeds the length of its type.
 fn text(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let (Type::VisibleString(Some(max)) | Type::OctetString(Some(max))) = owner.basic(item.ty) else { return };
     let given = match &item.default {

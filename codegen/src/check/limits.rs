@@ -1,4 +1,4 @@
-//! Limits: defaults outside of limits, and swapped limits.
+//! Limits: default values and configured values outside of the limits, and swapped limits.
 
 use std::cmp::Ordering;
 
@@ -8,7 +8,7 @@ use crate::ir::owner::Owner;
 use crate::ir::{excluded, Excluded, Item, Type, Value};
 use crate::text::brief;
 
-/// Reports defaults outside of their limits, and swapped limits.
+/// Reports default values and configured values outside of the limits of their items, and swapped limits.
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
         if !item.limits.is_empty() || !item.limits.allowed.is_empty() {

@@ -1,4 +1,4 @@
-//! The declaration of a lint: its name, codes, formats and function.
+//! The declaration of a lint: its name, codes, formats, condition and function.
 
 use super::context::{Context, PdoOwner};
 use crate::diagnostics::{Code, Diagnostics};
@@ -14,10 +14,10 @@ pub struct Lint {
     pub codes: &'static [&'static Code],
     /// Formats for which the lint runs.
     pub formats: &'static [Format],
-    /// True if the lint also runs for other formats when the user sets the level of one of its codes.
+    /// True if the lint also runs for other formats when the user sets one of its codes to `warn` or `deny`.
     pub on_request: bool,
-    /// Condition that a device has to fulfill for the lint to run. Modules and records do not have to fulfill this
-    /// condition.
+    /// Condition that a device has to fulfill for the lint to run. The condition does not apply to modules, records and
+    /// the catalog.
     pub needs: Option<Need>,
     pub(super) run: Run,
 }

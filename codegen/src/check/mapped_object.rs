@@ -1,4 +1,4 @@
-//! Comparison of mapped objects with their items.
+//! Comparison of the entries of PDO mappings with the mapped items.
 
 use std::cell::OnceCell;
 use std::collections::HashSet;
@@ -56,8 +56,8 @@ impl Mapped {
         (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
     }
 
-    /// Compares the mapped object with its item. `is_resolved` means that missing objects and wrong lengths are already reported
-    /// elsewhere.
+    /// Compares the mapped object with the item that describes it. `is_resolved` means that missing objects and wrong
+    /// lengths are already reported elsewhere.
     pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
         let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {

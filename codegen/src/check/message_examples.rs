@@ -149,7 +149,8 @@ impl<'a> Frame<'a> {
         problems
     }
 
-    /// Returns the problems with a number in an example: values or bits that are reserved or have no name.
+    /// Returns the problems with a number in an example: values that are reserved or have no name, and reserved bits
+    /// with a wrong value.
     fn meaning(&self, ty: Type, name: &str, number: u64) -> Vec<String> {
         match self.owner.definition(ty).map(|definition| &definition.shape) {
             Some(Shape::Enumeration { values, .. }) => {

@@ -1,5 +1,5 @@
-//! Lints on the resolved IR. Lints report wrong and suspicious facts, and do not change the IR. Lints judge only what the description
-//! and its overlays state: `ir::stated` leaves out the facts of profiles.
+//! Lints on the resolved IR. Lints report wrong and suspicious facts, and do not change the IR. Lints judge only what
+//! the description and its overlays state: `ir::stated` leaves out the facts of profiles.
 //!
 //! `list` declares each lint: its name, codes, formats and condition. Each file contains the lints of one subject.
 //! Lints that only concern register tables are in `table`.

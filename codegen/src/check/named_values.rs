@@ -1,4 +1,5 @@
-//! Enumerations and bit fields: limits and defaults that contradict the named values and bits.
+//! Enumerations and bit fields: limits, default values, configured values and writable values that contradict the named
+//! values and bits.
 
 use super::bit_fields::{called, set_bits};
 use crate::diagnostics::{codes, Code, Diagnostics};
@@ -220,8 +221,8 @@ fn listed(values: &[EnumValue]) -> String {
     }
 }
 
-/// Returns whether a limit only bounds the raw number, instead of naming the allowed bits. Such a limit has a single
-/// bit, or all bits up to the end of the type or up to the last named bit.
+/// Returns whether a limit only bounds the raw number, instead of naming the allowed bits. In such a limit, at most one
+/// bit is 1, or all bits up to the end of the type or up to the last named bit are 1.
 fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();

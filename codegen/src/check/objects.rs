@@ -131,7 +131,8 @@ fn highest_sub(group: &Group, index: u16, format: Format, diagnostics: &mut Diag
 }
 
 fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
-    // CiA 306 defines the access rights of sub-index 0 if the sub-indices are compact.
+    // CiA 306 defines the access rights of sub-index 0 if the sub-indices are described in compact form
+    // (CompactSubObj).
     let is_compact = |item: &&Item| item.origins.get(Fact::Access) == Some(&FactOrigin::Rule(Rule::CompactObject));
     let Some(sub0) = sub0(group).filter(|item| !is_compact(item)) else { return };
     let entries_writable =

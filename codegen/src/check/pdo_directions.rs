@@ -4,7 +4,7 @@ use super::context::PdoOwner;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
 
-/// Reports PDO entries whose item cannot be mapped into PDOs with the direction of this PDO.
+/// Reports PDO entries whose item cannot be mapped into PDOs with the direction of the entry's PDO.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {

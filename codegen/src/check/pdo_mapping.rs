@@ -143,7 +143,7 @@ impl Mapping<'_, '_> {
 
     fn granularity(&mut self, bits: u32, span: Span) {
         let granularity = u32::from(self.canopen.granularity.unwrap_or(1).clamp(1, 64));
-        // Granularity 1 is not checked, because some tools write 1 for "the mapping can be changed".
+        // Every length is a multiple of granularity 1, so only greater values are checked.
         if granularity > 1 && !bits.is_multiple_of(granularity) {
             let message = format!(
                 "the mapping entry has {}, but the granularity of the device is {granularity} bits",

@@ -1,4 +1,4 @@
-//! Procedures: steps that contradict the facts of their items, and PDO assignments.
+//! Procedures: steps that contradict the facts of their items, PDO assignments, and COB-IDs that belong to other PDOs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,8 +13,8 @@ use crate::text::brief;
 /// Objects that assign PDOs to sync managers 2 and 3.
 const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
 
-/// Reports steps that contradict the facts of their items, and contradictions between the PDO mappings, PDO assignments
-/// and COB-IDs that a procedure writes.
+/// Reports steps that contradict the facts of their items, wrong PDO assignments, and COB-IDs that a procedure writes
+/// although they belong to another PDO.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     for procedure in &device.procedures {
@@ -86,7 +86,7 @@ fn shown(item: Option<&Item>, value: &Value) -> String {
 /// Returns the reason why an item cannot have a value.
 fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let ty = owner.basic(item.ty);
-    // Manuals print negative numbers as bit patterns, such as 0xFFFF for -1.
+    // Manuals often print negative numbers as bit patterns, such as 0xFFFF for -1.
     let signed = ty.bits().filter(|&bits| ty.is_signed() && bits <= 64 && number >> (bits - 1) == 1);
     let number = signed.map_or(number, |bits| number - (1i128 << bits));
     if ty.integer_range().is_some_and(|(low, high)| number < low || number > high) {

@@ -18,7 +18,7 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     lengths(&by_default, &data.sync_managers, diagnostics);
 }
 
-/// Reports PDOs that exclude a PDO that the source does not describe.
+/// Reports PDOs that exclude an undescribed PDO.
 pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     let data = owner.data;
     let known: HashSet<u16> = data.pdos.iter().map(|pdo| pdo.mapping_index).collect();

@@ -1,4 +1,5 @@
-//! Parameter records of PROFINET submodules: parameters outside of their record, and overlapping parameters.
+//! Parameter records of PROFINET submodules: parameters and constants outside of their record, and overlapping
+//! parameters.
 
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item, Record};

@@ -105,7 +105,8 @@ impl Diagnostics {
         self.levels.severity(code).is_some()
     }
 
-    /// Returns whether the user set a level for this code, for lints that are on by default only in one format.
+    /// Returns whether the user set the level `warn` or `deny` for this code. Some checks then report cases that they
+    /// ignore by default.
     pub fn asks_for(&self, code: &'static Code) -> bool {
         self.levels.asks_for(code)
     }

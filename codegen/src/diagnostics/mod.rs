@@ -1,7 +1,7 @@
 //! Errors and warnings about the input. Each [`Diagnostic`] has a stable [`Code`].
 //!
-//! The stages of the compiler create diagnostics. [`Levels`] determines their severity (lenient or strict mode, `-A`, `-W`, `-D`), and
-//! [`render`] formats them for a terminal.
+//! The stages of the compiler create diagnostics. [`Levels`] determines their severity (lenient or strict mode, `-A`,
+//! `-W`, `-D`), and [`render`] formats them for a terminal.
 
 mod allowed;
 pub mod codes;

@@ -33,8 +33,8 @@ const LANGUAGES: [(u32, &str); 23] = [
     (2070, "pt-PT"),
 ];
 
-/// Returns the rank of a language for the choice of an element's main name. English (1033) has the lowest rank, followed by names
-/// without a language and by other languages.
+/// Returns the rank of a language for the choice of an element's main name. The name with the lowest rank is the main
+/// name: English (1033), then a name without a language, then other languages.
 pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,

@@ -2,7 +2,8 @@
 
 use crate::ir::{CodeRow, Value};
 
-/// Returns the code or range of a row as printed: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Codes without a printed notation are decimal.
+/// Returns the code or range of a row as printed: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Codes without a printed
+/// notation are decimal.
 pub fn text(row: &CodeRow) -> String {
     row.printed_code()
 }

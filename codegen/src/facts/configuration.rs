@@ -77,7 +77,7 @@ impl LeftOut {
 }
 
 impl Configuration {
-    /// Collects the configured values of a device. Returns `None` if the device has no configured values.
+    /// Collects the configured values of a device. Returns `None` if no value is written.
     pub fn of(device: &Device) -> Option<Self> {
         let mut configuration = Configuration::default();
         let mut pdos: BTreeMap<u16, Pdo<'_>> = BTreeMap::new();
@@ -255,8 +255,9 @@ fn setting(item: &Item, value: &Value, types: &[TypeDef]) -> Option<Setting> {
     })
 }
 
-/// Returns the sort key of a communication parameter. Devices refuse a new SYNC counter overflow value (0x1019) while the SYNC
-/// period (0x1006) is not 0 (CiA 301 7.5.2.22). The COB-ID (0x1005), which starts the SYNC producer, comes last.
+/// Returns the sort key of a communication parameter. Devices refuse a new SYNC counter overflow value (0x1019) while
+/// the SYNC period (0x1006) is not 0 (CiA 301 7.5.2.22). The SYNC period and window (0x1006 and 0x1007) therefore
+/// follow 0x1019, and the COB-ID (0x1005), which starts the SYNC producer, follows them.
 fn communication_order(object: (u16, u8)) -> (u16, u16, u8) {
     let (index, sub_index) = object;
     let rank = match index {

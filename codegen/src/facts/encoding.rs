@@ -27,8 +27,8 @@ pub fn number(number: i128, ty: Type) -> Option<Vec<u8>> {
     number.to_le_bytes().get(..length.min(16)).map(<[u8]>::to_vec)
 }
 
-/// Returns the value of the bytes of a basic type: the inverse of [`bytes()`]. Returns `None` if the number of bytes is not that of the
-/// type, or if a text is not valid. A text ends before its first zero.
+/// Decodes the bytes of a value of a basic type: the inverse of [`bytes()`]. Returns `None` if the number of bytes is
+/// not that of the type, or if a text is not valid. A text ends before its first zero.
 pub fn value(bytes: &[u8], ty: Type) -> Option<Value> {
     if ty.bits().is_some_and(|bits| bytes.len() != bits.div_ceil(8) as usize) {
         return None;

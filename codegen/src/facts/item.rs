@@ -27,7 +27,7 @@ pub fn entry_name(item: &Item, group: &Group) -> String {
 
 /// Returns whether a name states only a sub-index, such as `SubIndex 001`, or is empty.
 pub fn is_placeholder(name: &str) -> bool {
-    /// The words in lower case, without separators.
+    /// The placeholders in lower case, without digits and separators.
     const WORDS: [&str; 3] = ["", "subindex", "subidx"];
     let word: String = name.chars().filter(|letter| letter.is_alphabetic()).flat_map(char::to_lowercase).collect();
     let is_separated = name.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_'));
@@ -41,8 +41,9 @@ pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
 }
 
-/// Returns the meaning of a value: the name of a value of an enumeration, or the names of the set bits of a bit field, joined with commas.
-/// Returns `None` if the type names neither. Names of several bits contain the number: `Mode 3`.
+/// Returns the meaning of a value: the name of an enumeration value, or the active flags and the fields of a bit field,
+/// separated by commas. The name of a field is followed by its number or by the name of its value: `Mode 3`, `Mode:
+/// Homing`. Returns `None` if the type has no such names.
 pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     let number = value.as_int()?;
     match &Owner::of_types(types).definition(ty)?.shape {
@@ -59,7 +60,8 @@ pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     }
 }
 
-/// Returns the name of a field with its number, or `None` if the flag is not active or the number is 0.
+/// Returns the name of a field with its number or with the name of its value. Returns `None` if the flag is not active
+/// or the number is 0.
 fn bits(field: &BitFieldEntry, number: i128, types: &[TypeDef]) -> Option<String> {
     let bits = number.checked_shr(field.offset.into()).unwrap_or(0) & ((1 << field.bits.min(64)) - 1);
     match field.meaning {
@@ -78,8 +80,8 @@ pub fn default(item: &Item, types: &[TypeDef]) -> String {
     item.default.as_ref().map(|default| value(item, default, types)).unwrap_or_default()
 }
 
-/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if the item has no limits.
-/// The text contains at most `shown` values of a list.
+/// Returns the range: `0 … 5`, `1, 3 to 7`, `-20.0 … 200.0 °C (raw -200 … 2000)`. The text is empty if the item has no
+/// limits. The text contains at most `shown` values of a list.
 pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> String {
     let physical = Physical::of(item.quantity.as_deref());
     let basic = types::basic(types, item.ty);

@@ -1,4 +1,4 @@
-//! Items, messages and states that the texts of code tables mention.
+//! Items, objects, messages and states that the texts of code tables mention.
 
 use std::collections::{HashMap, HashSet};
 
@@ -68,7 +68,8 @@ impl<'d> Mentions<'d> {
         }
     }
 
-    /// Returns the elements that the description of a code table mentions, and the items whose descriptions name the table in quotes.
+    /// Returns the elements that the description of a code table mentions, and the items whose descriptions name the
+    /// table in quotes.
     pub fn of_table(&self, table: &CodeTable) -> Vec<Mention> {
         let mut all = self.of_documentation(table.documentation.as_deref());
         let known: HashSet<Mention> = all.iter().copied().collect();
@@ -77,7 +78,8 @@ impl<'d> Mentions<'d> {
         all
     }
 
-    /// Returns the elements that a row of a code table mentions: in its description, in its cells, and in a column that lists objects.
+    /// Returns the elements that a row of a code table mentions: in its description, in its cells, and in a column that
+    /// lists objects.
     pub fn of_row(&self, table: &CodeTable, row: &CodeRow) -> Vec<Mention> {
         let mut all = self.of_documentation(row.documentation.as_deref());
         for (at, column) in table.columns.iter().enumerate() {

@@ -14,8 +14,8 @@ pub const MAX_ENTRY: u32 = 0xFF;
 /// Maximum length of a sync manager in bytes. The length register of a sync manager has 16 bits (ETG.1000.4 6.7.2).
 const MAX_SYNC_MANAGER: u16 = u16::MAX;
 
-/// Returns the buses on which a device has objects. A device with neither CANopen nor EtherCAT settings counts as a
-/// CANopen device.
+/// Returns the buses on which a device has objects. A description that contains only a dictionary counts as EtherCAT.
+/// Any other device with neither CANopen nor EtherCAT settings counts as a CANopen device.
 pub fn buses(device: &Device) -> ObjectBuses {
     let is_ethercat = device.ethercat.is_some() || device.dictionary_only;
     ObjectBuses { canopen: device.canopen.is_some() || !is_ethercat, coe: is_ethercat }

@@ -22,8 +22,8 @@ impl<'q> Physical<'q> {
         (!is_raw).then_some(Physical { unit, scale })
     }
 
-    /// Returns the physical number, such as `25.0` for raw value 250 with scale factor 0.1. Returns `None` if the scale
-    /// depends on another item or on the model, or if the raw value has no physical value.
+    /// Returns the physical value without its unit, such as `25.0` for raw value 250 with scale factor 0.1. Returns
+    /// `None` if the scale depends on another item or on the model, or if the raw value has no physical value.
     fn number(&self, raw: &Value) -> Option<String> {
         match *self.scale {
             Scale::Linear { factor, offset } => linear(raw, factor, offset),

@@ -150,8 +150,8 @@ pub fn subslot(subslot: u16) -> String {
 /// Address of the records of a submodule that the description does not contain.
 pub const ANY_SUBMODULE: &str = "API, slot and subslot of the submodule";
 
-/// Returns the address of the records of a submodule: API, slot and subslot. If the configuration determines the slot or the subslot, the
-/// text names what to insert, and the possible numbers.
+/// Returns the address of the records of a submodule: API, slot and subslot. If only the configuration determines the
+/// slot or the subslot, the text states what to insert and lists the possible numbers.
 pub fn address_of_records(catalog: &Catalog, submodule: SubmoduleId) -> String {
     let (mut slots, mut subslots) = (Places::default(), Places::default());
     let is_used = |used: &&SubmoduleUse| used.submodule == submodule;
@@ -178,7 +178,7 @@ pub fn address_of_records(catalog: &Catalog, submodule: SubmoduleId) -> String {
 struct Places(Vec<(u16, u16)>);
 
 impl Places {
-    /// Adds the places of a use. If the description lists none, all places are possible.
+    /// Adds the slots or subslots that a use lists. If the use lists none, adds the numbers in `all`.
     fn add(&mut self, places: &SlotNumbers, all: &Numbers) {
         let lists = [&places.fixed, &places.used, &places.allowed];
         let before = self.0.len();
@@ -188,7 +188,8 @@ impl Places {
         }
     }
 
-    /// Returns the only place, or the possible places of this element.
+    /// Returns the only possible slot or subslot. Otherwise, returns a text that lists the possible numbers: `of the
+    /// module (1 to 4)`.
     fn text(mut self, element: &str, number: fn(u16) -> String) -> String {
         self.0.sort_unstable();
         self.0.dedup();

@@ -8,7 +8,7 @@ use crate::ir::{
     Step, Type,
 };
 
-/// An element that refers to an item. An element without an id is identified by its position in the device's list.
+/// An element that refers to an item. An element without an ID is identified by its position in the device's list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Referrer {
     /// A PDO that maps the item.
@@ -101,8 +101,8 @@ impl Referrers {
     }
 }
 
-/// Returns the conditions on which the meanings of a type's bits and values depend. The named values of a bit field belong to this bit
-/// field.
+/// Returns the conditions on which the meanings of a type's bits and values depend. A condition of a named value of a
+/// bit field counts as a condition of this bit field.
 pub fn conditions<'d>(types: Owner<'d>, ty: Type) -> Vec<(Part, &'d Condition)> {
     let of_values = |values: &'d [EnumValue]| {
         values.iter().enumerate().filter_map(|(at, value)| Some((at, value.when.as_deref()?)))

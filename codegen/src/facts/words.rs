@@ -86,7 +86,7 @@ fn citation(manual: &Manual, row: &str, cite: &str) -> String {
     }
 }
 
-/// Returns `text` with a full stop at its end, unless it already ends with a punctuation mark.
+/// Returns `text` with a full stop at its end, unless it already ends with `.`, `!`, `?` or `:`.
 pub fn sentence(text: &str) -> String {
     match text.ends_with(['.', '!', '?', ':']) {
         true => text.to_owned(),
@@ -135,7 +135,7 @@ pub fn origin_name(origin: &FactOrigin) -> String {
         FactOrigin::Rule(Rule::UnstatedAccess) => "the rule for missing access rights".to_owned(),
         FactOrigin::Rule(Rule::ReservedEntry) => "the rule for reserved sub-indices".to_owned(),
         FactOrigin::Rule(Rule::AnnouncedPdo) => "the rule for PDOs without a description".to_owned(),
-        FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that only a PDO describes".to_owned(),
+        FactOrigin::Rule(Rule::MappedObject) => "the rule for objects that occur only in PDOs".to_owned(),
         FactOrigin::Rule(Rule::MissingKey) => "the rule for missing or unknown attributes".to_owned(),
         FactOrigin::Rule(Rule::IdentityObject) => "object 0x1018".to_owned(),
         FactOrigin::Rule(Rule::ObjectContents) => "the rule for missing or wrong object types".to_owned(),
@@ -219,8 +219,8 @@ impl Words<'_> {
             .then(|| format!("The access rights ({assumed}) are an assumption, because the manual states none."))
     }
 
-    /// Returns sentences about the storage of a value, the access rights of the slave application, the side effects of
-    /// writing the value, and the conditions for writing it.
+    /// Returns sentences about the behavior of a value: storage, access rights of the slave application, time at which
+    /// changes take effect, conditions and values for writing, SRDO mapping, and side effects.
     pub fn behavior(&self, behavior: &Behavior) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.extend(self.storage(&behavior.storage).map(|storage| sentence(&capital(&storage))));
@@ -358,7 +358,7 @@ impl Words<'_> {
         cob_id::of(item).and_then(|kind| cob_id::text(value, kind)).is_some() || sentinel(item, value).is_some()
     }
 
-    /// Formats a value that refers to an object, a PDO or a mapping: `0x1701`, `0x60410010`.
+    /// Formats a value of a PDO assignment or PDO mapping: `0x1701`, `0x60410010`.
     fn reference(&self, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         match value.as_int() {
             Some(number @ 0x1000..=0xFFFF_FFFF) => hex16(number),
@@ -366,8 +366,8 @@ impl Words<'_> {
         }
     }
 
-    /// Returns the limits: `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`. Returns `None` if the
-    /// item has no limits.
+    /// Returns the limits: `range 0 to 5`, `one of 1, 3 to 7`, `range -20.0 … 200.0 °C (raw -200 … 2000)`. Returns
+    /// `None` if the item has no limits.
     pub fn limits(&self, limits: &Limits, physical: Option<&Physical<'_>>) -> Option<String> {
         if !limits.allowed.is_empty() {
             return Some(format!("one of {}", self.allowed(limits, physical, &|value| self.value(value))));
@@ -471,8 +471,9 @@ impl Words<'_> {
         format!("Manual{separator} {}", self.escaped(&citation(manual, row, cite)))
     }
 
-    /// Returns the citation of an element and its name in the manual: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12):
-    /// Posizione.` Returns `Name in the manual: Posizione.` if there is no citation.
+    /// Returns the origin of an element's description, its citation and its name in the manual: `Manual: PARAMETRI
+    /// MOVIMENTO, Rvel (page 12): Posizione.` Without a citation, the name is given as `Name in the manual: Posizione.`
+    /// Returns `None` if nothing is known.
     pub fn manual_entry(
         &self,
         manual: &Manual,
@@ -518,7 +519,7 @@ impl Words<'_> {
         Some(self.origin_sentence("Definition", origin))
     }
 
-    /// Returns the origins of the name and description of a group.
+    /// Returns the origins of those facts of a group that do not come from its description.
     pub fn group_origins(&self, group: &Group) -> Vec<String> {
         self.sentences_about(&group.origins)
     }
@@ -547,7 +548,8 @@ impl Words<'_> {
         })
     }
 
-    /// Returns unit and scale: `unit rpm`, `1 LSB = 0.01 rev/s`; `None` for plain numbers.
+    /// Returns the unit, or the scale with the unit: `unit rpm`, `1 LSB = 0.01 rev/s`. Returns `None` for plain
+    /// numbers.
     pub fn unit(&self, quantity: &Quantity) -> Option<String> {
         match &quantity.scale {
             None if shown_unit(quantity).is_empty() => None,
@@ -596,9 +598,9 @@ impl Words<'_> {
         notes
     }
 
-    /// Returns the origins of those facts of an item that do not come from its description: `Unit from CiA 402, 17.3.7.` Assumed
-    /// access rights, reserved entries, and bits and values of a standard are left out, because other methods return sentences
-    /// about them.
+    /// Returns the origins of those facts of an item that do not come from its description: `Unit from CiA 402,
+    /// 17.3.7.` Assumed access rights, reserved entries, and the bits, values and descriptions of a standard are left
+    /// out, because other methods return sentences about them.
     pub fn origins(&self, item: &Item) -> Vec<String> {
         self.sentences_about(&item.origins)
     }

@@ -132,7 +132,7 @@ pub(crate) fn read(
             None
         }
     };
-    // A file with the extension `.eds` is a DCF if it has a commissioning section.
+    // A file in the EDS format is a DCF if it has a commissioning section.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
     let is_configuration = format == Format::Eds && devices.any(|device| device.commissioning.is_some());
     let (others, missing) = input.references.into_files();

@@ -93,7 +93,7 @@ impl Mappable {
     }
 }
 
-/// The address of an item on one bus.
+/// The address of an item on one or more buses.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -192,7 +192,7 @@ pub struct RegisterBinding {
     pub low_word_first: bool,
     /// True if the bytes of each word are swapped.
     pub bytes_swapped: bool,
-    /// Bit offset of the item in its register; `None` if the item is not a part of a register.
+    /// Bit offset of the item in its register; `None` if the item occupies whole registers.
     pub bit_offset: Option<u8>,
     /// Number of 16-bit words at one register address; 2 if the device has 32-bit registers.
     #[cfg_attr(feature = "serde", serde(default = "one", skip_serializing_if = "is_one"))]
@@ -333,7 +333,7 @@ pub struct Quantity {
     pub scale: Option<Scale>,
     /// Raw values with a special meaning, and the meaning of each, such as 0xFFFF for "monitoring off".
     pub sentinels: Vec<(Value, CompactString)>,
-    /// Step in raw units to which the device rounds the value.
+    /// Step in raw units. The device rounds written values to multiples of the step.
     pub step: Option<Value>,
     /// Conversion of the physical value to a unit of the driven machine.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]

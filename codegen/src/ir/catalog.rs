@@ -22,7 +22,7 @@ pub struct Catalog {
     pub submodules: Vec<Submodule>,
     /// Types of the submodules' items. Each device and module has a separate list of types.
     pub types: Vec<TypeDef>,
-    /// Code tables that apply to all devices: channel diagnosis and log book entries.
+    /// Code tables that apply to all devices, such as channel diagnosis and log book entries.
     pub code_tables: Vec<CodeTable>,
     /// Layouts of vendor-specific PROFINET diagnosis (user structures).
     pub unit_diagnoses: Vec<UnitDiagnosis>,
@@ -197,7 +197,7 @@ pub struct Manual {
     pub title: CompactString,
     /// Edition of the manual, as printed.
     pub edition: CompactString,
-    /// Language of the manual (BCP 47), if it differs from the language of the description.
+    /// Language of the manual (BCP 47); empty = not given.
     pub language: CompactString,
     /// Unit of the numbers in citations: pages or lines.
     pub counts: Option<CiteUnit>,
@@ -240,7 +240,7 @@ impl Manual {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documentation {
-    /// Description in English, or in the only language of the source.
+    /// Description in English, or in another language if the source has no English description.
     pub text: String,
     /// Description in other languages.
     pub translations: Texts,

@@ -200,7 +200,8 @@ pub struct ModbusTable {
     pub split: bool,
 }
 
-/// Header of a description file (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader), with its texts unchanged.
+/// Header of a description file (`[FileInfo]` of CiA 306, attributes of ProfileBody in CiA 311), with its texts
+/// unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Header {

@@ -7,7 +7,7 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EtherCatSettings {
-    /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = enhanced link, blank = no port.
+    /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = MII with Fast Hot Connect, blank = no port.
     pub physics: CompactString,
     /// Name of the device family (`GroupType`).
     pub group: FamilyRef,
@@ -25,7 +25,7 @@ pub struct EtherCatSettings {
     pub clocks: Option<Box<DistributedClocks>>,
     /// Rules for the slots of a modular device.
     pub slots: Option<Box<SlotRules>>,
-    /// Addresses of the ESC registers that a master writes, and their values (`ESC`).
+    /// ESC registers that a master writes: address and value (`ESC`).
     pub registers: Vec<(u16, u32)>,
     /// EEPROM content, if the source describes it.
     pub eeprom: Option<Box<Eeprom>>,
@@ -73,7 +73,7 @@ pub struct SyncUnit {
     pub separate: bool,
     /// True if the sync unit needs a separate frame.
     pub separate_frame: bool,
-    /// True if the data of the sync unit depend on the input state.
+    /// True if the data of the sync unit depend on the input state (`DependOnInputState`).
     pub depends_on_input_state: bool,
     /// True if a master may repeat the frames of the sync unit.
     pub frame_repeat: bool,
@@ -107,7 +107,7 @@ pub struct Mailbox {
 pub struct Protocol {
     /// Attributes of the protocol as the source spells them (`IP`, `MAC`, `ChannelCount`).
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// Commands that a master sends at start-up.
+    /// Commands that a master sends at state transitions (`InitCmd`).
     pub init_commands: Vec<InitCommand>,
 }
 
@@ -131,7 +131,7 @@ pub struct Coe {
     pub diag_history: bool,
     /// Further attributes as the source spells them (`EdsFile`, `DS402Channels`).
     pub attributes: Vec<(CompactString, CompactString)>,
-    /// Commands that a master sends at start-up.
+    /// Commands that a master sends at state transitions (`InitCmd`).
     pub init_commands: Vec<InitCommand>,
 }
 
@@ -230,13 +230,13 @@ pub struct SlotRules {
     pub max_slots: Option<u16>,
     /// Maximum number of slot groups, if given.
     pub max_groups: Option<u16>,
-    /// Increment of the index of an object from slot to slot.
+    /// Index increment of objects from slot to slot.
     pub index_increment: u16,
-    /// Increment of the index of a PDO from slot to slot.
+    /// Index increment of PDOs from slot to slot.
     pub pdo_increment: u16,
-    /// Increment of the index of an object from slot group to slot group.
+    /// Index increment of objects from slot group to slot group.
     pub group_index_increment: u16,
-    /// Increment of the index of a PDO from slot group to slot group.
+    /// Index increment of PDOs from slot group to slot group.
     pub group_pdo_increment: u16,
     /// True if a master writes the list of configured modules to 0xF030 (`DownloadModuleIdentList`).
     pub download_idents: bool,

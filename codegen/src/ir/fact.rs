@@ -4,7 +4,7 @@ use thin_vec::ThinVec;
 
 use super::{CompactString, Item};
 
-/// An attribute of an item that several sources can state.
+/// An attribute of an item or group that several sources can state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -33,7 +33,7 @@ pub enum Fact {
     Behavior,
     /// Models, firmware versions, hardware options and buses on which the item exists.
     Availability,
-    /// Differences of the item between models or buses.
+    /// Facts of the item that differ between models or buses.
     Variants,
     /// Description of the item.
     Description,
@@ -58,8 +58,8 @@ impl Fact {
         Fact::Description,
     ];
 
-    /// Returns whether this fact differs between two items. Both [`Fact::Type`] and [`Fact::Meaning`] compare the item's type.
-    /// [`Fact::ObjectType`] never differs, because items have no object type.
+    /// Returns whether this fact differs between two items. For [`Fact::Type`] and [`Fact::Meaning`], compares the types of the
+    /// items. [`Fact::ObjectType`] never differs, because items have no object type.
     #[cfg(feature = "table")]
     pub(crate) fn differs(self, one: &Item, other: &Item) -> bool {
         match self {
@@ -79,8 +79,8 @@ impl Fact {
         }
     }
 
-    /// Returns whether the description of an item states this fact. Addresses, object type, type, access rights and PDO mapping
-    /// always count as stated.
+    /// Returns whether an item has this fact, from any source. Addresses, object type, type, access rights and PDO mapping always
+    /// count as present.
     pub(crate) fn is_stated(self, item: &Item) -> bool {
         match self {
             Fact::Name => !item.name.is_empty(),
@@ -139,7 +139,7 @@ pub struct OverlayOrigin {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Rule {
-    /// Items without stated access rights are read-write, except Modbus inputs, which are read-only.
+    /// Items with `access = "?"` in a register table are read-write, except Modbus inputs, which are read-only.
     UnstatedAccess,
     /// A reserved sub-index is read-only, even if it inherits read-write access.
     ReservedEntry,
@@ -147,8 +147,8 @@ pub enum Rule {
     AnnouncedPdo,
     /// An object that only PDO entries describe is read-write if an RPDO maps it, and otherwise read-only.
     MappedObject,
-    /// Items of an EDS, XDD or ESI without access rights are read-only, except domains of CANopen, which are read-write. Items
-    /// without a data type are read-only raw bytes.
+    /// Items of an EDS, XDD or ESI without access rights are read-only, except DOMAIN objects on CANopen, which are read-write.
+    /// Items without a data type are read-only raw bytes.
     MissingKey,
     /// Identity numbers that are missing or 0 in the header of the description come from the default values of object 0x1018.
     IdentityObject,
@@ -189,7 +189,8 @@ impl FactOrigins {
         self.0.is_empty()
     }
 
-    /// Returns the recorded origin of a fact, or `None` if the fact is missing or comes from the description itself.
+    /// Returns the recorded origin of a fact, if any. A fact without a recorded origin is missing, or comes from the description
+    /// itself.
     pub fn get(&self, fact: Fact) -> Option<&FactOrigin> {
         self.0.iter().find(|(recorded, _)| *recorded == fact).map(|(_, origin)| origin)
     }
@@ -198,7 +199,7 @@ impl FactOrigins {
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
         self.0.retain(|(recorded, _)| *recorded != fact);
         if let Some(origin) = origin {
-            // This saves memory: most items have one or two origins, but a growing vector allocates memory for four.
+            // Exact reservation saves memory: most items have one or two origins, but a growing vector allocates memory for four.
             self.0.reserve_exact(1);
             self.0.push((fact, origin));
         }

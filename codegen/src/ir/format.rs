@@ -45,8 +45,8 @@ impl Format {
         }
     }
 
-    /// Returns the cargo feature of `lexibus-codegen` that reads files of the format. Register tables with messages also need the
-    /// feature `messages`.
+    /// Returns the cargo feature of `lexibus-codegen` that is needed to read files of the format. Register tables with messages
+    /// also need the feature `messages`.
     pub fn feature(self) -> &'static str {
         match self {
             Format::Dcf => Format::Eds.name(),
@@ -85,7 +85,8 @@ impl Format {
         (self == Format::Esi).then(forms)
     }
 
-    /// Returns whether one element of the format can describe several items: a row of a table, an XML type or parameter.
+    /// Returns whether one element of the format can describe several items: a row of a register table, a data type of an ESI, or a
+    /// parameter of an XDD.
     pub fn has_shared_descriptions(self) -> bool {
         matches!(self, Format::Table | Format::Esi | Format::Xdd)
     }

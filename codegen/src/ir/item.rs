@@ -29,7 +29,7 @@ pub struct Item {
     pub default: Option<Value>,
     /// Minimum, maximum and allowed ranges; empty = all values of the type.
     pub limits: Rare<Limits>,
-    /// Differences of the item between models or buses, in the order of the source.
+    /// Facts of the item that differ between models or buses, in the order of the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "ThinVec::is_empty"))]
     pub variants: ThinVec<ItemVariant>,
     /// Settings of the item in a configuration file (DCF, XDC).
@@ -121,7 +121,7 @@ impl Item {
         }
     }
 
-    /// Returns the variants of the item that apply to a bus and to all models.
+    /// Returns the variants of the item that apply to all models and name this bus.
     fn variants_on(&self, bus: Bus) -> impl Iterator<Item = &ItemVariant> {
         self.variants.iter().filter(move |variant| variant.models.is_empty() && variant.buses.contains(bus))
     }
@@ -131,7 +131,7 @@ impl Item {
         self.variants_on(bus).find_map(|variant| variant.ty).unwrap_or(self.ty)
     }
 
-    /// Returns the type of the object on CANopen, or its type on EtherCAT if the object does not exist on CANopen.
+    /// Returns the type of the item on CANopen, or its type on EtherCAT if the item has no object address on CANopen.
     pub fn object_type(&self) -> Type {
         let is_on_canopen = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if buses.canopen);
         self.type_on(if self.bindings.iter().any(is_on_canopen) { Bus::CanOpen } else { Bus::EtherCat })
@@ -147,7 +147,7 @@ impl Item {
         self.variants_on(bus).find_map(|variant| variant.default.as_ref()).or(self.default.as_ref())
     }
 
-    /// Returns the limits of the item on a bus, if a variant states limits for this bus.
+    /// Returns the limits that a variant states for this bus and for all models, if any.
     pub fn limits_on(&self, bus: Bus) -> Option<&Limits> {
         self.variants_on(bus)
             .map(|variant| &variant.limits)
@@ -268,7 +268,7 @@ pub struct Group {
     pub name: CompactString,
     /// Name of the group in other languages.
     pub names: Texts,
-    /// Kind of the group, with its address.
+    /// Kind of the group, with the index of an object or record.
     pub kind: GroupKind,
     /// Items of the group, sorted by sub-index or in the order of the source.
     pub items: Vec<Item>,
@@ -349,7 +349,7 @@ impl Group {
     }
 }
 
-/// The kind of a group, with its address.
+/// The kind of a group, with the index of an object or record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -24,8 +24,8 @@ pub struct StateMachine {
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<StateRef>,
-    /// Fault states that the source lists. The list need not contain the target of an automatic transition from any state, or the
-    /// states that follow the target automatically: these are always fault states.
+    /// Fault states that the source lists. The list can omit states that always count as fault states: the target of an automatic
+    /// transition that starts in any state, and the states that automatically follow this target.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub faults: Vec<StateRef>,
     /// Commands as bit patterns of the control item.
@@ -126,7 +126,7 @@ pub struct Procedure {
     pub name: CompactString,
     /// Name of the procedure in other languages.
     pub names: Texts,
-    /// Names of the arguments, which the caller provides and steps write.
+    /// Names of the arguments. The caller provides their values, and steps write these values.
     pub arguments: Vec<CompactString>,
     /// Steps of the procedure, in order.
     pub steps: Vec<Step>,

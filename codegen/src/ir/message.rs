@@ -187,7 +187,7 @@ pub struct MessageValue {
     pub counts: Option<CompactString>,
 }
 
-/// A parameter space of a command protocol: numbers that address items, and the messages that transfer their values.
+/// A parameter space of a command protocol: numbers that address items, and messages that transfer the values of these items.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParameterSpace {

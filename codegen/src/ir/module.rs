@@ -24,13 +24,13 @@ pub struct Slot {
     pub default: Option<Fit>,
     /// Number of the slot group, if any.
     pub group: Option<u16>,
-    /// Increment of the index of a module's objects per slot.
+    /// Index increment of a module's objects per slot.
     pub index_increment: u16,
-    /// Increment of the index of a module's PDOs per slot.
+    /// Index increment of a module's PDOs per slot.
     pub pdo_increment: u16,
-    /// Increment of the index of a module's objects per slot group.
+    /// Index increment of a module's objects per slot group.
     pub group_index_increment: u16,
-    /// Increment of the index of a module's PDOs per slot group.
+    /// Index increment of a module's PDOs per slot group.
     pub group_pdo_increment: u16,
 }
 
@@ -98,7 +98,7 @@ pub struct Module {
     pub process_data: ProcessData,
     /// Number of the group of modules with contiguous process data (ModulePdoGroup of ETG.2000).
     pub pdo_group: Option<u16>,
-    /// Commands that a master sends at start-up (ETG.2000).
+    /// Commands that a master sends at state transitions (InitCmd of ETG.2000).
     pub init_commands: Vec<InitCommand>,
     /// Submodules of the module, and submodules that it accepts (GSDML).
     pub submodules: Vec<SubmoduleUse>,

@@ -49,7 +49,7 @@ impl<'a> Owner<'a> {
         (0..).zip(groups).flat_map(ids)
     }
 
-    /// Returns the definition of a named type, after following aliases, or `None` for a basic type.
+    /// Returns the definition of a named type after following aliases, or `None` if the type is basic or an alias of a basic type.
     pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {

@@ -9,8 +9,8 @@ use crate::source::Origin;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProcessData {
-    /// PDOs. In vendor files, RPDOs come before TPDOs. The PDOs of each direction are sorted by number on CANopen, and in the
-    /// order of the file on EtherCAT.
+    /// PDOs. In the list of a vendor file, all RPDOs come before all TPDOs. The PDOs of each direction are sorted by number on
+    /// CANopen, and in the order of the file on EtherCAT.
     pub pdos: Vec<Pdo>,
     /// Sync managers of an EtherCAT slave, sorted by number.
     pub sync_managers: Vec<SyncManager>,
@@ -56,11 +56,11 @@ impl ProcessData {
 pub(crate) struct DefaultAssignment<'a> {
     /// Assigned PDOs with their sync managers.
     pub assigned: Vec<(&'a Pdo, u8)>,
-    /// PDOs that are not assigned, with the first PDO that they conflict with.
+    /// PDOs that are not assigned because of a conflict, each with the first assigned PDO with which it conflicts.
     pub left_out: Vec<(&'a Pdo, &'a Pdo)>,
     /// Positions in `assigned` by mapping index. PDOs on different buses can share an index.
     by_index: HashMap<u16, Vec<usize>>,
-    /// Position in `assigned` of the first PDO that excludes an index.
+    /// For each excluded index, the position in `assigned` of the first PDO that excludes it.
     excluded: HashMap<u16, usize>,
 }
 
@@ -261,7 +261,7 @@ pub struct PdoEntry {
     /// In the ids of a module, the groups are numbered consecutively: first the fixed objects, then the other groups.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub item: Option<ItemId>,
-    /// Name of the mapped item, or the name in the mapping.
+    /// Name in the mapping, or the name of the mapped item if the mapping states no name.
     pub name: CompactString,
     /// Type of the mapped item, or the type in the mapping.
     pub ty: Type,
@@ -308,7 +308,7 @@ pub struct Oversampling {
     pub min: Option<u16>,
     /// Maximum number of samples per cycle.
     pub max: Option<u16>,
-    /// Increment of the index from sample to sample.
+    /// Index increment from sample to sample.
     pub index_increment: Option<u16>,
 }
 

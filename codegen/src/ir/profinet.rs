@@ -34,7 +34,7 @@ pub struct ProfinetSettings {
     pub startup_modes: Vec<CompactString>,
     /// Maximum lengths of inputs and outputs, including provider and consumer status.
     pub max_lengths: IoLengths,
-    /// Send clock factors in units of 31.25 µs.
+    /// Supported send clocks as multiples of 31.25 µs (send clock factors).
     pub send_clocks: super::Numbers,
     /// Reduction ratios, each a power of two.
     pub reduction_ratios: super::Numbers,

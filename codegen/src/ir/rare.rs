@@ -6,7 +6,7 @@ use std::ops::{Deref, DerefMut};
 /// A fact that most elements do not have. A missing fact reads as its default value, and takes up only one pointer.
 pub struct Rare<T>(Option<Box<T>>);
 
-/// A type with a default value that is the same for all elements.
+/// A type of fact with a static default value, which all elements without this fact share.
 pub trait Missing: Default + 'static {
     /// Returns the default value.
     fn missing() -> &'static Self;

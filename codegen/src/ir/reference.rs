@@ -9,10 +9,11 @@ use super::{
 };
 use crate::source::Span;
 
-/// Position of an [`Item`] in its device.
+/// Position of an [`Item`] in its device or module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ItemId {
-    /// Position of the item's group in [`Device::groups`].
+    /// Position of the item's group in [`Device::groups`]. In a module, the fixed objects are numbered first, and then the other
+    /// groups.
     pub group: u32,
     /// Position of the item in [`Group::items`].
     pub item: u32,
@@ -185,13 +186,14 @@ pub type ProcedureRef = Reference<ProcedureId>;
 /// A reference to a process image.
 pub type ImageRef = Reference<ImageId>;
 
-/// A reference to a parameter space. A table can use a parameter space without a definition; such a reference has no id.
+/// A reference to a parameter space. A register table can use a parameter space that it does not define. In this case, the
+/// reference has no id.
 pub type SpaceRef = Reference<SpaceId>;
 
 /// A reference to a state of the same state machine.
 pub type StateRef = Reference<StateId>;
 
-/// A reference to a state of any state machine of the device. An enumeration can also contain states. Such a reference has no id.
+/// A reference to a state of any state machine of the device. A reference to a state that only an enumeration contains has no id.
 pub type DeviceStateRef = Reference<DeviceStateId>;
 
 /// A reference to a command of the same state machine, or to a message if there is no such command.

@@ -63,7 +63,7 @@ impl<T: Eq> Eq for SharedList<T> {}
 
 impl<T> From<Vec<T>> for SharedList<T> {
     fn from(mut list: Vec<T>) -> Self {
-        // This saves memory: most lists have one element, but a growing vector allocates memory for four.
+        // Shrinking saves memory: most lists have one element, but a growing vector allocates memory for four.
         list.shrink_to_fit();
         SharedList((!list.is_empty()).then(|| Arc::new(list)))
     }
@@ -163,7 +163,7 @@ pub struct Family {
     pub origin: Origin,
 }
 
-/// Slots of a module, or subslots of a submodule. If all lists are empty, they exclude no slot or subslot.
+/// Slots of a module, or subslots of a submodule. If all lists are empty, every slot or subslot is allowed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlotNumbers {

@@ -15,7 +15,7 @@ pub(crate) struct Text<'a> {
 pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {
-        // An object with a single value has the texts of that value.
+        // The texts of an object with a single value are those of its item, which are collected below.
         if group.items.is_empty() || group.object_code().is_none_or(|code| code.has_subs()) {
             let documentation = stated::description(&group.origins, &group.documentation);
             list.documented(group.origin.span, &group.name, documentation, &group.names);

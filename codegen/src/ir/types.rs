@@ -32,7 +32,7 @@ pub enum Type {
     TimeDifference,
     /// DOMAIN (0x0F): a block of data of any length.
     Domain,
-    /// A time type of IEC 61158-6 that does not exist in CANopen.
+    /// A time type of IEC 61158-6-10 that does not exist in CANopen.
     Time(TimeFormat),
     /// Raw bytes of a type without a definition. The number is the code of the type in the source, if any.
     Opaque(Option<u32>),
@@ -307,7 +307,7 @@ pub struct BitFieldEntry {
     pub bits: u8,
     /// Meaning of the bits.
     pub meaning: BitMeaning,
-    /// Condition on another item under which the bits have this meaning, such as the mode of operation.
+    /// Condition on another item, such as the mode of operation, under which the bits have this meaning.
     pub when: Option<Box<Condition>>,
     /// Event at which the bits take effect; `None` = the bits take effect as long as they are set.
     pub trigger: Option<Trigger>,
@@ -416,7 +416,7 @@ pub struct EnumValue {
     pub zone: Option<Zone>,
     /// Name of the value in other languages.
     pub names: Texts,
-    /// Condition on another item under which the device has this value, such as the mode of operation.
+    /// Condition on another item, such as the mode of operation, under which the device has this value.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub when: Option<Box<Condition>>,
     /// Models, firmware versions and buses that have the value.

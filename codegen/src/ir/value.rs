@@ -32,7 +32,8 @@ pub enum Value {
         /// Days since 1984-01-01, or days of the difference.
         days: u16,
     },
-    /// A text that the compiler could not convert to the type of the item. A diagnostic reports such a text.
+    /// A text that was not converted to the type of the item: a value of a DOMAIN or of an unknown type, or an unreadable value. A
+    /// diagnostic reports values of a DOMAIN and unreadable values.
     Raw(CompactString),
 }
 
@@ -62,7 +63,7 @@ impl Value {
         }
     }
 
-    /// Returns the value as a real number, for comparisons of integers with real values.
+    /// Returns the value as a real number, if it is a number. Use this method to compare integers with real values.
     pub fn as_real(&self) -> Option<f64> {
         match self {
             Value::Real(value) => Some(*value),

@@ -1,4 +1,4 @@
-//! Differences of an item between models or buses.
+//! Facts of an item that differ between models or buses.
 
 use super::{Access, Buses, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;

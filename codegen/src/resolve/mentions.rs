@@ -1,4 +1,4 @@
-//! Visits the references to items and messages.
+//! Visits the references that can refer to items.
 
 use crate::ir::{
     Binding, CompactString, Completion, Condition, Device, ElementRef, Group, Item, ItemRef, MessageField, Quantity,
@@ -29,7 +29,7 @@ impl<'r> From<&'r mut ItemRef> for Mention<'r> {
 
 pub(super) type Visit<'v> = &'v mut dyn FnMut(Mention<'_>);
 
-/// Visits all references to items in a device.
+/// Visits all references in a device that can refer to items.
 pub(super) fn for_each(device: &mut Device, visit: Visit<'_>) {
     of_items_and_types(device.groups.iter_mut(), &mut device.types, visit);
     for message in &mut device.messages {
@@ -52,7 +52,7 @@ pub(super) fn for_each(device: &mut Device, visit: Visit<'_>) {
     }
 }
 
-/// Visits the references in items and types.
+/// Visits the references in items and types that can refer to items.
 pub(super) fn of_items_and_types<'g>(
     groups: impl Iterator<Item = &'g mut Group>,
     types: &mut [TypeDef],
@@ -158,7 +158,7 @@ pub(super) fn target(step: &mut Step) -> Option<&mut ItemRef> {
     }
 }
 
-/// Returns the items for read access and for write access through the window of an indirect binding.
+/// Returns the sides of the window of an indirect binding: one for read access, and one for write access.
 pub(super) fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
     let window = match binding {
         Binding::Indirect(window) => Some(window),

@@ -1,4 +1,4 @@
-//! Resolves the names in references to ids.
+//! Resolves references: sets the id of each reference to the position of the element with its name.
 
 use std::collections::HashMap;
 
@@ -231,7 +231,8 @@ fn spaces_of_fields(fields: &mut [MessageField], positions: &Positions) {
     }
 }
 
-/// Resolves the models and machine constants that constants, machine units and example conversions refer to.
+/// Resolves the references from machine constants to models, and from machine units and example conversions to machine constants
+/// and models.
 fn models_and_given_numbers(device: &mut Device) {
     let models = Positions::new(device.variants.iter().map(|model| &model.name));
     let given = Positions::new(device.given.iter().map(|number| &number.name));

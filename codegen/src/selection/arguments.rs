@@ -6,7 +6,7 @@ use super::{device_names, module_names, number, DeviceFilter};
 use crate::ir::{Device, Module};
 
 /// Returns, for each device, an argument of `--device` that selects only this device: the order code, name, identifier or product
-/// code, followed by the revision if other devices have the same. `None` if there is no such argument.
+/// code, followed by the revision if several devices match the text before it. `None` if there is no such argument.
 pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
     let index = Index::new(devices.iter().map(|device| (device.identity.product_code, device_names(device).to_vec())));
     let revision = |at: &usize| devices[*at].identity.revision_number;

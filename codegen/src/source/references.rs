@@ -5,8 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::{FileId, Source};
 
-/// Files to which a description refers, and which were read. Only files in the folder of the description or below it
-/// are read.
+/// Files that were read because a description refers to them. Only files in the folder of the description or below it are read.
 #[derive(Debug)]
 pub struct References<'a> {
     main: &'a Source,

@@ -11,8 +11,8 @@ use super::{Encoding, Source};
 const MAX_STEP: usize = 32;
 
 impl Source {
-    /// Returns the file with parts of its text replaced. The bytes outside of `replacements` stay the same, with their
-    /// line ends and byte order mark.
+    /// Returns the file with parts of its text replaced. The bytes outside of `replacements` stay the same, including line ends and
+    /// the byte order mark.
     ///
     /// The ranges are byte offsets into [`Source::text`]. They must be in ascending order and must not overlap.
     ///

@@ -38,7 +38,7 @@ pub struct Section {
     number: u32,
 }
 
-/// A `Key=Value` line, or a comment line.
+/// A `Key=Value` line, a comment line, or a comment after a section header.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     key: Range,
@@ -343,8 +343,8 @@ pub struct Entries<'d> {
     lines: Lines,
     comment: u32,
     number: Option<u32>,
-    /// Violations of the grammar in the section. The violations are added to the document after the last line was read, so that
-    /// each violation is recorded only once.
+    /// Violations of the grammar in the section. The violations are added to the document after the last line has been read, so
+    /// that each violation is recorded only once.
     odd: Vec<(Oddity, usize, usize)>,
 }
 

@@ -145,7 +145,7 @@ pub fn document(name: &str, bindings: &[&str]) -> Result<(), String> {
 ///
 /// # Errors
 ///
-/// Returns the output of rustdoc.
+/// Returns the output of rustdoc, or the error if the page cannot be read.
 #[allow(dead_code)]
 pub fn page(name: &str, bindings: &str, path: &str) -> Result<String, String> {
     let read = |folder: &Path| std::fs::read_to_string(folder.join("bindings/outer_0/device").join(path));

@@ -171,7 +171,8 @@ impl Counts<'_> {
     }
 }
 
-/// Objects that a file declares twice. The compiler keeps the first element and reports the second one; the script counts both.
+/// Number of objects that a file declares a second time, and the number of their sub-items. The compiler keeps the first element
+/// and reports the second one; the script counts both.
 #[derive(Clone, Copy, Default)]
 struct Twice {
     objects: usize,

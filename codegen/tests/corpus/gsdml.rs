@@ -33,8 +33,8 @@ impl Case {
         number(&self.oracle["counts"][key]).unwrap_or_else(|| panic!("{}: no count of {key}", self.name)) as usize
     }
 
-    /// Returns whether the file has only the root element in common with GSDML. The oracle reads almost nothing from such
-    /// files.
+    /// Returns whether the file is the mock file, whose structure differs from GSDML. The oracle reads almost nothing from this
+    /// file.
     fn is_mock(&self) -> bool {
         self.name == "richenapedro__pnio-validator__sample_gsdml.xml"
     }

@@ -1,8 +1,8 @@
 //! Compares the EDS lexer with an independent one on all INI files of the corpus. The independent lexer is the crate
 //! `configparser`.
 //!
-//! `configparser` does not implement CiA 306. If a rule of the list of quirks makes the results differ, a function named after
-//! the rule removes the difference. The test compares the removed differences with the lexer's reports.
+//! `configparser` does not implement CiA 306. If a row of the table of quirks makes the results differ, a function named after the
+//! row removes the difference. The test compares the removed differences with the lexer's reports.
 
 use crate::corpus_support;
 
@@ -49,7 +49,7 @@ fn theirs(text: &str) -> Result<Theirs, String> {
     Ok(theirs)
 }
 
-/// E31: replaces single CR characters, which also end a line.
+/// E31: replaces CR LF and single CR, which also end a line, with LF.
 fn e31_line_ends(text: &str) -> String {
     text.replace("\r\n", "\n").replace('\r', "\n")
 }
@@ -147,8 +147,8 @@ fn first_difference(name: &str, ours: &BTreeMap<String, String>, theirs: &BTreeM
     format!("[{name}] {key}: {:?} is ours, {:?} is theirs", ours.get(key), theirs.get(key))
 }
 
-/// E27, E28: `configparser` keeps only one of several equal sections or keys. The test therefore passes each line separately
-/// and compares all entries in file order.
+/// E27, E28: `configparser` keeps only one of several sections or keys with the same name. This function therefore passes each line
+/// to it separately and compares all entries in file order.
 fn e27_e28_each_line(source: &Source) -> Result<usize, String> {
     let document = Document::parse(source.text(), FileId(0));
     let mut ours = document.sections().iter().flat_map(|section| {

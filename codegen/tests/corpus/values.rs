@@ -63,7 +63,7 @@ impl Tally {
     }
 }
 
-/// An item, or an object without a value, with the section that describes it.
+/// An item, or an object without a single value, with the section that describes it.
 #[derive(Clone, Copy)]
 struct Target<'a> {
     section: &'a Section,
@@ -438,7 +438,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Checks that the section contains all values of the item.
+    /// Checks that the section contains all values of the item, and that the compiler reports a missing AccessType or DataType.
     fn nothing_is_invented(&mut self, item: &Item, target: Target<'_>) {
         let (index, sub) = item.object().expect("an object");
         let header = target.section.headers[0];

@@ -1,4 +1,4 @@
-//! Generates the bindings of all devices in the corpus. Equal bindings are generated only once.
+//! Generates the bindings of all devices in the corpus. Equal bindings are tested only once.
 
 use std::borrow::Cow;
 use std::collections::HashSet;

@@ -48,7 +48,7 @@ pub fn all_hold(
     }
 }
 
-/// Code and line of a diagnostic.
+/// Code, file number and line of a diagnostic.
 type Key = (&'static str, usize, usize);
 
 fn key(compilation: &Compilation, diagnostic: &Diagnostic) -> Key {
@@ -56,7 +56,7 @@ fn key(compilation: &Compilation, diagnostic: &Diagnostic) -> Key {
     (diagnostic.code.id, file, compilation.sources[file].position(diagnostic.span.start).line as usize)
 }
 
-/// Returns the number of diagnostics for each code and line.
+/// Returns the number of diagnostics for each code, file and line.
 fn places(compilation: &Compilation) -> BTreeMap<Key, usize> {
     let mut places = BTreeMap::new();
     for diagnostic in compilation.diagnostics.list() {

@@ -1,8 +1,9 @@
 //! The corpus of real device descriptions. The full lane compiles all files. The fast lane compiles the files that
 //! `tests/corpus-sample.txt` lists.
 //!
-//! The corpus is not part of the repository. If the corpus is missing, the tests print a message and pass. All modules
-//! except `round_trip` use only the standard library, so that the code under test does not affect the expected values.
+//! The corpus is not part of the repository. If the corpus is missing, the tests print a message and pass. The readers in this file
+//! and in the modules `number` and `reading` use only the standard library, so that the code under test does not affect the
+//! expected values.
 
 // Each test is a separate program that uses only a part of this module.
 #![allow(dead_code)]
@@ -37,7 +38,7 @@ impl File {
         decode(&self.bytes)
     }
 
-    /// Returns whether the file is XML: an XDD, XDC or XPD.
+    /// Returns whether the file is XML, such as an XDD, ESI or GSDML, and not an INI file.
     pub fn is_xml(&self) -> bool {
         self.text().trim_start().starts_with('<')
     }

@@ -19,12 +19,12 @@ pub struct Fact {
 pub struct Section {
     /// Line numbers of the section headers.
     pub headers: Vec<u32>,
-    /// Values of the entries, by key in lowercase.
+    /// Entries by key in lowercase. A repeated key has several entries.
     pub facts: BTreeMap<String, Vec<Fact>>,
 }
 
 impl Section {
-    /// Returns the last value of a key, which is the valid one (E28).
+    /// Returns the last entry with a key, which is the valid one (E28).
     pub fn get(&self, key: &str) -> Option<&Fact> {
         self.facts.get(key)?.last()
     }

@@ -34,8 +34,8 @@ pub struct Schema {
 }
 
 impl Schema {
-    /// Loads the schema at `path` in the folder of schemas. If the schema or the validator is missing, prints a message and
-    /// returns `None`.
+    /// Creates a validator for the schema at `path` in the folder of schemas. If the schema or the validator is missing, prints a
+    /// message and returns `None`.
     pub fn new(path: &str) -> Option<Self> {
         let path = root().join("../shared/schemas").join(path);
         if !path.is_file() {
@@ -46,7 +46,8 @@ impl Schema {
         Some(Schema { path, python })
     }
 
-    /// Returns the violations in `files`, which are pairs of a name and a content. `what` is unique for each call within a program.
+    /// Returns the violations in `files`, which are pairs of a name and a content. `what` must be unique for each call within a
+    /// program.
     pub fn violations<'f>(&self, what: &str, files: impl IntoIterator<Item = (&'f str, &'f [u8])>) -> Vec<String> {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("xsd-{what}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&folder);

@@ -69,7 +69,7 @@ fn number_of(text: &str, section: &str, key: &str) -> Option<i128> {
     plain(cut(value_of(text, section, key)?).0)
 }
 
-/// Returns the fact of the device that has the name `fact`.
+/// Returns the device fact with the name `fact`.
 pub fn of_device(text: &str, fact: &str) -> Option<String> {
     let number = |key: &str| number_of(text, "DeviceInfo", key);
     match fact {

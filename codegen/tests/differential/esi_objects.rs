@@ -86,7 +86,7 @@ fn item(item: &Item, types: &[TypeDef]) -> Facts {
     put_names(&mut facts, "name", &item.name, &item.names);
     put_documentation(&mut facts, "comment", item.documentation.as_deref());
     put(&mut facts, "type", type_name(item.ty, types));
-    // If the file declares no access rights for an entry, the entry is read-only in the IR.
+    // In the IR, an entry without declared access rights is read-only. The script reports no access rights for such an entry.
     put(&mut facts, "access", if item.at.access.is_empty() { "" } else { item.access.name() });
     put(
         &mut facts,

@@ -60,7 +60,7 @@ pub fn real(value: f64) -> String {
     format!("{value:.16e}")
 }
 
-/// Compares the facts of two readers in both directions. Returns the number of compared facts.
+/// Compares the facts of two readers in both directions. Returns the number of compared elements and facts.
 pub fn compare<'a>(peer: &'a Elements, ours: &'a Elements, mut differs: impl FnMut(Difference<'a>)) -> usize {
     let mut count = 0;
     let names: BTreeSet<&String> = peer.keys().chain(ours.keys()).collect();

@@ -122,7 +122,7 @@ fn places(places: &SlotNumbers) -> Facts {
     facts
 }
 
-/// Adds the built-in and pluggable submodules of a device access point or module.
+/// Adds the built-in and pluggable submodules of a device access point or module, and the names of its subslots.
 fn held(elements: &mut Elements, owner: &str, uses: &[SubmoduleUse], subslots: &[SubslotName]) {
     for usage in uses {
         elements.insert(format!("{owner} holds {}", usage.submodule.0), places(&usage.places));
@@ -175,7 +175,8 @@ fn submodule(elements: &mut Elements, owner: &str, submodule: &Submodule, types:
     menus(elements, owner, &submodule.menus);
 }
 
-/// Adds channel diagnosis, process alarms and log book entries. A code in an extended list is preceded by its parent code.
+/// Adds the rows of a code table: channel diagnosis, process alarms or log book entries. In an extended list, the first cell of
+/// each row contains the parent code.
 fn code_table(elements: &mut Elements, table: &CodeTable) {
     for (at, row) in table.rows.iter().enumerate() {
         let mut facts = Facts::new();

@@ -11,15 +11,15 @@ use super::facts::Elements;
 /// A reader's result for one file.
 #[derive(Debug, Default, Deserialize)]
 pub struct Answer {
-    /// The elements if the file was read.
+    /// The elements, if the reader could read the original or the repaired text.
     pub elements: Option<Elements>,
-    /// The reasons if the file was rejected.
+    /// The reasons why the reader rejected the original text of the file, if any.
     #[serde(default)]
     pub errors: Vec<String>,
 }
 
-/// Returns the files of a format with the reader's results. If the corpus or Python is missing, prints a message and
-/// returns `None`.
+/// Returns the files of a format with the reader's results. In the fast lane, or if the corpus or Python is missing, prints a
+/// message and returns `None`.
 pub fn answers(format: &str) -> Option<Vec<(File, Answer)>> {
     if lane::skips("the comparison with independent readers") {
         return None;

@@ -31,7 +31,7 @@ impl Tally {
         Tally { format, reasons, files: 0, rejected: BTreeSet::new(), facts: 0, agreed: 0, explained, unexplained }
     }
 
-    /// Counts a file that both readers accept.
+    /// Compares the facts of a file from both readers, and counts the differences.
     pub fn file<'a>(
         &mut self,
         name: &str,
@@ -62,7 +62,8 @@ impl Tally {
         }
     }
 
-    /// Prints the counts. Panics if a difference is unexplained, if a reason is unused, or if too few facts were compared.
+    /// Prints the counts. Panics if a difference is unexplained, if a reason is unused or not listed, if the table of quirks lacks
+    /// a reason, or if too few facts were compared.
     pub fn finish(self, least_facts: usize) {
         eprintln!(
             "{}: {} files, {} rejected by the peer at least once; {} facts, {} agree; explained: {:?}",

@@ -134,8 +134,8 @@ fn small_files_do_not_grow() {
     assert_eq!((found.len(), found[0].notes.len()), (1, 0));
 }
 
-/// Creates a description that refers to three files. Several devices refer to the same file, and the references contain
-/// a cycle. Returns the path of the description.
+/// Returns the path of a description that refers to three files. Several devices refer to the same file, and the references contain
+/// a cycle.
 fn referring() -> PathBuf {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
     cases.join("x24-files-next-to-the-description/input.xml")

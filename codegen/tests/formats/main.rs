@@ -1,4 +1,4 @@
-//! Tests how the front ends read quirks, and the front end for XDD.
+//! Tests the front end for XDD, and quirks and limits of EDS, ESI and GSDML files.
 
 #[path = "../corpus_support/mod.rs"]
 mod corpus_support;

@@ -448,7 +448,7 @@ const XDD_1_1: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 </ISO15745ProfileContainer>
 "#;
 
-/// Removes facts that can differ between files of the same device: positions, extensions and the notation of dates.
+/// Removes facts that can differ between files of the same device: positions, origins, extensions, and facts of the file itself.
 fn comparable(device: &Device) -> serde_json::Value {
     fn clear(value: &mut serde_json::Value) {
         match value {

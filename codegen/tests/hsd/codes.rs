@@ -258,7 +258,7 @@ fn cells_with_stars(line: &str) -> Vec<String> {
     line.trim().trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// Converts a cell of the manual to the outcome and the states that it lists.
+/// Returns the kind of a cell of the manual, and the outcomes that the cell lists.
 fn outcomes(cell: &str, states: &[EnumValue]) -> (&'static str, Vec<Outcome>) {
     let cell = cell.replace("Effettua l'azzeramento manuale", "");
     let plain: String = cell.chars().filter(|c| !"(0123456789)".contains(*c)).collect();

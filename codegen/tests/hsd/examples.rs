@@ -5,8 +5,8 @@ use lexibus_codegen::ir::{Device, GivenNumber, GivenRef, Item, MessageField, Sca
 use super::hsd_support::{chapter, device, message, table};
 use super::parameters::of_model;
 
-/// Calculates the worked examples of the manual with the scales of the register table. The expected numbers do not contain
-/// misprints.
+/// Recalculates the worked examples of the manual with the scales of the register table. If the manual misprints a number, the
+/// test expects the correct number.
 #[test]
 fn worked_examples() {
     let compilation = table();
@@ -32,8 +32,8 @@ fn worked_examples() {
     let machine = |item: &Item, raw: f64, turn: f64| {
         physical(device, item, "SM137 rev. C", raw, &[("screw pitch", pitch), ("counts per turn", turn)])
     };
-    // Section 3.6 misprints 6780.8465 mm as 6766.8176 mm. The sections 3.9 and 3.10 misprint 00 1B 6F 9E as 01 1B 6F 9E. Results in
-    // the sections 3.8 and 3.10 are truncated.
+    // Section 3.6 misprints 6780.8465 mm as 6766.8176 mm. Sections 3.9 and 3.10 misprint 00 1B 6F 9E as 01 1B 6F 9E. Results in
+    // sections 3.8 and 3.10 are truncated.
     let position = field("CmdMazz", false, "position");
     assert_eq!((6780.8465 / machine(&position, 1.0, turn)) as i64, 0x0102_AB34);
     let target = field("CmdTraj", false, "target");
@@ -67,7 +67,7 @@ fn worked_examples() {
     let (truncated, nearest) = ((5.0 / amperes) as i32, (5.0 / amperes).round() as i32);
     assert_eq!((truncated, nearest, (5.0 / 11.313 * 32768.0) as i32), (14_481, 14_482, 14_482));
     // "Notazione mantissa-esponente [ME15]" contains two notations of 15.5. "Guadagni dei regolatori …" contains 0.58, 15 %,
-    // and 0.08 / 0.58. The manual prints the rounded quotient.
+    // and 0.08 / 0.58. The manual prints the rounded raw value of the quotient, 4520.
     let Some(Scale::Exponent { base: 2, fraction: 15, exponent }) =
         &items("Low-level parameters", "KVELPIMANT").quantity.expect("a scale").scale.clone()
     else {
@@ -82,7 +82,7 @@ fn worked_examples() {
     assert_eq!((kcor as i32, kcor.round() as i32), (4519, 4520));
     // In "Quantizzazione SM137", 430 mm/s² contains 17 whole steps of 78.125 turns/s², that is, 425 mm/s².
     assert_eq!((430.0 / pitch / 78.125_f64).trunc() * 78.125 * pitch, 425.0);
-    // In the sections 3.9 and 3.10, a position can be at most 67108863 counts away from 1000.
+    // In sections 3.9 and 3.10, a position can be at most 67108863 counts away from 1000.
     assert_eq!((1000 - 67_108_863, 1000 + 67_108_863), (-67_107_863, 67_109_863));
 }
 
@@ -151,7 +151,8 @@ fn defaults_of_both_chapters_agree() {
             }
         }
     }
-    // A `doubt` entry explains the defaults of PIMIN_I and PIMAX_I: 19.5 V, and the integer part of 19.6 V.
+    // The defaults of PIMIN_I and PIMAX_I on the SM140 are -19.5 V and 19.5 V, but the voltage base is 19.6 V. `doubt` entries
+    // explain the difference.
     assert_eq!((compared, wrong), (40, vec![("SM140", "KIQDLIMIN"), ("SM140", "KIQDLIMAX")]));
 }
 

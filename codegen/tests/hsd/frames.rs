@@ -7,7 +7,8 @@ use lexibus_codegen::ir::{Completion, Message, MessageField};
 use super::hsd_support::frames::{self, Byte, Layout};
 use super::hsd_support::{device, message, number, table, Manual};
 
-/// For each section, the message and the lengths of its parameters. The manual prints some frames for several lengths.
+/// Section, name and lengths of the parameter values of each printed message. The manual prints some messages with several
+/// lengths.
 const FRAMES: [(&str, &str, &[usize]); 41] = [
     ("3.2", "CmdReset", &[]),
     ("3.3", "CmdNoReg", &[]),
@@ -137,12 +138,13 @@ fn opcodes_are_the_printed_ones_and_all_different() {
         let is_value = reply.len() == 9 && matches!(entry.reply.last(), Some(MessageField::Value(_)));
         echoed = (echoed.0 + usize::from(is_echo), echoed.1 + usize::from(is_value));
     }
-    // The remaining messages are CmdTrajVel, null, CmdGetDistMicroZero, CmdGetParN and CmdGetSamp.
+    // Of the replies with nine bytes, 26 contain no value except the status, and six end with a value. The other messages are
+    // CmdTrajVel, null, CmdGetDistMicroZero, CmdGetParN and CmdGetSamp.
     assert_eq!(echoed, (26, 6));
 }
 
-/// Compares the models that support each command with the notes in the manual: all motors except the SM137 before revision C,
-/// or only the SM140.
+/// Compares the models that support each command with the notes in the manual. A note restricts a command to all motors except
+/// the SM137 before revision C, or to the SM140.
 #[test]
 fn who_has_a_command_is_as_its_note_says() {
     let Some(manual) = Manual::read() else { return };

@@ -9,7 +9,7 @@ use super::{cells, Manual};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Byte {
     Constant(u8),
-    /// A zero in the upper four bits and the status in the lower four.
+    /// A byte with the status in the lower four bits, and zeros in the upper four.
     Status,
     /// A byte of a value: the name of the value, the number of the byte, and the number of bytes in the value. Byte 0
     /// is the least significant one.
@@ -149,7 +149,7 @@ pub struct Layout<'d> {
     pub device: &'d Device,
     /// Lengths of the parameter values in order. The last length also applies to all further values.
     pub values: Vec<usize>,
-    /// Number of repetitions of repeated fields.
+    /// Number of repetitions of fields whose count is in another field.
     pub count: usize,
 }
 

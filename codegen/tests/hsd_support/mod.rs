@@ -38,7 +38,7 @@ impl Manual {
         (from..=to).map(|number| (number, self.line(number)))
     }
 
-    /// Returns the table rows in a range of lines as line number and cells. Headers and rulers are left out.
+    /// Returns the table rows in a range of lines as line number and cells. Rulers are left out.
     pub fn rows(&self, from: usize, to: usize) -> Vec<(usize, Vec<String>)> {
         self.lines(from, to).filter_map(|(number, line)| Some((number, cells(line)?))).collect()
     }
@@ -108,7 +108,7 @@ pub fn number(cell: &str) -> Option<i128> {
     }
 }
 
-/// Returns the texts of all `doubt` entries of the device.
+/// Returns the texts of the `doubt` entries of the device and its groups, items and messages.
 pub fn doubts(device: &Device) -> Vec<String> {
     let mut all: Vec<&lexibus_codegen::ir::Doubt> = device.doubts.iter().collect();
     let items = device.groups.iter().flat_map(|group| &group.items);
@@ -118,7 +118,7 @@ pub fn doubts(device: &Device) -> Vec<String> {
     all.iter().map(|doubt| format!("{} // {} // {}", doubt.says, doubt.chosen, doubt.why)).collect()
 }
 
-/// Returns the integer type on which an enumeration or bit field is based.
+/// Returns the type on which an enumeration, a bit field or a scaled type is based. Returns other types unchanged.
 pub fn underlying(device: &Device, ty: lexibus_codegen::ir::Type) -> lexibus_codegen::ir::Type {
     let lexibus_codegen::ir::Type::Named(id) = ty else { return ty };
     match &device.types[id.0 as usize].shape {

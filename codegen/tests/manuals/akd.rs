@@ -86,8 +86,8 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
-/// Compares the manual's table of hardware revisions with the register table. Each revision must be a model with its software
-/// versions.
+/// Compares the manual's table of hardware revisions with the register table. Each revision must be a model whose
+/// documentation lists the software versions.
 #[test]
 fn revisions_of_the_hardware() {
     let Some(manual) = manual() else { return };
@@ -143,7 +143,7 @@ fn registers_of_the_slave_controller() {
 const CORRECTED: [(usize, &str, (u8, u8)); 4] =
     [(573, "Da 3 a 7", (6, 2)), (593, "0x201", (10, 1)), (594, "0x201", (11, 1)), (596, "SyncManager 7", (12, 4))];
 
-/// Compares a bit field with printed rows, which contain a parameter, an address and bits.
+/// Compares a bit field with printed rows, which contain a parameter, an address and bits. Returns the number of compared rows.
 fn table_of_bits(manual: &[String], device: &Device, name: &str, (first, last): (usize, usize), base: u32) -> usize {
     let fields = fields(device, name);
     let mut held = 0;
@@ -313,7 +313,7 @@ fn the_drives_state_machine() {
     modes(&manual, device);
 }
 
-/// Compares bits 4, 5 and 6 of the control word in each mode of operation.
+/// Compares bits 4, 5 and 6 of the control word in each mode of operation with the manual.
 fn modes(manual: &[String], device: &Device) {
     let named = values(device, "ModesOfOperation");
     let printed = rows(manual, 711, 716);
@@ -372,7 +372,7 @@ fn cyclic_values() {
     }
 }
 
-/// Returns the names and bit lengths of the entries in a printed mapping.
+/// Returns the names and bit lengths of the entries in a printed mapping, and the printed total length in bytes, if any.
 fn printed_entries(text: &str) -> (Vec<(String, u32)>, Option<u32>) {
     let (mut entries, mut total) = (Vec::new(), None);
     for part in text.split("),") {
@@ -573,7 +573,8 @@ fn latch_words() {
     assert_eq!(compared, 20);
 }
 
-/// Returns whether the bits `entry` of a latch word cite the line and have the value.
+/// Returns whether the bits `entry` of a latch word describe `value` and cite the line. The bits must be a flag that is 1 in
+/// `value`, or an enumeration that names the value of the bits.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
     let actual = i128::from(value >> entry.offset);
     match entry.meaning {

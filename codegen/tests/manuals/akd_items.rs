@@ -90,7 +90,7 @@ const ITEMS: &[(u8, How)] = &[
     (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
     // The documentation of the field states that it contains a number from 1 to 4, and not one bit per latch. The test `akd`
-    // checks its values.
+    // checks the values of this field.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // Section 4.6: the mailbox.

@@ -46,7 +46,8 @@ fn registers(manual: &[String]) -> Vec<Printed> {
     rows.into_iter().map(|(line, text)| register(line, &text)).collect()
 }
 
-/// Returns whether the text of a row is complete. If its label is a range, the row needs two addresses.
+/// Returns whether the text of a row is complete. A complete row contains the word `si`, `sì` or `no`, and an
+/// address, or two addresses if the label is a range.
 fn is_whole(text: &str) -> bool {
     let range = text.get(3..8).is_some_and(|label| label.contains('-'));
     let addresses = || hex_numbers(text, 4).into_iter().filter(|&entry| entry > 0x8000 || text.starts_with("R00"));
@@ -81,8 +82,8 @@ fn register(line: usize, text: &str) -> Printed {
     }
 }
 
-/// Returns the printed limits of a value with this size. The limits are treated as signed if the lower limit would
-/// otherwise exceed the upper limit.
+/// Returns the printed limits of a value with `bits` bits. The lower limit is negative if it would otherwise exceed the upper
+/// limit.
 fn signed(limits: &[u64], bits: u32) -> (i128, i128) {
     // One printed limit has nine hexadecimal digits, which is one too many.
     let limit = |value: u64| i128::from(if value > 0xFFFF_FFFF { value >> 4 } else { value });
@@ -202,7 +203,8 @@ fn place(text: &str) -> (u16, u8) {
     (index, sub as u8)
 }
 
-/// Parses a position in an image, such as `IN 0..1`, `IN 2 / display OUT 2` or `indirect`.
+/// Parses a position in an image, such as `IN 0..1` or `IN 2 / display OUT 2`. Returns `None` for other texts, such as
+/// `indirect`.
 fn image_position(text: &str) -> Option<(&'static str, u32)> {
     let (image, rest) = match text.split_once(' ') {
         Some(("IN", rest)) => ("from the master", rest),
@@ -302,7 +304,7 @@ fn every_number_in_several_parameters_is_a_composite() {
         expected.push((pair.iter().map(|row| row.0.as_str()).collect(), None));
     }
     let offset = with("Offset di spazio in impulsi");
-    // The parameters H6, H7 and H8 contain the ten thousands, the hundreds and the units of the offset.
+    // The parameters H6, H7 and H8 contain the tens of thousands, the hundreds and the units of the offset.
     let weights = ["decine di migliaia", "centinaia", "unità"];
     assert!(offset.iter().zip(weights).all(|(row, weight)| row.2.contains(weight)));
     let sign = with("Segno offset di spazio");
@@ -337,8 +339,8 @@ fn the_command_that_saves_has_an_address_of_its_own() {
     assert_eq!(item(device, "save_to_flash").access, Access::WriteOnly);
 }
 
-/// Compares the list of objects that 0x1010 saves (section "Salvataggio su flash"). The list has 36 cells, including
-/// 0x3701 for the inputs 9, 10 and 11.
+/// Compares the list of objects that 0x1010 saves (section "Salvataggio su flash") with the register table. The list has 36
+/// cells, and prints 0x3701 for each of the inputs 9, 10 and 11.
 #[test]
 fn what_canopen_saves_is_saved() {
     let Some(manual) = manual() else { return };

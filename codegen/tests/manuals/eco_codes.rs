@@ -66,8 +66,8 @@ fn alarms_are_the_printed_ones() {
     assert_eq!((buses("ethercat_alarms"), buses("profinet_alarms")), (vec!["ethercat"], vec!["profinet"]));
 }
 
-/// Returns the reaction to a general alarm. The reaction is the first line after the alarm's title that names an
-/// action.
+/// Returns the reaction to a general alarm, or an empty text for an unknown reaction. In the lines from the
+/// alarm's title on, the first line that starts with "Azione" describes the reaction.
 fn reaction(manual: &[String], line: usize) -> &'static str {
     let found = lines(manual, line, line + 8)
         .map(|(_, text)| text)
@@ -128,13 +128,13 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
         .filter_map(Result::ok)
         .collect();
     assert_eq!(in_registers, BTreeSet::from([-127, -50, -2, -1, 1, 3, 6, 7]));
-    // On EtherCAT, the drive also has the mode 8 (cyclic synchronous position).
+    // On EtherCAT, the drive also has mode 8 (cyclic synchronous position).
     let with_csp = |mut list: BTreeSet<i128>| {
         list.insert(8);
         list
     };
     assert_eq!(values("Mode"), with_csp(in_registers));
-    // This closure returns the allowed values of 0x6060 on a bus.
+    // Returns the allowed values of 0x6060 on a bus.
     let there = |bus: Bus| -> BTreeSet<i128> {
         let limits = item(device, "modes_of_operation").limits_on(bus).expect("limits");
         limits.allowed.iter().filter_map(|(value, _)| value.as_int()).collect()

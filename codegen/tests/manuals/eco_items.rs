@@ -10,7 +10,8 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// The items of section 4, with the first words of their `doubt` entries and the numbers in their texts that are not line numbers.
+/// Each item of section 4, with the first words of its `doubt` entries, and the numbers in the text of the item that are not line
+/// numbers.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["On 104 pages,"], &[104]),

@@ -133,8 +133,8 @@ fn what_only_ethercat_has_is_not_on_canopen() {
     }
 }
 
-/// Compares the process images with the manual: names with their lengths, and unused bytes in groups of eight (section
-/// "Mappatura memoria condivisa").
+/// Compares the lengths of the fields in the process images with the manual (section "Mappatura memoria condivisa"). Each field
+/// must be within one group of eight bytes.
 #[test]
 fn images_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
@@ -206,7 +206,8 @@ fn pdos_of_ethercat_are_the_printed_ones() {
         let mut there: Vec<Mapped> = Vec::new();
         for entry in &pdo.entries {
             match entry.kind {
-                // A mode of operation is one byte long, but the manual prints two bytes (item E3 of the notes on the manual).
+                // A mode of operation is one byte long, and a padding byte follows. The manual prints two bytes (item E3 of the notes
+                // on the manual).
                 PdoEntryKind::Padding => there.last_mut().expect("an entry").2 += entry.bits,
                 _ => there.push((entry.index, entry.sub_index, entry.bits)),
             }

@@ -18,7 +18,7 @@ const AREA: &str = "manual-hsd";
 
 /// Test case or `doubt` entry that covers an item.
 enum How {
-    /// A test case and the code that it reports.
+    /// A test case, and a code that its diagnostics must contain.
     Finding(&'static str, &'static str),
     /// Lines of the manual that a `doubt` entry cites, each with a part of its text.
     Doubt(&'static [(usize, &'static str)]),

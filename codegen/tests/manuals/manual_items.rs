@@ -18,7 +18,7 @@ const AREA: &str = "manual-vector-step";
 
 /// Test case, `import` test or `doubt` entry that covers an item.
 enum How {
-    /// A test case and the codes that it reports.
+    /// A test case, and codes that its diagnostics must contain.
     Finding(&'static str, &'static [&'static str]),
     /// A test of `import` and the codes that it expects.
     Import(&'static str, &'static [&'static str]),

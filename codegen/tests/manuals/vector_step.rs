@@ -37,7 +37,7 @@ fn line(item: &Item) -> Option<usize> {
     cite.split([',', '-']).next()?.trim().parse().ok()
 }
 
-/// Returns the register address of an item, from its Modbus address or its object address.
+/// Returns the register address of an item, from its Modbus register or its object index.
 fn number(item: &Item) -> Option<u16> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Register(register) => Some(register.address),
@@ -62,8 +62,8 @@ struct Printed<'m> {
     cells: Vec<&'m str>,
 }
 
-/// Returns the rows of all register tables. A row starts with an address or a range of addresses. A cell with an object index can
-/// follow the address.
+/// Returns the rows of all register tables. A row starts with an address or a range of addresses. The second cell is
+/// empty or contains an object index.
 fn printed(manual: &[String]) -> Vec<Printed<'_>> {
     let mut rows = Vec::new();
     for (position, line) in manual.iter().enumerate() {

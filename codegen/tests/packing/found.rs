@@ -38,7 +38,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Counts the types in `found`. Checks that the counts agree with the number of functions in `text`.
+    /// Counts the types in `found`. Checks that the counts agree with the functions and implementations in `text`.
     fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
         let of = |kind: TypeKind| found.iter().filter(|one| one.kind == kind && one.shared.is_none()).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
@@ -59,7 +59,8 @@ impl Counts {
     }
 }
 
-/// Returns the text without modules that contain no layouts, because compiling these modules would take most of the time.
+/// Returns the text without comments and without modules that contain no layouts. Compiling these modules would take most of
+/// the time.
 pub fn needed(text: &str) -> String {
     let not_needed = ["objects", "mappable", "remappable", "codes", "procedures", "models"];
     let (mut out, mut keep) = (String::new(), true);
@@ -75,7 +76,8 @@ pub fn needed(text: &str) -> String {
     out
 }
 
-/// Returns the statements that check all types in the bindings of `catalog`. The bindings are in the module `MODULE`.
+/// Returns the statements that check all types in the bindings of `catalog`, and the number of types of each kind. The bindings
+/// are in the module `MODULE`.
 pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts) {
     let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
     let mut counts = Counts::of(&found, text, name);
@@ -256,7 +258,8 @@ fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
     structs
 }
 
-/// Calls `look` for each line with the modules that contain it. The text must indent each level by four spaces.
+/// Calls `look` for each line, with the modules that contain it and without its indentation. The indentation determines where
+/// a module ends.
 pub fn each_line<'t>(text: &'t str, mut look: impl FnMut(&[&'t str], &'t str)) {
     let (mut modules, mut levels): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
     for line in text.lines() {

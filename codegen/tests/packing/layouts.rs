@@ -237,7 +237,7 @@ fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec
 }
 
 /// Returns the bits of a number that starts in `byte`, with `shift` bits below it. The last byte contains the lowest bits. `of`
-/// is the first bit of the value.
+/// is the position of the first of these bits within the value.
 fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     let end = shift + bits;
     let last = byte + (end - 1) / 8;

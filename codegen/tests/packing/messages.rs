@@ -35,7 +35,7 @@ impl<'t> Messages<'t> {
             Some(value) => format!("sent!(random, {path}, data, {has_node}, {value})"),
             None => format!("overheard!(random, {path}, &[{}])", constant(message)),
         };
-        // A reply without a type is a sequence of bytes.
+        // A reply that is a sequence of bytes has no struct.
         let reply = self.replies.get(message).copied().unwrap_or_default();
         let reply = match value(reply) {
             Some(value) => format!("answered!(random, {path}, data, {value})"),
@@ -124,7 +124,8 @@ pub fn bare(name: &str) -> &str {
     &name[..end]
 }
 
-/// Returns an expression that creates a message with random values. Returns `None` if the message has a list field.
+/// Returns an expression that creates a message with random values. Returns `None` if no struct has this name, or if a field
+/// has another type, for example a text.
 fn random(name: &str, structs: &HashMap<&str, Vec<(&str, &str)>>, rule: Option<&str>) -> Option<String> {
     let value = |ty: &str| match ty {
         "u8" | "u16" | "u32" | "u64" | "i8" | "i16" | "i32" | "i64" => Some(format!("random.number() as {ty}")),

@@ -26,7 +26,7 @@ fn bindings(text: &str, options: &Options) -> String {
     compilation.rust(&options.rust).expect("bindings")
 }
 
-/// Returns the names of the traits that the type of the device implements.
+/// Returns the names of the CiA 402 traits that the type of the device implements.
 fn traits(text: &str) -> Vec<&str> {
     let lines = text.lines().filter_map(|line| line.strip_prefix("impl<B: rt::Bus> rt::cia402::"));
     lines.filter_map(|line| line.split_once("<B> for ")).map(|(name, _)| name).collect()
@@ -81,7 +81,7 @@ fn the_code_compiles_and_has_the_form_of_prettyplease() {
          [603F]\nParameterName=Code\nDataType=6\nAccessType=ro\n\
          [60F4]\nParameterName=Lag\nDataType=3\nAccessType=ro\n"
     );
-    // From a certain length of the name, the lines of the code must be broken. These names are slightly shorter or longer.
+    // If the name exceeds a certain length, the lines of the code must be broken. These names are close to this length.
     for length in 36..44 {
         let text = bindings(&drive(&"N".repeat(length), &all), &Options::default());
         assert_eq!(canonical("a name near the margin", &text), Ok(()));

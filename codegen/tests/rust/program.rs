@@ -1,4 +1,4 @@
-//! Tests what the compiler chooses for a new drive crate.
+//! Tests which states, items and values the compiler chooses for the program of a new drive crate.
 
 use lexibus_codegen::backend::rust::{program, NoTarget, Program};
 use lexibus_codegen::compile::{check, Options};

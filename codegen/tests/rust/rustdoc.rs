@@ -22,7 +22,7 @@ fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Returns the paths of the descriptions in two folders of the repository.
+/// Returns the paths of the descriptions in `tests/data` and `dictionaries`.
 fn examples() -> Vec<PathBuf> {
     let folders = ["tests/data", "dictionaries"].map(|name| repository().join(name));
     let entries = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder of the repository"));
@@ -49,7 +49,7 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
         RustOptions { pdos: false, ..RustOptions::default() },
     ];
     let mut examples = examples();
-    // In the fast lane, rustdoc runs on the drives only in the crate `lexibus-drives`.
+    // In the fast lane, skip the drives, because rustdoc already runs on the crate `lexibus-drives`.
     examples.retain(|path| lane::is_full() || path.parent().is_some_and(|folder| folder.ends_with("data")));
     on_all_processors(examples, |path| {
         let compilation = read(&path, &Options::default());

@@ -55,7 +55,7 @@ fn rust(text: &str) -> String {
     compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{:#?}", reported(text)))
 }
 
-/// Asserts that a row with the keys `more` causes an error whose message contains `words`.
+/// Asserts that a row with the keys `more` causes a diagnostic that contains `words`.
 #[track_caller]
 fn is_wrong(more: &str, words: &str) {
     let found = reported(&a(more));

@@ -15,7 +15,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", format!("{HEAD}{text}").into_bytes()), &Options::default())
 }
 
-/// Returns the codes and messages of all errors and of the lints about windows.
+/// Returns the codes and messages of the diagnostics that the tests in this file check.
 fn reported(text: &str) -> Vec<String> {
     let compilation = read(text);
     let is_checked =

@@ -65,7 +65,8 @@ fn the_latest_pdo_is_the_newest_one() {
     assert_eq!(node.latest_pdo(PDO), Ok(None));
 }
 
-/// Returns whether a PDO contains the number of the last SYNC. Panics if it contains an old number.
+/// Checks that a PDO contains the number of the last SYNC. Returns an error if the PDO has a wrong length, and panics if the
+/// number is wrong.
 fn check(pdo: &CanFrame, bus: &Bus) -> Result<(), Error<CanError>> {
     let data = pdo.data();
     let number = data.try_into().map_err(|_| Error::Length(LengthError::new(4, data.len())))?;
@@ -73,7 +74,7 @@ fn check(pdo: &CanFrame, bus: &Bus) -> Result<(), Error<CanError>> {
     Ok(())
 }
 
-/// One cycle of a master: discards old PDOs, sends SYNC, and receives the PDO that the node sends after it.
+/// Runs one cycle of a master: discards old PDOs, sends SYNC, and receives the PDO that the node sends after SYNC.
 fn cycle(node: &mut Node<FaultyCan<Bus>>) -> Result<(), Error<CanError>> {
     node.latest_pdo(PDO)?;
     node.sync()?;
@@ -120,7 +121,7 @@ fn the_latest_pdo_has_the_time_at_which_it_was_taken_from_the_interface() {
     let mut node = behind();
     let start = node.port().now();
     assert_eq!(time(now(node.latest_pdo_async(PDO))), start, "the PDOs were in the queue of the interface");
-    // At the start of the SDO transfer, the PDO is taken and kept in the buffer.
+    // At the start of the SDO transfer, the client moves the PDO to the buffer.
     now(node.sync_async()).expect("it is sent");
     now(AsyncClient::read(&mut node, TEXT, &mut [0; 20])).expect("a value");
     let (arrival, after) = (start.map(|start| start + FRAME), node.port().now());

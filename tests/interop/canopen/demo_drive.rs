@@ -1,4 +1,4 @@
-//! Tests the demo drive's checked-in bindings with a node that is created from its exported EDS.
+//! Tests the demo drive's checked-in bindings with a node that is created from the drive's exported EDS.
 
 use lexibus::{AbortCode, Item, OnCanOpen, Rw, Step};
 use lexibus_drives::demo_drive::codes::DriveErrors;

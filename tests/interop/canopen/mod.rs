@@ -52,7 +52,7 @@ pub fn node_id() -> NodeId {
 }
 
 /// Starts a node with the EDS of the description in `file` and returns its client. `test` is the name of the test.
-/// Returns `None` if Python is missing.
+/// Returns `None` if Python or a library is missing.
 pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     let line = Pty::open();
     let script = run(test, file, line.path())?;

@@ -14,7 +14,7 @@ use crate::python::{python, Script};
 const FILE: &str = "dictionaries/aec-vector-step.toml";
 const ACTUAL_POSITION: Object = Object::new(0x6064, 0);
 
-/// Starts the drive and its master, and starts the node.
+/// Starts the simulated drive and the Python master, which sets the drive to Operational.
 fn start(test: &str) -> Option<(Script, Served)> {
     let python = python()?;
     let line = Pty::open();

@@ -15,7 +15,7 @@ use crate::slcan::Slcan;
 /// Time to wait for a frame before the thread advances the clock and checks whether the test has ended.
 const POLL: Duration = Duration::from_millis(2);
 
-/// Selects the frames that the line loses, by their number among the frames with this identifier.
+/// Returns whether the line loses a frame. `number` counts the frames with this CAN-ID.
 pub type Loses = fn(id: u32, number: usize) -> bool;
 
 /// The simulated node on a serial line, in a thread.

@@ -160,7 +160,7 @@ fn communication(b: &mut Bytes<'_>, sub: u8) -> (u8, Value) {
     }
 }
 
-/// Returns an entry that maps an existing object, usually with the correct length.
+/// Returns the width in bits and the value of a mapping entry, which usually maps an existing object with the correct length.
 fn mapping(b: &mut Bytes<'_>, sub: u8, dictionary: &[Group]) -> (u8, Value) {
     let items: Vec<&Item> = dictionary.iter().flat_map(|group| &group.items).collect();
     if items.is_empty() || b.one_in(6) {

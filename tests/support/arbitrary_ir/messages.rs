@@ -112,7 +112,7 @@ fn value(b: &mut Bytes<'_>, around: &Around<'_>, before: &[CompactString]) -> Me
     MessageField::Value(Box::new(MessageValue { item, byte_order, counts }))
 }
 
-/// Returns a field with a parameter number, usually followed by its value.
+/// Returns fields with a parameter number, a parameter value, or both. The fields may be repeated.
 fn parameter(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
     let space = SpaceRef::from(names::of(b, around.spaces));
     let code = MessageField::ItemCode { space: space.clone(), bits: b.pick(&[8, 16, 32, 12, 33]) };

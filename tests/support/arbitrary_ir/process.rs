@@ -86,7 +86,7 @@ fn communication(b: &mut Bytes<'_>, mapping: u16) -> PdoCommunication {
     }
 }
 
-/// Returns a PDO entry of an existing or missing object, or padding.
+/// Returns a PDO entry for an existing or missing object, or padding.
 fn entry(b: &mut Bytes<'_>, groups: &[Group], types: &[TypeDef]) -> PdoEntry {
     let objects: Vec<&Group> =
         groups.iter().filter(|group| group.index().is_some() && !group.items.is_empty()).collect();

@@ -279,7 +279,7 @@ fn unit_diagnosis(b: &mut Bytes<'_>, types: &[TypeDef]) -> UnitDiagnosis {
     }
 }
 
-/// Returns the id of a defined type, which can be an enumeration, or `None`.
+/// Returns the ID of a defined type, which is not always an enumeration. Returns `None` for a basic type.
 fn enumeration(b: &mut Bytes<'_>, types: &[TypeDef]) -> Option<TypeId> {
     let Type::Named(id) = types::any(b, types.len()) else { return None };
     Some(id)

@@ -124,7 +124,7 @@ fn record_field(b: &mut Bytes<'_>, defined: usize) -> Field {
     }
 }
 
-/// Returns an enumeration value, often with optional facts such as a condition or a range.
+/// Returns an enumeration value, sometimes with optional facts such as a condition or a range.
 pub fn values_of_enumeration(b: &mut Bytes<'_>) -> EnumValue {
     let value = values::number(b);
     EnumValue {

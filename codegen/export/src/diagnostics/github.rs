@@ -1,5 +1,5 @@
-//! Diagnostics as workflow commands of GitHub Actions. In the review of a change, GitHub shows them at the marked
-//! lines.
+//! Diagnostics as workflow commands of GitHub Actions. When a change is reviewed, GitHub shows these diagnostics at the
+//! marked lines.
 
 use std::fmt::Write as _;
 

@@ -1,6 +1,6 @@
 //! Diagnostics for code-scanning services and editors, as SARIF 2.1.0.
 //!
-//! The structures and fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted.
+//! The fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted.
 
 use std::collections::BTreeMap;
 

@@ -100,7 +100,7 @@ impl Elements<'_> {
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()
     }
 
-    /// Returns the number of elements with configured values.
+    /// Returns the number of elements with a configured value or a denotation.
     pub(super) fn configured(&self) -> usize {
         self.numbered().filter(|(_, item)| item.configured.is_some()).count()
     }

@@ -52,7 +52,7 @@ pub(super) struct Context<'a> {
     pub(super) is_canopen: bool,
 }
 
-/// Returns whether this object of a CANopen device exists only on EtherCAT.
+/// Returns whether the device is a CANopen device and this object exists only on EtherCAT.
 pub(super) fn is_coe_only(device: &Device, group: &Group) -> bool {
     let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
     let mut items = group.items.iter();

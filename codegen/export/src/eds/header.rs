@@ -1,4 +1,4 @@
-//! The sections about the file and the device, and the object lists.
+//! Writes the sections about the file and the device, and the object lists.
 
 use super::extras::{Extra, Header};
 use super::note::{NoteKind, Subject};
@@ -8,7 +8,8 @@ use super::writer::Writer;
 use super::{file_info, Context, Flavor};
 use lexibus_codegen::ir::{CanOpenSettings, Catalog, Commissioning, CompactString, DynamicChannel, Group};
 
-/// Writes a header section unless it is empty. If the section is an object list, also writes the sections of its objects.
+/// Writes a header section. An optional section is written only if it has content. If the section is an object list, also
+/// writes the sections of its objects.
 pub(super) fn write<'e>(
     writer: &mut Writer,
     context: &Context<'_>,

@@ -7,7 +7,8 @@ use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavor};
 use lexibus_codegen::ir::{Behavior, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
-/// Adds notes for facts of the device, except its objects, that CiA 306 cannot express.
+/// Adds notes for facts of the device and its PDOs that CiA 306 cannot express, and for objects and items that are left
+/// out.
 pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut Notes) {
     let (device, subject) = (context.device, Subject::Device);
     if context.flavor == Flavor::Eds && (device.commissioning.is_some() || !device.header.last_eds.is_empty()) {

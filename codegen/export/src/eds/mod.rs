@@ -1,8 +1,10 @@
-//! Exports a device with objects as an EDS or DCF file (CiA 306). Reading the file gives the same objects again.
+//! Exports a device with objects as an EDS or DCF file (CiA 306). Reading the file gives the same objects again, except
+//! for the facts in [`Export::notes`].
 //!
-//! If the source is an EDS, the export contains the repaired facts. The notation of values and the order of sections follow the
-//! standard. Extension attributes and comments stay in their sections. If the source has another format, the export has the facts
-//! that CiA 306 can express. [`Export::notes`] lists the facts that were left out.
+//! If the source is an EDS, the export contains the repaired facts. The notation of values follows the standard. Sections
+//! without extension attributes have the order of the standard. Extension attributes and comments stay in their sections. If the
+//! source has another format, the export has the facts that CiA 306 can express. [`Export::notes`] lists the facts that were
+//! left out or changed.
 //!
 //! | file | subject |
 //! |---|---|

@@ -72,7 +72,8 @@ impl<'a> Object<'a> {
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
-        // If the name differs or the object has flags, the source has a separate section for sub-index 0.
+        // If an object other than a VAR has flags or a name that differs, the source has a separate section for
+        // sub-index 0.
         let is_the_object = item.name == self.group.name && self.group.flags == 0;
         (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
     }
@@ -110,13 +111,14 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// Returns the extension attributes of the object's section.
+    /// Returns the extension attributes of the object's own section.
     fn section_extensions(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         all.get(..all.len() - self.refinements_of_missing().len()).unwrap_or(all)
     }
 
-    /// Returns the extension attributes of the object, starting with the first attribute of a section such as `[xxxxName]`.
+    /// Returns the extension attributes of sections such as `[xxxxName]`, which follow those of the object's own section.
+    /// The list is empty unless the source is a CiA 306 file.
     fn refinements_of_missing(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         let is_first =
@@ -177,8 +179,8 @@ impl<'a> Object<'a> {
         data_type(item.type_on(Bus::CanOpen), self.types, self.context.is_canopen, self.context.is_verbatim)
     }
 
-    /// Returns the notation of the object's numbers. Communication objects use hexadecimal for COB-IDs, mappings and
-    /// masks.
+    /// Returns the notation of the object's numbers. Unsigned numbers of communication objects are hexadecimal, because
+    /// most of them are COB-IDs, mappings or masks.
     fn form(&self) -> Form {
         Form { hex: (0x1000..0x2000).contains(&self.index), reals: self.context.reals }
     }

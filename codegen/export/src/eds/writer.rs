@@ -38,13 +38,13 @@ impl Writer {
         self.keys.clear();
     }
 
-    /// Writes `key=value`. The value has no leading or trailing spaces and no line break.
+    /// Writes `key=value`. The value must have no leading or trailing spaces and no line break.
     pub(super) fn entry(&mut self, key: &'static str, value: impl Display) {
         self.keys.insert(key.to_ascii_lowercase());
         self.numbered(key, value);
     }
 
-    /// Writes an entry like [`entry`](Self::entry), but with a computed key.
+    /// Writes an entry like [`entry`](Self::entry), but with a computed key, which extension attributes may repeat.
     pub(super) fn numbered(&mut self, key: impl Display, value: impl Display) {
         let _ = write!(self.text, "{key}={value}{END}");
     }
@@ -97,7 +97,7 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Replaces line breaks and end-of-file characters in `text` with spaces, and adds a note if there are any.
+    /// Replaces line breaks, end-of-file characters and NULs in `text` with spaces, and adds a note if there are any.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {
@@ -124,7 +124,8 @@ impl Writer {
     }
 }
 
-/// Returns whether a line can contain the key. CiA 306 allows only letters and digits; real files contain other characters.
+/// Returns whether a line can contain the key. CiA 306 allows only letters, digits and `_`; real files contain other
+/// characters.
 fn is_key(key: &str) -> bool {
     !key.is_empty() && key.trim() == key && !key.starts_with([';', '#', '[']) && !key.contains(['=', '\r', '\n'])
 }

@@ -113,7 +113,7 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let product = options.product_code().or(identity.product_code);
     let revision = options.revision().or(identity.revision_number);
     xml.open("Type");
-    // A master identifies the device by its product code and revision number.
+    // Both numbers are required, because a master identifies the device by them.
     if !context.is_esi {
         context.required(product, None, "product-code");
         context.required(revision, None, "revision");

@@ -62,7 +62,7 @@ fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
     for (at, def) in (0u32..).zip(types.defs) {
         data_type(xml, types, at, def, notes);
     }
-    // Types that the export adds do not refer to each other, so their order does not matter.
+    // An added type refers only to basic types, declared types, and types that were added before it.
     for added in &types.added {
         added_type(xml, added, notes);
     }
@@ -179,7 +179,7 @@ fn sub_item(xml: &mut Xml, item: &SubItem<'_>, facts: Option<&FieldFacts>, notes
     }
 }
 
-/// Writes the access rights, category and PDO mapping of an object or sub-item.
+/// Writes the access rights, category, PDO mapping and safety mapping of an object or sub-item.
 pub(super) fn flags(
     xml: &mut Xml,
     facts: &FieldFacts,
@@ -241,7 +241,8 @@ fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
     xml.close();
 }
 
-/// Returns the type name of a PDO entry. The exported file does not have to define this type.
+/// Returns the type name of a PDO entry, or `None` if ETG.2000 has no name for the type. The exported file does not
+/// have to define this type.
 pub(super) fn entry_type(types: &Types<'_>, ty: Type) -> Option<CompactString> {
     match ty {
         Type::Named(id) => types.def(ty).map(|_| types.name_of(id.0)),

@@ -27,7 +27,8 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
     notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Subject::Named("ESC"));
 }
 
-/// Writes the Eeprom element. The element contains either the complete data, or a size and configuration data.
+/// Writes the Eeprom element. The element contains either the complete data, or the size, the configuration data, and
+/// optionally bootstrap data and categories.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let Some(eeprom) = settings.eeprom.as_deref() else { return };
     let (notes, subject) = (&mut context.notes, Subject::Named("Eeprom"));

@@ -173,7 +173,7 @@ pub(super) fn image(xml: &mut Xml, device: &Device) {
     }
 }
 
-/// Returns whether an extension of a module belongs to its Profile element.
+/// Returns whether an extension of a module can be written to the module's Profile element.
 pub(super) fn is_of_profile(extension: &Extension) -> bool {
     OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
 }

@@ -19,6 +19,11 @@ const VERSION: &str = "1.17";
 /// Exports the EtherCAT slaves of `catalog`, and its other devices with objects, except PROFINET devices. Modules are
 /// exported only if the source is an ESI. A file has one vendor, so devices and modules of other vendors are left out
 /// with a note. The encoding is UTF-8.
+///
+/// # Errors
+///
+/// Returns [`Refusal::Nothing`] if there is nothing to export, and [`Refusal::Missing`] if the schema requires facts that neither
+/// the source nor the options contain.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     let devices: Vec<&Device> = catalog.devices.iter().filter(|device| is_slave(device)).collect();
@@ -135,7 +140,7 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     xml.close();
 }
 
-/// Writes the device groups, including groups that the source does not define.
+/// Writes the device groups of an ESI source, and the group from the options if the source does not define it.
 fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     xml.open("Groups");
     let catalog = context.catalog;

@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
 
-/// Attributes of mailbox protocols that the IR stores as extensions.
+/// Attributes of mailbox protocols that the IR stores unchanged.
 const ATTRIBUTES: [(&str, &[&str]); 4] = [
     ("AoE", &["AdsRouter", "GenerateOwnNetId", "InitializeOwnNetId"]),
     ("EoE", &["IP", "MAC", "TimeStamp"]),

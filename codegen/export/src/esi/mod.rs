@@ -1,9 +1,10 @@
 //! Exports EtherCAT slave information (ESI, ETG.2000): all slaves of a catalog, or the dictionary of any device with
 //! objects.
 //!
-//! If the source is an ESI, the export has all its facts in the order that the schema requires. If the source has
-//! another format, the export has the facts that ETG.2000 can express. [`Export::notes`] lists the facts that were left
-//! out. The [`Options`] supply facts that the schema requires and the source does not have.
+//! If the source is an ESI, the export has all its facts that the schema allows, in the order that the schema requires.
+//! If the source has another format, the export has the facts that ETG.2000 can express. [`Export::notes`] lists the
+//! facts that were left out or changed. The [`Options`] supply facts that the schema requires and the source does not
+//! have.
 //!
 //! | file | subject |
 //! |---|---|

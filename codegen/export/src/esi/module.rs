@@ -73,7 +73,8 @@ fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.close();
 }
 
-/// Writes the Profile element of a module. A module has only one profile.
+/// Writes the Profile element of a module. ETG.2000 allows only one per module, so other profile numbers are left out
+/// with a note.
 fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
     let objects = objects::all(module.groups.iter(), &mut context.notes);
     if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {

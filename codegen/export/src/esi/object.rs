@@ -105,7 +105,8 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item
     context.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
 }
 
-/// Writes the display name of an object with a single value. ETG.2000 allows one display name per object.
+/// Writes the display name of an object with a single value, unless it repeats the translations of the object's name.
+/// ETG.2000 allows one display name per object.
 fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &Item) {
     if item.names == group.names {
         return;

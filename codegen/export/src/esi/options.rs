@@ -16,7 +16,7 @@ options! {
         revision: u32 = "revision",
         /// Order code (the text of the element Type).
         order_code: String = "order-code",
-        /// Kind of each port, one letter for each of up to four ports: Y (MII), K (LVDS), H (enhanced) or space (none).
+        /// Kind of each port as up to four letters: Y (MII), K (LVDS), H (MII with Fast Hot Connect) or space (none).
         physics: String = "physics",
         /// Key of the group that contains the device; also the name of the group if the description file has no name.
         group: String = "group",

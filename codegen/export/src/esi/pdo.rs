@@ -7,8 +7,8 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Direction, Extension, Pdo, PdoEntry, Type};
 
-/// Writes a PDO. `is_slave` states whether the device is an EtherCAT slave; such a device has no CAN communication
-/// parameters.
+/// Writes a PDO. `is_slave` states whether the device is an EtherCAT slave. The CAN communication parameters of an
+/// EtherCAT slave are left out with a note.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
     let subject = Subject::Object(pdo.mapping_index);
     xml.open(if pdo.direction == Direction::Receive { "RxPdo" } else { "TxPdo" });

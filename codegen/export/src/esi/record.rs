@@ -21,7 +21,7 @@ pub(super) struct Entry {
     pub(super) element: Option<u32>,
 }
 
-/// The properties of a field that all items of the record type share.
+/// The properties of a field that the record type contains, so that they are the same for all items of the type.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FieldFacts {
     pub(super) access: Access,
@@ -72,8 +72,8 @@ pub(super) struct Plan {
 }
 
 /// Returns the entries of an object whose record type has these fields, sorted by sub-index. An array field gives one
-/// entry per element (ETG.2000, DataType). It gives a single entry if its elements would reach the sub-index of the
-/// next field or exceed 256 sub-indices, or if the name of its type begins with `ARRAY`.
+/// entry per element (ETG.2000, DataType). The field gives a single entry if its elements would reach the sub-index of
+/// the next field or exceed sub-index 255, or if the name of its type begins with `ARRAY`.
 pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     let (mut entries, mut next) = (Vec::new(), 0u32);
     for (position, field) in fields.iter().enumerate() {
@@ -94,7 +94,7 @@ pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     entries
 }
 
-/// Returns the first sub-index of a field, the number of its sub-indices, and its type.
+/// Returns the first sub-index of a field, the number of its sub-indices, and the type of each of them.
 fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> (u32, u32, Type) {
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(field.ty) else { return (given.unwrap_or(next), 1, field.ty) };
@@ -132,7 +132,8 @@ pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], 
 /// Returns a plan with the declared record type at `at` if the properties of its fields fit these items.
 fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]) -> Option<Plan> {
     let entries = types.entries(at);
-    // The type of an ARRAY object must contain an array field.
+    // The type of an ARRAY object must contain an array field, and the type of a RECORD object must not consist of
+    // sub-index 0 and arrays only.
     let is_array = match entries.split_first() {
         Some((first, rest)) => {
             first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|rest| rest.element.is_some())
@@ -198,7 +199,8 @@ fn matches_by_name_or_position(entries: &[Entry], fields: &[CompactString], item
     })
 }
 
-/// Returns whether the items are sub-index 0 and equal elements starting at sub-index 1.
+/// Returns whether the items are sub-index 0 and, starting at sub-index 1, elements of the same type and with the same
+/// properties.
 fn is_array(types: &Types<'_>, items: &[(u8, &Item)]) -> bool {
     let [(0, _), (_, first), ..] = items else { return false };
     let facts = FieldFacts::of(first);

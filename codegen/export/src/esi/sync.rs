@@ -81,7 +81,7 @@ fn given(context: &Context<'_>) -> Vec<SyncManager> {
     (0..).zip(given).map(manager).collect()
 }
 
-/// Returns the FMMU for a process data sync manager.
+/// Returns the FMMU for a process data sync manager, or `None` for a mailbox sync manager.
 fn mapped(manager: &SyncManager) -> Option<Fmmu> {
     let is_mapped = matches!(manager.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
     is_mapped.then(|| Fmmu { purpose: manager.label.clone(), ..Fmmu::default() })

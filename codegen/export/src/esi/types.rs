@@ -1,8 +1,8 @@
 //! The data types of a dictionary: the device's types with their names, and additional types for its objects.
 //!
 //! The file must define all types that it uses, including basic types. The schema of ETG.2000 checks that each type
-//! name refers to a definition. The data type of an object with sub-indices has a sub-item for each sub-index. The
-//! sub-items contain the access rights.
+//! name refers to a definition. The data type of an object with sub-indices has a sub-item for each sub-index or array
+//! of sub-indices. The sub-items contain the access rights.
 
 use std::collections::HashMap;
 
@@ -28,7 +28,7 @@ pub(super) struct Types<'a> {
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
     /// Declared records, keyed by the sub-indices and types of their entries.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
-    /// True if the source is an ESI. The export then keeps its facts.
+    /// True if the source is an ESI. The export then keeps the types of PDO entries.
     pub(super) is_esi: bool,
 }
 
@@ -189,7 +189,8 @@ impl<'a> Types<'a> {
     }
 }
 
-/// Returns whether an alias needs no base type because its name is the name of the aliased type.
+/// Returns whether an alias needs no base type, because its name is the name of the aliased type or the aliased type is
+/// unknown.
 pub(super) fn is_self_named(def: &TypeDef, name: &str) -> bool {
     let Shape::Alias(ty) = def.shape else { return false };
     if let Type::Opaque(_) = ty {

@@ -131,7 +131,8 @@ fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
     }
 }
 
-/// Writes the additional values of a code. The IR stores their types as `1 Unsigned16, 2 Float32`.
+/// Writes the additional values of a code. The IR stores their identifiers and types in the form
+/// `1 Unsigned16, 2 Float32`.
 fn add_values(xml: &mut Xml, list: &'static List, cell: Option<&Value>) {
     let Some(Value::Text(text)) = cell else { return };
     let items = text.split(", ").filter_map(|item| item.split_once(' '));

@@ -38,14 +38,14 @@ pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
 pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
 pub(super) static FAMILY: Element = leaf("Family");
 
-/// The child element of an interface that precedes its records. [`OF_INTERFACE`] and [`MEDIA_REDUNDANCY`] list the
-/// elements that follow the records.
+/// The child element of an interface before the interface's records. [`OF_INTERFACE`] and [`MEDIA_REDUNDANCY`] list the
+/// child elements after the records.
 pub(super) static GENERAL: Element = element("General", &SIGNAL);
 pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];
 pub(super) static MEDIA_REDUNDANCY: Element = element("MediaRedundancy", &INTERCONNECTION);
 
-/// The child elements of an ordinary submodule that follow its pictures.
+/// The child elements of a virtual or pluggable submodule after the submodule's pictures.
 pub(super) static OF_SUBMODULE: [Element; 4] = [
     leaf("IsochroneMode"),
     leaf("SlotCluster"),

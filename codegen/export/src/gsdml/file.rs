@@ -16,6 +16,11 @@ const VERSION: &str = "2.35";
 
 /// Exports all device access points of `catalog` or, if the source is not a GSDML, a new device access point for each
 /// device with process images. The encoding is UTF-8. Save the file under the name that [`file_name`] returns.
+///
+/// # Errors
+///
+/// Returns [`Refusal::Nothing`] if there is nothing to export, and [`Refusal::Missing`] if the schema requires facts that neither
+/// the source nor the options contain.
 pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     // Mark the option `date` as used, because the file name contains the date even if the content of the file does not.
@@ -66,7 +71,8 @@ pub fn file_name(catalog: &Catalog, options: &Options) -> Option<String> {
     let vendor =
         options.vendor_name.as_deref().or_else(|| device.map(|device| device.identity.vendor_name.as_str()))?;
     let family = options.product_family.as_deref().or_else(|| device.map(|device| device.name.as_str()))?;
-    // A hyphen separates the parts of the file name, so it is replaced within a part.
+    // Replace hyphens and other special characters within a part, because a hyphen separates the parts of the file
+    // name.
     let part = |text: &str| -> String {
         let is_safe = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '_' | '.' | '+');
         text.trim().chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()
@@ -100,7 +106,7 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     lost(context);
 }
 
-/// The header according to ISO 15745-1. All GSDML files have the same header.
+/// The usual content of the header (ISO 15745-1), for elements that the source does not have.
 const HEADER: [(&str, &str); 5] = [
     ("ProfileIdentification", "PROFINET Device Profile"),
     ("ProfileRevision", "1.00"),

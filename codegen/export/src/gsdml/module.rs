@@ -16,7 +16,7 @@ pub(super) struct Info<'i> {
     pub(super) order: &'i str,
     pub(super) hardware: &'i str,
     pub(super) software: &'i str,
-    /// Attributes of the element, including its category and family.
+    /// Attributes that the IR stores unchanged, including the category and the family.
     pub(super) attributes: &'i Attributes,
 }
 

@@ -195,7 +195,7 @@ fn interface(xml: &mut Xml, attributes: &Attributes, settings: Option<&ProfinetS
     elements::MEDIA_REDUNDANCY.write(xml, attributes);
 }
 
-/// Returns the attributes of ApplicationRelations, including those that the IR stores in fields.
+/// Returns the attributes of ApplicationRelations and its child elements, including those that the IR stores in fields.
 pub(super) fn relations(
     attributes: &Attributes,
     settings: Option<&ProfinetSettings>,

@@ -1,4 +1,4 @@
-//! The text list, which contains each text once, in all languages.
+//! The text list, which contains the texts of the file in all languages.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,7 +22,7 @@ pub(super) struct TextList {
 }
 
 impl TextList {
-    /// Creates a text list with the texts of the source to which no field of the IR refers. They keep their
+    /// Creates a text list with the texts of the source to which no field of the IR refers. These texts keep their
     /// identifiers, because attributes that the IR stores unchanged can refer to them.
     pub(super) fn new(extensions: &[Extension]) -> Self {
         let mut list = TextList::default();

@@ -8,7 +8,8 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{EnumValue, Numbers, Shape, TypeDef};
 
-/// Writes the ValueList element. The element contains one list per name, even if several types use the same values.
+/// Writes the ValueList element. The element contains one list per name, even if several enumerations have the same
+/// name.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     let types = context.types;
     let enumeration = |def: &'_ TypeDef| matches!(def.shape, Shape::Enumeration { .. });
@@ -35,7 +36,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
     xml.close();
 }
 
-/// Writes the values of a list. Each value gets a separate text.
+/// Writes the values of a list. No two values of a list share a text.
 fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
     let mut used = HashSet::new();
     xml.open("Assignments");

@@ -126,9 +126,9 @@ pub enum ModuleContent {
     },
     /// The facts of an EtherCAT module.
     EtherCat {
-        /// Number of distinct indices that the file declares.
+        /// Number of distinct indices that the file declares for the module.
         objects: usize,
-        /// Number of addressable entries that the file declares, including sub-index 0.
+        /// Number of addressable entries that the file declares for the module, including sub-index 0.
         entries: usize,
         /// RPDOs of the module.
         rx_pdos: Vec<PdoInfo>,

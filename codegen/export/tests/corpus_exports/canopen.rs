@@ -107,8 +107,8 @@ impl Pair {
 fn reason(pair: &Pair, at: (u16, u8), before: Option<&Entry>, after: Option<&Entry>) -> Option<&'static str> {
     let item = pair.item(at)?;
     let Some((before, after)) = before.zip(after) else {
-        // The library supports CompactSubObj only for ARRAY objects. For such an object, it creates only the first
-        // element and the elements that have names.
+        // The library supports CompactSubObj only for ARRAY objects. For such an object, the library creates only the
+        // first element and the elements that have names.
         let follows = pair.device().object(at.0).is_some_and(|object| object.origin == item.origin);
         return (before.is_none() && follows).then_some("follows from CompactSubObj");
     };
@@ -241,7 +241,8 @@ fn dictionaries_load() {
     }
 }
 
-/// Returns the addresses of the entries that the library loads. The library skips objects that define types.
+/// Returns the addresses of the entries that the library must load: those with a data type, except in objects that
+/// define types, which the library skips.
 fn addresses(device: &Device) -> Vec<(u16, u8)> {
     let objects = device.groups.iter().filter(|group| group.index().is_some_and(|index| index >= 0x1000));
     let typed = objects.flat_map(|group| &group.items).filter(|item| item.ty != Type::Opaque(None));

@@ -94,7 +94,7 @@ fn without_swapped_limits(catalog: &Catalog) -> Catalog {
     catalog
 }
 
-/// Checks that the compiler passes produce the same IR and diagnostics for a file and its export.
+/// Checks that the compiler gives the same diagnostics and the same second export for a file and its export.
 fn check_passes(file: &File, text: &str) -> Vec<String> {
     let options = options();
     let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));

@@ -1,4 +1,4 @@
-//! Tests exported EDS and DCF files, and the notes of exports.
+//! Tests exported EDS and DCF files, and the notes that an export returns.
 
 use lexibus_codegen::compile::{check, read, Options};
 use lexibus_codegen::ir::{Catalog, Device};

@@ -171,7 +171,7 @@ fn missing_facts_are_listed() {
     assert!(options.set("color", "red").is_err_and(|text| text.contains("unknown option `color`")));
 }
 
-/// Returns facts that an EtherCAT slave requires and an EDS does not have.
+/// Returns facts that an ESI requires and an EDS does not contain.
 fn of_a_slave() -> Options {
     let mut options = Options::default();
     let facts = [

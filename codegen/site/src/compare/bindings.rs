@@ -10,7 +10,7 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::words::bus_name;
 use lexibus_codegen::ir::{Binding, CompactString, ImageBinding, IndirectBinding, RegisterBinding, WindowSide};
 
-/// Compares the addresses of an item. Addresses of the same kind are compared in their order.
+/// Compares the addresses of an item. Addresses of the same kind are paired in list order.
 pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Comparison<'_>) {
     buses(old, new, comparison);
     let mut left: Vec<&Binding> = new.iter().collect();
@@ -29,7 +29,7 @@ pub(super) fn compare(old: &[Binding], new: &[Binding], comparison: &mut Compari
 }
 
 /// Returns whether the other addresses cover all buses of this address. If so, the comparison of buses does not report
-/// a change to this address.
+/// that this address was added or removed.
 fn is_reached(binding: &Binding, others: &[Binding]) -> bool {
     let names = names_of(others);
     buses_of(binding).iter().all(|bus| names.contains(bus))

@@ -22,11 +22,11 @@ pub enum Effect {
 /// The effects of a change on the three aspects: Rust code, communication and behavior.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub struct Judgment {
-    /// Rust code written for the old version: whether it still compiles and has the same meaning.
+    /// Effect on Rust code for the old version: whether the code still compiles and has the same meaning.
     pub api: Effect,
-    /// The bytes on the bus: addresses, layouts, encodings and frames.
+    /// Effect on the bytes on the bus: addresses, layouts, encodings and frames.
     pub wire: Effect,
-    /// The behavior of the device: range, default value, storage, conditions, effects and availability.
+    /// Effect on the behavior of the device: range, default value, storage, conditions, side effects and availability.
     pub behavior: Effect,
 }
 
@@ -106,7 +106,8 @@ pub enum Class {
 /// A difference between two descriptions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// Name of the changed device or module; empty if the description has only one.
+    /// Name of the changed device, module or submodule. Empty for the device if both descriptions have a single device,
+    /// and for data that all devices share.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub owner: String,
     /// Address and name of the changed element.

@@ -14,13 +14,13 @@ use lexibus_codegen::ir::{Catalog, Type, TypeDef};
 pub(super) struct Comparison<'a> {
     /// The old and the new catalog.
     pub catalogs: (&'a Catalog, &'a Catalog),
-    /// The old and new types of the current device, module or submodules.
+    /// The old and new types of the current owner of types: a device, a module or the catalog.
     pub types: (&'a [TypeDef], &'a [TypeDef]),
     /// Pairs of types that have been compared, each with the owner of the types.
     compared_types: HashSet<(usize, Type, Type)>,
     /// Number of the owner of the current types. 0 means the catalog.
     types_owner: usize,
-    /// Number of type owners that have been compared so far.
+    /// Number of type owners so far, including the catalog.
     types_owners: usize,
     pub owner: String,
     pub changes: Vec<Change>,
@@ -41,7 +41,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Compares a device, module or submodule that has its own list of types.
+    /// Compares a device or module, which has its own list of types.
     pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         (self.types, self.types_owner) = ((old, new), self.types_owners);
@@ -119,9 +119,9 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// Compares all fields of a type. The caller gives a rule for each field; a field without a rule is a compile error.
-/// The macro `rule` contains the rules of common fields. The list of ignored fields comes last and gives a reason for
-/// each. An ignored field is not a fact of the device, or is compared elsewhere.
+/// Compares all fields of a type. The caller gives a rule for each field or lists the field as ignored; a missing field
+/// is a compile error. The macro `rule` contains the rules of common fields. The list of ignored fields comes last and
+/// gives a reason for each. An ignored field is not a fact of the device, or is compared elsewhere.
 macro_rules! compare_fields {
     ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident $(: $rule:expr)?),* $(,)? }
         $(, $reason:expr => [$($ignored:ident),+])* $(,)?) => {{
@@ -133,7 +133,8 @@ macro_rules! compare_fields {
 }
 pub(super) use compare_fields;
 
-/// Selects the rule of a field: the rule from the caller, or the rule of all fields with this name.
+/// Selects the rule of a field: the rule that the caller gives, or otherwise the common rule of all fields with this
+/// name.
 macro_rules! rule {
     (name) => {
         $crate::compare::comparison::judged("name", $crate::compare::texts::renamed)
@@ -195,7 +196,7 @@ pub(super) fn fact_as<T: PartialEq + Debug>(
     }
 }
 
-/// Compares a text whose changes have no effect.
+/// Compares a fact, such as a text, whose changes have no effect.
 pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     fact(name, Judgment::NONE)
 }
@@ -213,7 +214,7 @@ pub(super) fn positioned<T: PartialEq>(
     }
 }
 
-/// Compares a fact. The effects of a change depend on its values.
+/// Compares a fact. The effects of a change depend on the old and new values.
 pub(super) fn judged<T: PartialEq + Debug + Show>(
     name: &'static str,
     judge: impl Fn(&T, &T) -> Judgment,
@@ -276,7 +277,7 @@ pub(super) struct Elements<T> {
     pub title: fn(&T) -> String,
     /// Function that returns the first key that pairs elements. Elements with an empty key are not paired by this key.
     pub name: fn(&T) -> String,
-    /// Function that returns the second key, which pairs elements that have no common first key.
+    /// Function that returns the second key, which pairs the elements that the first key does not pair.
     pub position: fn(&T) -> String,
     pub added: fn(&T) -> Judgment,
     pub removed: fn(&T) -> Judgment,
@@ -294,7 +295,7 @@ impl<T> Elements<T> {
         }
     }
 
-    /// Replaces the first key that pairs elements.
+    /// Sets the function that returns the first key.
     pub fn paired_by(self, name: fn(&T) -> String) -> Self {
         Elements { name, ..self }
     }

@@ -7,7 +7,7 @@ use super::comparison::{compare_fields, fact, judged, or_default, text, Comparis
 use super::show::Show;
 use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
 
-/// Compares a list of values to which an element is restricted. An empty list means no restriction.
+/// Compares the values to which an element is restricted. An empty list means no restriction.
 pub(super) fn restricted<T: PartialEq + Debug + Show>(
     name: &'static str,
 ) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {

@@ -161,7 +161,7 @@ fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comp
 
 fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
     compare_fields!(ModbusTable, old, new, comparison, {
-        // A missing list means that all functions are accepted. If the preferred function was removed, a driver uses
+        // An empty list means that all functions are accepted. If the preferred function was removed, a driver uses
         // another one, so its requests change.
         functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
             let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
@@ -204,7 +204,7 @@ fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) 
     }, POSITION => [origin]);
 }
 
-/// Formats the constants of a model, such as `Small 5, Large 10`.
+/// Formats names with their values, such as `Small 5, Large 10`.
 fn constants<Name: Show>(constants: &Vec<(Name, Value)>) -> String {
     constants.show()
 }

@@ -48,7 +48,7 @@ pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
     list.iter().map(show).collect::<Vec<_>>().join("; ")
 }
 
-/// Appends the names of the flags that are set to a text.
+/// Appends the names of all set flags to a text.
 fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
     let set = flags.iter().filter(|(is_set, _)| *is_set).map(|(_, name)| *name);
     std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")

@@ -92,7 +92,7 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
     }, KEY => [state]);
 }
 
-/// Compares the steps of a procedure. The procedure becomes a constant in Rust.
+/// Compares procedures. In Rust, a procedure that consists only of object writes becomes a constant.
 pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
     compare_fields!(Procedure, old, new, comparison, {
         name, names,

@@ -36,8 +36,7 @@ impl Identifiers {
     }
 }
 
-/// Returns the names for which a group needs identifiers: one for an object, and one for each register of a chapter or
-/// process image.
+/// Returns the names for which a group needs identifiers: one for an object, and one for each item of any other group.
 fn name_requests(group: &Group) -> Vec<NameRequest<'_>> {
     match group.kind {
         GroupKind::Object { index, .. } => vec![NameRequest::new(&group.name, "object", format!("{index:04X}"))],

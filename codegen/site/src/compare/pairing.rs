@@ -9,7 +9,7 @@ pub(super) type Pair<'a, T> = (Option<&'a T>, Option<&'a T>);
 /// Pairs elements in the order of the old list. Added elements follow at the end.
 ///
 /// First, elements with the same name and position are paired. The remaining elements are paired by unique name, then
-/// by position. Elements are never paired by an empty name or position.
+/// by position. An empty name or position does not pair elements in these two steps.
 pub(super) fn pairs<'a, T>(
     old: &'a [T],
     new: &'a [T],
@@ -84,7 +84,7 @@ impl Matching {
 mod tests {
     use super::*;
 
-    /// In these keys, a letter is a name and a digit is a position.
+    /// Returns the pairs of two lists of texts. The letters of a text are its name, and the digits are its position.
     fn paired(old: &[&str], new: &[&str]) -> Vec<(String, String)> {
         let part =
             |text: &&str, condition: fn(char) -> bool| text.chars().filter(|letter| condition(*letter)).collect();

@@ -18,7 +18,7 @@ use lexibus_codegen::ir::{
     SyncManagerPurpose, Type, TypeDef, Value,
 };
 
-/// Compares the cyclic data of a device or a module. `buses` are the buses of its objects.
+/// Compares the cyclic data of a device or a module. `buses` are the buses of the objects.
 pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, comparison: &mut Comparison<'_>) {
     compare_fields!(ProcessData, old, new, comparison, {
         pdos: |old: &Vec<Pdo>, new: &Vec<Pdo>, comparison: &mut Comparison<'_>| pdos(old, new, buses, comparison),
@@ -173,8 +173,8 @@ fn entry_keys(entries: &[PdoEntry]) -> Vec<Key> {
     entries.iter().map(name).map(|name| Key { name, position: String::new() }).collect()
 }
 
-/// Compares the lengths of entries. The comparison is necessary because the layout texts contain neither paddings nor
-/// lengths.
+/// Compares the lengths of entries. This comparison is necessary because the texts of the layouts contain neither
+/// paddings nor lengths.
 fn lengths(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let length = |entries: &[PdoEntry]| entries.iter().fold(0_u32, |bits, entry| bits.saturating_add(entry.bits));
     let of_all = |entries: &[PdoEntry]| format!("{} bits", length(entries));
@@ -235,7 +235,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces the common beginning and the common end of both lists by `…`.
+/// Replaces the common beginning and the common end of both lists by `…` if they consist of several elements.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);

@@ -32,7 +32,7 @@ impl<Id> Show for Reference<Id> {
     }
 }
 
-/// Implements `Show` for enumerations. The text is the name of the variant.
+/// Implements `Show` by matching the value against patterns, each with the text of the matching values.
 macro_rules! show_as_name {
     ($($type:ident { $($pattern:pat => $name:expr),* $(,)? })*) => {
         $(impl Show for $type {

@@ -109,7 +109,7 @@ fn effects(old: Option<Type>, new: Option<Type>) -> Judgment {
         (Type::VisibleString(_), Type::VisibleString(_))
         | (Type::OctetString(_), Type::OctetString(_))
         | (Type::UnicodeString(_), Type::UnicodeString(_)) => Judgment::BEHAVIOR,
-        // Signed and unsigned types differ only in the meaning of the highest bit.
+        // Signed and unsigned types of the same length differ only in the meaning of the highest bit.
         (Type::Integer(old), Type::Unsigned(new)) | (Type::Unsigned(old), Type::Integer(new)) if old == new => {
             Judgment { wire: Effect::Compatible, ..Judgment::API }
         }

@@ -1,9 +1,9 @@
-//! Lanes: the vertical lines of arrows next to the column of states, the points at which they meet the boxes, and the
-//! places of their labels.
+//! Lanes, which are the vertical lines of arrows next to the column of states. Determines the lane of each arrow, the
+//! points at which the arrow meets the boxes, and the position of the label.
 
 use super::Edge;
 
-/// Minimum vertical distance between a label and an arrow that crosses its lane, in pixels.
+/// Minimum vertical distance in pixels between the label of a lane and an arrow that crosses the lane.
 const CLEAR: u32 = 4;
 
 /// The lanes on one side of the column.
@@ -69,9 +69,9 @@ impl Lanes {
         used.map(|(_, edge)| edge.label_length()).max().unwrap_or_default()
     }
 
-    /// Returns the vertical position of the middle of an edge's label, and whether no arrow crosses the label there.
-    /// The label is `length` pixels long. Only arrows on lanes further out can cross it. `ends` returns the vertical
-    /// positions of the ends of an edge, and `top` returns that of the top of a row.
+    /// Returns the vertical position of the middle of an edge's label, and true if no arrow crosses the label there.
+    /// The label is `length` pixels long. Only arrows on lanes further out can cross the label. `ends` returns the
+    /// vertical positions of the ends of an edge, and `top` returns that of the top of a row.
     pub fn label(
         &self,
         edge: usize,

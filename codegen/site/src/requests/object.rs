@@ -39,7 +39,7 @@ impl Object {
         format!("{}, {}", hex16(self.index), self.sub_index)
     }
 
-    /// Returns the frame with a command and data for the object.
+    /// Returns the data of an SDO frame: command specifier, index, sub-index, and `data` padded with zeros.
     fn frame(&self, command: u8, data: &[Option<u8>]) -> Frame {
         let [low, high] = self.index.to_le_bytes();
         let mut frame = known(&[command, low, high, self.sub_index]);

@@ -114,7 +114,7 @@ fn numbers(number: &serde_json::Number) -> Vec<Value> {
     }
 }
 
-/// Returns a changed text, or the other variant names if the text is a variant name.
+/// Returns a changed text and a number, or all variant names if the text is a variant name.
 fn texts(text: &str, variants: &[String]) -> Vec<Value> {
     match variants.is_empty() {
         // JSON has no NaN or infinity, so the representation stores these numbers as texts.
@@ -136,7 +136,8 @@ fn variants(pointer: &str, root: &mut Value) -> Vec<String> {
     }
 }
 
-/// Returns the list without its first element, and the list without its last element.
+/// Returns the list without its first element, the list without its last element, and `null` in place of the list.
+/// Returns nothing for an empty list.
 fn shorter(list: &[Value]) -> Vec<Value> {
     match list {
         [] => Vec::new(),

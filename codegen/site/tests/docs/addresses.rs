@@ -42,7 +42,7 @@ fn a_second_revision_moves_nothing() {
     let start = text.find("<Device ").expect("a device");
     let length = text[start..].find("</Device>").expect("its end") + "</Device>".len();
     let end = text.rfind("</Device>").expect("the last device") + "</Device>".len();
-    // The diagnostics of the remaining device have a page.
+    // Add an invalid attribute, so that the site has a page of diagnostics.
     let device = text[start..][..length].replacen("<Name>", "<Name LcId=\"x\">", 1);
     let newer = device.replacen("RevisionNo=\"#x00010000\"", "RevisionNo=\"#x00010001\"", 1);
     assert_ne!(device, newer);

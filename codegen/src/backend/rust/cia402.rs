@@ -51,7 +51,8 @@ const ACTIVE_MODE: Role = Role { object: (0x6061, 0), function: "modes_of_operat
 const ERROR_CODE: Role = Role { object: (0x603F, 0), function: "error_code", access: READ };
 const FOLLOWING_ERROR: Role = Role { object: (0x60F4, 0), function: "following_error", access: READ };
 
-/// Traits that a drive implements if it has the object: path of the trait, object, and text for the documentation.
+/// For each optional trait of a drive: path of the trait, object that the drive must have, and text for the
+/// documentation.
 const CAPABILITIES: [(&str, Role, &str); 3] = [
     (
         "rt::cia402::Positioning",
@@ -85,8 +86,8 @@ impl Cia402Model {
         if !walks.iter().any(is_drive) {
             return None;
         }
-        // An optional object is used only if its location type is that of an object that is always read. Otherwise, it
-        // would restrict the buses of the operations.
+        // Use an optional object only if a mandatory object that is read has the same location type. Otherwise, the
+        // optional object would restrict the buses of the operations.
         let read = accesses(core.iter().map(located));
         let is_everywhere =
             |constant: &Constant<'_>| read.get(constant.location.as_str()).is_some_and(|access| access.0);

@@ -84,7 +84,7 @@ fn write(setting: &Setting) -> Doc {
         [a] => ("u8", hex8(a)),
         [a, b] => ("u16", hex16(u16::from_le_bytes([a, b]))),
         [a, b, c, d] => ("u32", literal::word(u32::from_le_bytes([a, b, c, d]))),
-        // No number has more than 8 bytes.
+        // A value of more than 8 bytes is not a number, so print it as text if possible.
         ref text if text.len() > 8 => ("bytes", literal::text_bytes(text)),
         ref bytes => ("bytes", literal::bytes(bytes)),
     };

@@ -1,5 +1,5 @@
-//! Shares definitions between the devices and modules of a file. The first device or module contains a definition, and
-//! the others re-export it.
+//! Shares definitions between the devices and modules of a file. The first device or module with a definition contains
+//! the code of the definition, and the others re-export it.
 
 use std::collections::HashMap;
 
@@ -29,8 +29,8 @@ impl Definitions {
         Definitions { runtime: runtime.to_owned(), numbers: HashMap::new(), homes: Vec::new() }
     }
 
-    /// Replaces definitions of `model` with re-exports if an earlier device contains the same definition. `module` is
-    /// the module name of `model`.
+    /// Replaces each definition of `model` with a re-export if an earlier device or module contains the same
+    /// definition. `module` is the module name of `model`.
     pub fn share(&mut self, model: &mut Model, module: &str) {
         model.is_one_of_several = true;
         let mut device = Device { all: self, module, numbers: HashMap::new(), reexports: Vec::new() };

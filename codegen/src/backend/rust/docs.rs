@@ -30,9 +30,9 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item's constant. The first paragraph contains the name, the unit, the values, the
-/// address, the type and the access rights, and links to related elements. Lists of constants show only this paragraph.
-/// The description of the item and its other facts follow. Links are relative to `doc_module`.
+/// Returns the documentation of an item's constant. The first paragraph contains the name, the unit, the limits, the
+/// default value, the addresses, the type and the access rights, and links to related elements. Lists of constants show
+/// only this paragraph. The description of the item and its other facts follow. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,

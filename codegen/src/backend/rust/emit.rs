@@ -68,7 +68,7 @@ pub fn usage(device: &Device) -> Usage {
 }
 
 /// Returns the calls that read and write the items of the EtherCAT modules for which code is generated. In these calls,
-/// the variable `offset` is the increase of the object's index in the slot of the module.
+/// the variable `offset` is the number by which the slot of the module increases the index of an object.
 pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     let (modules, names) = catalog::named_modules(catalog);
     let calls = |(id, module): (ModuleId, _), name: &str| {

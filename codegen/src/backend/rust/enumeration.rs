@@ -27,7 +27,7 @@ pub(super) struct EnumerationModel {
     /// Mask of the value's bits if the enumeration has no variant `Unknown`. `None` otherwise.
     pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
-    /// The `cfg` attribute of the names, if the options request names.
+    /// The `cfg` attribute of the code with the names of the values, if the options request `Debug`.
     pub texts: Option<Vec<String>>,
     /// The `cfg` attribute of `PartialEq`, `Eq` and `Hash`, if the options request these.
     pub equality: Option<Vec<String>>,

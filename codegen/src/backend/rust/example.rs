@@ -8,7 +8,7 @@ use super::value_type;
 use super::walk::WalkModel;
 use crate::ir::{Binding, Item, Type, Value};
 
-/// Returns the lines of the example, which creates the driver, leads its state machine to the energized state, reads a
+/// Returns the lines of the example, which creates the driver, brings the device into the energized state, reads a
 /// value and writes a value. Steps that the device does not support are left out. Returns no lines if the device has no
 /// suitable value to read or write.
 pub(super) fn lines(context: &Context<'_>, device_name: &str, walks: &[WalkModel]) -> Vec<String> {

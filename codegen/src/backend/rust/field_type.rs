@@ -1,4 +1,4 @@
-//! Rust types of bits in a value, and conversions between these types and integers.
+//! Rust types of fields that consist of a number of bits, and conversions between these types and integers.
 
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
@@ -79,8 +79,8 @@ impl FieldType {
         }
     }
 
-    /// Returns whether the expression of [`decode`](Self::decode) applies an operator to the bits. If it does, `bits`
-    /// needs parentheses when it contains an operator itself.
+    /// Returns whether the expression of [`decode`](Self::decode) applies an operator to the bits. If so, an expression
+    /// `bits` that contains an operator must be in parentheses.
     pub fn is_cast(&self) -> bool {
         match self {
             FieldType::Native(native) | FieldType::Named(_, native) => *native != "u64",

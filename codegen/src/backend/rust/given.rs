@@ -1,4 +1,4 @@
-//! Machine constants, which the device does not know.
+//! Constants of the machine that are not stored in the device, and the unit conversions that depend on them.
 
 use super::context::Context;
 use super::docs;

@@ -1,4 +1,5 @@
-//! Types of handles: a public short name for each kind of access, and private aliases of all types in use.
+//! Types of handles: a public short name for the handles with the same access rights, and private aliases of all types
+//! in use.
 
 use std::collections::BTreeMap;
 

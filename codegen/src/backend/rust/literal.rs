@@ -1,15 +1,16 @@
-//! Rust literals, which are escaped so that a text of the description cannot end its literal.
+//! Formats values as Rust literals. Texts are escaped, so that a quotation mark in a description cannot end a literal.
 
 use crate::facts::number::hex16;
 use std::fmt::Write;
 
-/// Returns a 32-bit number with a separator between its words: `0x6040_0010`.
+/// Returns a hexadecimal literal of a 32-bit number, with a separator between its two 16-bit halves: `0x6040_0010`.
 pub(super) fn word(number: impl Into<i128>) -> String {
     let number = number.into();
     format!("{}_{:04X}", hex16(number >> 16), number & 0xFFFF)
 }
 
-/// Returns a string literal. Escapes characters that could mislead a reader or control a terminal.
+/// Returns a string literal. Escapes quotation marks, backslashes, and characters that could mislead a reader or
+/// control a terminal.
 pub(super) fn string(text: &str) -> String {
     let mut literal = String::with_capacity(text.len() + 2);
     literal.push('"');
@@ -57,8 +58,9 @@ pub(super) fn is_harmless(letter: char) -> bool {
     letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || is_sign(letter)
 }
 
-/// Returns whether a character is in a Unicode block of punctuation, currency signs, superscripts, or mathematical or
-/// technical symbols. Spaces, soft hyphens, combining marks and characters without a width are left out.
+/// Returns whether a character is in a Unicode block of punctuation, currency signs, superscripts, arrows, or
+/// mathematical or technical symbols. Spaces, soft hyphens, combining marks and characters without a width are left
+/// out.
 fn is_sign(letter: char) -> bool {
     matches!(letter,
         '\u{a1}'..='\u{ac}' | '\u{ae}'..='\u{bf}' | '×' | '÷'

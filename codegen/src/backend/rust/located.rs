@@ -8,12 +8,12 @@ use super::scope::Scope;
 use super::window::{self, Window};
 use crate::ir::{Group, GroupKind, Item, ItemId};
 
-/// A device or module, with the addresses of its items.
+/// A device or module, with its windows and the registers that a client can access.
 pub(super) struct Located<'a> {
     scope: Scope<'a>,
     /// Windows through which some items are accessed.
     pub windows: Vec<Window>,
-    /// Items of register chapters and of process images that a client can access.
+    /// Items that a client can access, from register chapters and process images.
     pub registers: Vec<Register<'a>>,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Deref for Located<'a> {
     }
 }
 
-/// Returns the items of register chapters and of process images that a client can access.
+/// Returns the items that a client can access, from register chapters and process images.
 fn registers<'a>(located: &Located<'a>) -> Vec<Register<'a>> {
     let registers = |(position, group): (u32, &'a Group)| {
         // A process image needs no title, because the addresses of its fields contain the name of the image.

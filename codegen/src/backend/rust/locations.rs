@@ -1,4 +1,4 @@
-//! Locations of handles: their types, and the functions that create them for several items.
+//! Locations of handles: the location types, and the functions that create the locations of several items.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,18 +10,19 @@ use super::reachable::addressable;
 /// Rust path from the module of the handles to the module of the windows.
 const WINDOWS: &str = "super::windows::";
 
-/// Returns the name of the generated function at position `at` that creates locations.
+/// Returns the name of a generated function that creates locations. `at` is the position of the function in the list of
+/// these functions.
 fn maker(at: usize) -> String {
     format!("location_{}", at + 1)
 }
 
 /// The locations of a device's or module's handles.
 pub(super) struct Locations {
-    /// The default location type. Handles with the default type do not state their type.
+    /// The default location type. The type of a handle names its location type only if it is not the default.
     pub usual: Buses,
     /// True if the location type of some items differs from the default.
     pub several: bool,
-    /// All location types of items, without repetitions.
+    /// The location types of all items, and the default location type, without repetitions.
     each: BTreeSet<Buses>,
     /// Functions that create the locations of several items.
     shared: Vec<Shared>,
@@ -111,7 +112,7 @@ fn usual(each: &BTreeMap<Buses, usize>) -> Buses {
     }
 }
 
-/// Returns the functions that create the locations of at least two items.
+/// Returns the location functions that at least two items use.
 fn shared(context: &Context<'_>, items_addresses: &[ItemAddresses<'_>]) -> Vec<Shared> {
     let mut makers: BTreeMap<(Doc, Vec<String>), (usize, Buses)> = BTreeMap::new();
     for addresses in items_addresses {

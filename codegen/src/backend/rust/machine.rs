@@ -37,22 +37,22 @@ impl MachineModel {
         self.states.iter().chain(&self.commands)
     }
 
-    /// Returns the names of the types of states and commands.
+    /// Returns the names of the state type and the command type.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.types().map(|patterns| patterns.name.as_str())
     }
 
-    /// Returns the bit fields to which the machine adds methods.
+    /// Returns the names of the bit fields to which the machine adds methods.
     pub(super) fn bit_fields(&self) -> impl Iterator<Item = &str> {
         self.types().filter_map(|patterns| Some(patterns.bits.as_ref()?.0.as_str()))
     }
 
-    /// Returns whether the code of the machine uses the runtime.
+    /// Returns whether the code of the machine uses the import `rt`, regardless of the enabled features.
     pub(super) fn uses_runtime(&self) -> bool {
         self.has_transitions() || self.types().any(|patterns| patterns.texts.as_ref().is_some_and(Vec::is_empty))
     }
 
-    /// Returns whether the machine has a list of transitions.
+    /// Returns whether the machine has transitions that a program can trigger or wait for.
     pub(super) fn has_transitions(&self) -> bool {
         !self.steps.is_empty()
     }
@@ -71,7 +71,8 @@ pub(super) struct PatternsModel {
     pub name: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
-    /// The `cfg` attribute of `Display` and `FromStr`. `None` if the options do not request these.
+    /// Line with the `cfg` attribute of the implementations of `Display` and `FromStr`, or no line if they are
+    /// unconditional. `None` if these implementations are not generated.
     pub texts: Option<Vec<String>>,
     /// Path of the runtime in `FromStr`. If a feature enables `FromStr`, this is the full path, because the import `rt`
     /// could be unused without the feature.
@@ -101,7 +102,7 @@ impl PatternsModel {
     }
 }
 
-/// A state or command, which is a bit pattern.
+/// A state or command that is a bit pattern.
 pub(super) struct PatternModel {
     pub name: String,
     /// Position of the state or command in the description.
@@ -241,7 +242,8 @@ impl Named<'_, '_> {
         variant.unwrap_or_else(|| docs::escape(state))
     }
 
-    /// Returns the link to a command or, if a message is the command, to the message.
+    /// Returns a link to a command. If the command is a message, the link leads to the message. Returns the name of the
+    /// command if there is no such link.
     fn command(&self, command: &CommandRef) -> String {
         let link = command.id.and_then(|id| match id {
             CommandId::Pattern(position) => Named::variant(self.commands.as_ref(), position),
@@ -250,7 +252,7 @@ impl Named<'_, '_> {
         link.unwrap_or_else(|| docs::escape(command))
     }
 
-    /// Returns the lines of the table of all transitions.
+    /// Returns the lines of a table that lists all transitions, or no lines if there are no transitions.
     fn transitions(&self, machine: &StateMachine) -> Vec<String> {
         let row = |transition: &Transition| {
             let text = transition.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
@@ -272,8 +274,8 @@ impl Named<'_, '_> {
 }
 
 /// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state, and automatic
-/// transitions from another state to a fault state (`faults`), are left out, because they are reactions of the device
-/// to errors. Transitions without generated states or commands are also left out.
+/// transitions to a fault state (`faults`) from a state that is not a fault state, are left out, because they are
+/// reactions of the device to errors. Transitions without generated states or commands are also left out.
 fn steps(
     machine: &StateMachine,
     states: &PatternsModel,

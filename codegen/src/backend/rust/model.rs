@@ -81,7 +81,7 @@ pub(super) struct Model {
     pub axes: Option<AxesModel>,
     /// Constants and items that differ between the models of the device.
     pub models: Vec<DeviceModel>,
-    /// Machine constants, which the device does not know.
+    /// Constants of the machine that are not stored in the device, and the unit conversions that depend on them.
     pub given: Option<GivenModel>,
     /// Message protocol with requests and replies.
     #[cfg(feature = "messages")]
@@ -89,7 +89,7 @@ pub(super) struct Model {
     pub node_id: Option<u8>,
     /// Configured values of a DCF or XDC.
     pub configuration: Option<ConfigurationModel>,
-    /// Constants for Modbus and for the node-ID range.
+    /// Constants for Modbus, for the node-ID range, and for composite numbers.
     pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
     pub objects: Vec<ObjectModel>,

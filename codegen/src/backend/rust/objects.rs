@@ -18,7 +18,7 @@ use crate::names;
 /// a module.
 pub(super) struct ObjectModel {
     pub name: String,
-    /// Title of the area: a chapter or a range of objects.
+    /// Title of the area: a chapter, a range of objects, or "Process images".
     pub area: String,
     /// Addresses under which the search of rustdoc finds the accessor.
     pub aliases: Vec<String>,
@@ -26,7 +26,7 @@ pub(super) struct ObjectModel {
     pub accessors: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Link to the module of the object's constants. The text is empty if the object has one value.
+    /// Link to the module of the object's constants. Empty for a register.
     pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
@@ -36,7 +36,7 @@ pub(super) struct ObjectModel {
 }
 
 impl ObjectModel {
-    /// Returns the path of the constant of an item.
+    /// Returns the path of an item's constant.
     pub(super) fn path(&self, item: &ItemModel) -> String {
         match self.is_module {
             true => format!("objects::{}::{}", self.name, item.constant),
@@ -124,7 +124,8 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
         accessors: named.accessors(),
         docs: vec![docs::sentence(&title), String::new(), facts.join(" ")],
         heading: item::heading(&group.name, &address),
-        // The link must state that it means the module, because a constant may have the same name.
+        // A constant may have the same name as the module if the name has no letters. The prefix `mod@` then makes the
+        // link lead to the module.
         constants: DocModule::TOP
             .whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "mod@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
@@ -159,7 +160,7 @@ fn aliases(item: &Item) -> Vec<String> {
     all
 }
 
-/// Returns the paths of the constants that describe each item, such as `objects::identity::VENDOR_ID`.
+/// Returns each item of an object with the path of its constant, such as `objects::identity::VENDOR_ID`.
 pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let entries = context.names.handles.objects.iter();
     let entries = entries.flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
@@ -173,7 +174,7 @@ pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item 
     })
 }
 
-/// Returns the method calls with which a program accesses each item, such as `identity().vendor_id()`.
+/// Returns each item with the method calls that return its accessor, such as `identity().vendor_id()`.
 pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let call = |name: &str| format!("{}()", names::escaped(name));
     let HandleNames { registers, objects } = &context.names.handles;

@@ -27,9 +27,10 @@ pub struct RustOptions {
     pub pdos: bool,
     /// Specifies whether the output contains a static table of all entries, for tools.
     pub table: Presence,
-    /// Specifies whether generated types implement `Debug`.
+    /// Specifies whether generated types implement `Debug`, and whether their other text traits, such as `Display` and
+    /// `FromStr`, are generated.
     pub debug: Presence,
-    /// Specifies whether generated types implement `PartialEq`.
+    /// Specifies whether generated types implement `PartialEq` and, if their values are integers, `Eq` and `Hash`.
     pub partial_eq: Presence,
     /// Specifies whether generated types implement `defmt::Format`. The crate that contains the generated code needs
     /// the dependency `defmt`, and the feature `defmt` of `lexibus`.
@@ -89,18 +90,18 @@ impl RustOptions {
         }
     }
 
-    /// Returns the lines with the attributes of a generated type.
+    /// Returns the lines with the `derive` attributes of a generated type.
     pub(super) fn derives(&self, plain_data: bool) -> Vec<String> {
         self.derives_with(plain_data, Some("PartialEq"))
     }
 
-    /// Returns the lines with the attributes of a generated type whose values are integers.
+    /// Returns the lines with the `derive` attributes of a generated type whose values are integers.
     pub(super) fn derives_of_integers(&self) -> Vec<String> {
         self.derives_with(true, Some("PartialEq, Eq, Hash"))
     }
 
-    /// Returns the lines with the attributes of a generated type whose equality traits are not derived. Generated
-    /// implementations compare the numbers of its values instead.
+    /// Returns the lines with the `derive` attributes of a generated type whose equality traits are not derived.
+    /// Generated implementations compare the numbers of its values instead.
     pub(super) fn derives_without_equality(&self) -> Vec<String> {
         self.derives_with(true, None)
     }

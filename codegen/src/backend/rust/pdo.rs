@@ -155,7 +155,7 @@ fn view_docs(context: &Context<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
 /// to the method.
 const METHODS: [&str; 4] = ["pack", "unpack", "configuration", "configuration_as"];
 
-/// Returns the lines of the documentation table that lists all entries of a PDO.
+/// Returns the lines of the documentation table that lists the entries of a PDO.
 fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut fields = fields.iter();
     let row = |entry: &PdoEntry| {
@@ -252,7 +252,7 @@ fn fields(context: &Context<'_>, named: &[NamedField<'_>], options: &RustOptions
     named.iter().map(field).collect()
 }
 
-/// Returns the field of an entry, without the names of its methods.
+/// Returns the field of an entry. The names of the view's methods are still empty.
 fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOptions) -> FieldModel {
     let kind = field_type(context, entry.ty, entry.bits);
     let ty = kind.path("super::");
@@ -303,8 +303,8 @@ pub(super) struct PdoModels<'a>(HashMap<Declared, &'a PdoModel>);
 
 impl<'a> PdoModels<'a> {
     pub(super) fn new(models: &'a [PdoModel]) -> Self {
-        // If several PDOs have the same key, the map keeps the last PDO. The order is reversed so that the map keeps
-        // the first PDO of the description.
+        // `collect` keeps the last of several PDOs with the same key. In the reversed order, this is the first PDO of
+        // the description.
         let keyed = models.iter().rev().map(|model| ((model.mapping_index, model.declared, model.line), model));
         PdoModels(keyed.collect())
     }
@@ -504,7 +504,8 @@ fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     writes
 }
 
-/// Returns the SDO writes that set the default transmission type, inhibit time, event timer and SYNC start value. Read-only parameters are left out.
+/// Returns the SDO writes that set the default transmission type, inhibit time, event timer and SYNC start value.
+/// Writes to read-only parameters are left out.
 pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),

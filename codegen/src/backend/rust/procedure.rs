@@ -59,8 +59,8 @@ fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     Some([item, docs::typed(value, ty)])
 }
 
-/// Returns the constructor calls of a procedure's writes. Returns `None` if a step is not a write of a constant integer
-/// to an object, or if there are no steps.
+/// Returns the constructor calls of a procedure's writes. Returns `None` if there are no steps, or if a step is not a
+/// write of a constant integer that fits in an object of an 8-, 16- or 32-bit integer type.
 fn writes(context: &Context<'_>, procedure: &Procedure) -> Option<Vec<String>> {
     let writes: Option<Vec<String>> = procedure.steps.iter().map(|step| write(context, step)).collect();
     writes.filter(|writes| !writes.is_empty())

@@ -80,7 +80,8 @@ pub struct ProgramItem {
     pub native: &'static str,
     /// A raw value within the type and the limits of the item.
     pub sample: i128,
-    /// Unit and resolution of the raw value, such as `unit rpm` or `1 LSB = 0.01 rev/s`. The text is empty if the unit is not known.
+    /// Unit and resolution of the raw value, such as `unit rpm` or `1 LSB = 0.01 rev/s`. The text is empty if the item
+    /// has neither a unit nor a scale.
     pub unit: String,
 }
 
@@ -118,7 +119,7 @@ pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Pro
     })
 }
 
-/// The results of the stages from which a program's elements are chosen.
+/// Results of the back end's stages. The elements of a program are chosen from these results.
 struct Parts<'p, 'a> {
     context: &'p Context<'a>,
     constants: &'p Constants<'p, 'a>,
@@ -127,9 +128,9 @@ struct Parts<'p, 'a> {
 }
 
 impl Parts<'_, '_> {
-    /// Returns the first state machine with an operating state whose items can be accessed on a bus. If there is no
-    /// such machine, returns the reason why the program does not use the first machine on the bus. Returns `None` if no
-    /// machine is on the bus.
+    /// Returns the first state machine that has an operating state, and whose status item and control item can be
+    /// accessed on a bus. If there is no such machine, returns the reason why the program does not use the first
+    /// machine on the bus. Returns `None` if no machine is on the bus.
     fn machine(&self, types: &Types, bus: RouteBus) -> Option<Result<ProgramMachine, NoTarget>> {
         let machines = self.context.names.types.machines.iter().zip(&types.machines).enumerate();
         let mut on_bus = machines.filter_map(|(position, (named, model))| {
@@ -235,7 +236,7 @@ impl Parts<'_, '_> {
             .filter(move |(entry, call)| example::is_number(self.context, entry.item) && !is_count(entry.item, call))
     }
 
-    /// Returns whether a client on `bus` can access the item.
+    /// Returns whether a client on `bus` can read the item or, if `writes` is set, write it.
     fn is_on(&self, item: &Item, bus: RouteBus, writes: bool) -> bool {
         item_addresses::address(self.context, item, bus, writes).is_some()
     }

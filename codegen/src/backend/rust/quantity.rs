@@ -12,8 +12,8 @@ pub(super) struct QuantityType {
     pub word: String,
 }
 
-/// Returns the type of an item's value. Returns `None` if the value is a plain number, if its scale differs between
-/// models or buses, or if no type of the runtime can express the scale.
+/// Returns the type of an item's value. Returns `None` if the value is a plain number or not a number, if its scale
+/// differs between models or buses, or if no type of the runtime can express the scale.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
@@ -87,7 +87,7 @@ fn by_fraction(name: &str, base: &str, word: &str, factor: f64) -> Option<Quanti
     })
 }
 
-/// Returns the path of a type with these numbers as generic arguments.
+/// Returns the path of a type with `base` and these numbers as generic arguments.
 fn with_numbers(path: &str, base: &str, numbers: &[i64]) -> Doc {
     let parameters = std::iter::once(base.to_owned()).chain(numbers.iter().map(i64::to_string));
     list(&format!("{path}<"), parameters, ">")
@@ -137,7 +137,8 @@ fn rational(real: f64) -> Option<(i64, i64)> {
         -126..=-1 => (mantissa, 1_i128 << -exponent),
         _ => return None,
     };
-    // Use continued fractions: each step gives the best approximation with a denominator of its size.
+    // Use continued fractions: no fraction with a smaller denominator is nearer to the number than the result of a
+    // step.
     let ((mut num, mut den), mut last) = ((1_i128, 0_i128), (0_i128, 1_i128));
     loop {
         let whole = p / q;

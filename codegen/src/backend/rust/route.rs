@@ -4,8 +4,8 @@ use super::code::{call, generic, seq, slice, Doc};
 use crate::facts::number::hex16;
 use crate::ir::{Bus, Limits, Value};
 
-/// A bus of a location, in the order of the location's fields. PROFINET records are not included because register
-/// tables cannot describe them.
+/// The buses of a location, in the order of its fields. PROFINET records are not included because register tables
+/// cannot describe them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RouteBus {
     CanOpen,
@@ -161,7 +161,8 @@ pub(super) struct AccessPath<'i> {
     pub resized: Option<u8>,
     /// Allowed values on the bus, and whether the item is signed.
     pub limited: Option<(&'i Limits, bool)>,
-    /// True if the conversion is signed, that is, if the narrower of both integers (item and bus) is signed.
+    /// True if the conversion is signed, that is, if the narrower of the two integers (of the item and on the bus) is
+    /// signed.
     pub is_signed: bool,
 }
 

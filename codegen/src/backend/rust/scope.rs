@@ -18,7 +18,7 @@ pub(super) enum ObjectBus {
 pub(super) struct Scope<'a> {
     pub bus: ObjectBus,
     pub groups: &'a [Group],
-    /// Number that IDs of items use for the first group.
+    /// Group number of the first group in item IDs.
     first_group: u32,
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
@@ -52,7 +52,8 @@ impl<'a> Scope<'a> {
         self.groups.get(position)
     }
 
-    /// Returns the bus of a PDO. If the PDO is on several buses, returns the bus of the device.
+    /// Returns the bus of a PDO. If the description does not limit the PDO to one bus, returns the bus of the device or
+    /// module.
     pub fn bus_of(&self, pdo: &Pdo) -> ObjectBus {
         match pdo.buses {
             Some(ObjectBuses::COE) => ObjectBus::CoE,
@@ -71,8 +72,9 @@ impl<'a> Scope<'a> {
         self.device?.image(reference)
     }
 
-    /// Resolves aliases of a type. Returns the basic type. If the type has a definition other than an alias, also
-    /// returns the position and content of the definition.
+    /// Resolves aliases of a type. Returns the resulting type, which is the base type of an enumeration, bit field or
+    /// scaled type. If the type has a definition other than an alias, also returns the position and content of the
+    /// definition.
     pub fn resolve(&self, ty: Type) -> (Type, Option<(u32, &'a TypeDef)>) {
         /// Maximum length of a chain of type aliases. A longer chain is treated as a cycle.
         const DEPTH: usize = 16;
@@ -105,7 +107,7 @@ impl<'a> Scope<'a> {
         ValueType::of(self.base(ty))
     }
 
-    /// Returns the groups with the numbers that IDs of items use for them.
+    /// Returns the groups with their group numbers in item IDs.
     pub fn positioned_groups(&self) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
         (self.first_group..).zip(self.groups)
     }

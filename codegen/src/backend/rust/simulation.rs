@@ -19,8 +19,9 @@ pub struct Simulation {
     pub transitions: Vec<(String, String, String)>,
 }
 
-/// Returns the behavior of a state machine. The simulated device makes a transition without a command only on
-/// the shortest path to the target state, and only if no command leads closer to the target. Returns `None` if the commands of the machine are not bit patterns.
+/// Returns the behavior of a state machine. The simulated device makes a transition without a command only on the
+/// shortest path to the target state, and only if no command leads closer to the target. Returns `None` if the machine
+/// has no commands that are bit patterns.
 pub(super) fn of(model: &MachineModel, walk: &WalkModel, path: &Path<'_>) -> Option<Simulation> {
     let transition =
         |step: &StepModel| Some((step.from.clone(), step.command.clone()?, path.settled(&step.to).to_owned()));

@@ -6,19 +6,20 @@ use std::fmt;
 use super::machine::{MachineModel, StepModel};
 use crate::ir::StateMachine;
 
-/// Names of states in which a device operates, after "operation enabled" of CiA 402. States without motion come first.
+/// Names of states in which a device operates, in order of preference: states without motion come first. The state
+/// "operation enabled" of CiA 402 takes precedence over all of them.
 const OPERATING: [&str; 7] = ["enabled", "operational", "operating", "operation", "in operation", "running", "moving"];
 
 /// Maximum number of transitions that the runtime takes into account (`src/machine.rs`).
 const MAX_TRANSITIONS: usize = 128;
 
-/// Reason why a new program does not lead a state machine to a state.
+/// Reason why a new program does not lead a state machine to its operating state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoTarget {
     /// No state except fault states has a name that the compiler recognizes as that of an operating state.
     Name,
-    /// No sequence of commands leads from the first state to the second one without entering a fault state. The states
-    /// are variants.
+    /// No sequence of commands leads from the first state to the second one without entering a fault state. The texts
+    /// are names of variants.
     Path(String, String),
 }
 

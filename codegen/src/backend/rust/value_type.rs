@@ -5,16 +5,16 @@ use super::literal;
 use crate::facts::number::hex;
 use crate::ir::{Limits, Type, Value};
 
-/// The runtime's type for an item's value.
+/// The Rust type of an item's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ValueType {
     /// A primitive type, such as `u16`, `i64`, `bool` or `f32`.
     Native { name: &'static str, range: Option<(i128, i128)>, real: u32 },
     /// `Uint<N>` or `Int<N>`.
     Odd { name: &'static str, range: (i128, i128) },
-    /// A text type, whose values are string literals.
+    /// A text type of the runtime. Its values are written as string literals.
     Text(&'static str),
-    /// A byte sequence type, whose values are byte string literals.
+    /// A byte sequence type of the runtime. Its values are written as byte string literals.
     Bytes(&'static str),
     /// A type of the runtime for a time of day or a duration.
     Time(&'static str),
@@ -92,7 +92,8 @@ impl ValueType {
         first.into_iter().chain(letters).collect()
     }
 
-    /// Returns whether literals of the type may be close to a mathematical constant. Clippy reports such literals.
+    /// Returns whether the type is a real number. Clippy reports literals of such types that are close to a
+    /// mathematical constant.
     pub(super) fn is_real(self) -> bool {
         matches!(self, ValueType::Native { real: 32 | 64, .. })
     }

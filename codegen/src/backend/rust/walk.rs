@@ -108,8 +108,8 @@ fn documentation(machine: &StateMachine, status: &str, control: &str, code: &str
     ];
     let code = if code.is_empty() { String::new() } else { format!(" and the error code from {code}") };
     lines.push(format!(
-        "Returns an error if an access fails, a fault occurs on the way (with the state{code}), no command leads to the state, or the \
-         device is not in the state after the time `deadline`."
+        "Returns an error if an access fails, a fault occurs on the way (the error contains the state{code}), no command leads to \
+         the state, or the device does not reach the state within the time `deadline`."
     ));
     lines
 }

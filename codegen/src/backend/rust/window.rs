@@ -152,8 +152,8 @@ impl ImpliedHandshake {
     }
 }
 
-/// Returns whether a window can transfer values of an item. Windows transfer integers, and real numbers with the same
-/// width.
+/// Returns whether a window can transfer values of an item. Windows transfer Booleans, integers, and real numbers that
+/// have the width of the window's value.
 pub(super) fn carries(scope: &Scope<'_>, item: &Item, window: &Window) -> bool {
     use crate::ir::Type;
     match scope.base(item.ty) {

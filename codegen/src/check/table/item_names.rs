@@ -8,12 +8,12 @@ use crate::ir::{stated, texts, Device};
 use crate::limits;
 use crate::text::{brief, edit_distance};
 
-/// Lengths in characters of the names and words that are compared. Words below the minimum are not compared, because short words
-/// are too similar to each other.
+/// Lengths in characters of the names and words that are compared. Shorter words are not compared, because they are too
+/// similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// A letter counts as a prefix if at least this number of item names, and at least nine tenths of all names, begin with
-/// it.
+/// A letter counts as a prefix if at least this number of item names, and at least nine tenths of all item names, begin
+/// with it.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

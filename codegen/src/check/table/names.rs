@@ -1,4 +1,5 @@
-//! Checks that row names exist, are not hyphenated at the edge of a table column, and differ in more than upper and lower case.
+//! Checks that row names exist, are not hyphenated at the edge of a table column, are not descriptions, and differ in
+//! more than upper and lower case.
 
 use std::collections::HashMap;
 
@@ -12,7 +13,8 @@ use crate::text::brief;
 /// The maximum number of words in a register name, if other names are single words. A longer name is a description.
 const NAME_WORDS: usize = 6;
 
-/// Reports names that are missing, that are hyphenated at the edge of a table column, or that are descriptions.
+/// Reports names that are missing, that are hyphenated at the edge of a table column, that are descriptions, or that
+/// differ only in upper and lower case.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let are_words = are_words(context.device);
     context.device.groups.iter().for_each(|group| whole(group, are_words, diagnostics));

@@ -1,4 +1,4 @@
-//! Physical values: the conversion of raw values, and values of the machine that the device drives.
+//! Physical values: the conversion of raw values, and constants of the machine that the device drives.
 
 use crate::ir::{CompactString, Device, GivenRef, MachineUnit, Scale, Variant, VariantId};
 

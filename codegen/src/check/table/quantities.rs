@@ -63,7 +63,7 @@ fn variant(device: &Device, id: Option<VariantId>) -> Option<&Variant> {
     device.variants.get(id?.0 as usize)
 }
 
-/// A default value as physical value, and as value in the machine unit if the quantity has a machine unit.
+/// A default value as a physical value, and in the machine unit if the quantity has one.
 struct Physical {
     number: f64,
     unit: CompactString,

@@ -1,5 +1,5 @@
-//! Checks that the numbers of items fit into the windows, and that windows can transfer the values of items that have no other
-//! address.
+//! Checks that the numbers of items fit into the windows, that the items of a window are integers, and that windows can
+//! transfer the values of items that have no other address.
 
 use std::collections::HashSet;
 
@@ -29,7 +29,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Creates the diagnostic for the number or value item of a window, if this item is not an integer.
+/// Creates the diagnostic about a window whose number item or value item is not an integer.
 fn no_integer(part: &Item, what: &str) -> Diagnostic {
     let message = format!("`{}` holds {what} of a window, but is not an integer of up to 64 bits", brief(&part.name));
     codes::TABLE_VALUE.at(part.at.ty.or(part.at.name), message)

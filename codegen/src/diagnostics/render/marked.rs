@@ -33,7 +33,7 @@ pub struct Mark {
 }
 
 impl<'a> MarkedSource<'a> {
-    /// Returns whether [`MarkedSource::of`] returns `Some`, but takes less time.
+    /// Returns whether [`MarkedSource::of`] returns `Some`, without computing the position.
     pub fn exists(span: Span, sources: &[Source]) -> bool {
         (span.file.0 as usize) < sources.len()
     }
@@ -60,7 +60,8 @@ impl<'a> MarkedSource<'a> {
 
 /// Returns the position of the end of `marked`, which starts at `from`.
 ///
-/// Counts the characters of the marked text, which is usually shorter than the line before it: a file can be one long line.
+/// Counts only the characters of the marked text. The part of the line before it is often longer, because a file can be
+/// one long line.
 fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Position {
     let text = &source.text()[marked.clone()];
     match memchr::memchr2(b'\r', b'\n', text.as_bytes()) {

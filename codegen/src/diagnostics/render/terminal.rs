@@ -18,14 +18,15 @@ const MAX_TEXT: usize = 2000;
 /// Width of the rendered text. The width exceeds any terminal window, so that the renderer does not shorten lines a second time.
 const WIDTH: usize = 10 * marked::MAX_CHARS;
 
-/// Character that ends the text `file:line:column`. It is a Unicode noncharacter, which [`visible`] removes from the
-/// text of a file.
+/// Character that ends the text `file:line:column`. It is a Unicode noncharacter, which [`visible`] replaces in texts
+/// of a file.
 const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
 ///
-/// `color` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as `�`. A
-/// diagnostic about a whole file shows only the name of the file. The time depends on the marked lines, not on the size of the file.
+/// `color` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as
+/// `�`. A diagnostic about a whole file shows only the name of the file. The time depends on the marked lines, not on
+/// the size of the file.
 pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
     let location = MarkedSource::of(diagnostic.span, sources);
     let suggestion = suggestion(diagnostic, location);

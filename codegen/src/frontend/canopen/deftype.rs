@@ -3,7 +3,7 @@
 use crate::ir::{Group, ObjectCode, Type, Value};
 
 /// Returns the type for which the DEFTYPE or DEFSTRUCT object `group` is an alias, and the length of this type in bits.
-/// Returns raw bytes and no length if the object does not define a type.
+/// If the object does not define a known type, returns raw bytes and the length that a DEFTYPE object states.
 pub fn defined_type(group: &Group, index: u16, code: ObjectCode) -> (Type, Option<u32>) {
     let unknown = Type::Opaque(Some(u32::from(index)));
     let number = |sub| group.sub(sub).and_then(|item| item.default.as_ref()).and_then(Value::as_int);

@@ -16,12 +16,12 @@ pub enum Parsed {
     Int {
         /// Value of the number.
         value: i128,
-        /// True if the number is hexadecimal and has no sign.
+        /// True if the number is hexadecimal and has no minus sign.
         hex: bool,
     },
     /// `$NODEID` plus this offset.
     NodeId(i128),
-    /// Text with a `$` that is not a valid formula.
+    /// Text with `$` or a name of `$NODEID` that is not a valid formula.
     UnknownFormula,
     /// Text that is neither a number nor a formula.
     Text,
@@ -214,7 +214,8 @@ fn radix(digits: &str, radix: u32) -> Option<i128> {
     Some(value)
 }
 
-/// Reads a sum with one `$NODEID` (or an alias of it) among its terms.
+/// Reads a sum with one `$NODEID` (or an alias of it) among its terms. Returns `None` if the text contains neither `$`
+/// nor an alias.
 fn parse_formula(text: &str, aliases: &[String]) -> Option<Number> {
     let is_node_id = |term: &str| {
         term.eq_ignore_ascii_case("$NODEID") || aliases.iter().any(|alias| alias.eq_ignore_ascii_case(term))

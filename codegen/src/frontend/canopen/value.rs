@@ -45,8 +45,8 @@ impl Converter<'_> {
         })
     }
 
-    /// Returns the value of `text` if it is a plain number that fits the integer type `ty`. Plain numbers need no
-    /// diagnostic.
+    /// Returns the value of `text` if it is a plain number that fits the integer type `ty` of at most 32 bits and needs
+    /// no diagnostic.
     #[inline]
     pub fn plain_integer(&self, text: &str, ty: Type) -> Option<Value> {
         let (Type::Integer(bits) | Type::Unsigned(bits)) = ty else { return None };
@@ -61,7 +61,8 @@ impl Converter<'_> {
         fits.then(|| Value::Int(value.into()))
     }
 
-    /// Reads a number and reports deviations from the grammar. Reports a text that is not a number, and returns `None`.
+    /// Reads a number or formula, and reports deviations from the grammar. Returns `None` and reports the text if it is
+    /// neither.
     pub fn number(&mut self, text: &str, span: Span) -> Option<Value> {
         let number = number::parse(text, self.aliases);
         self.quirk(number, text, span);

@@ -59,8 +59,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     Some(Catalog::of_device(device, modules))
 }
 
-/// First sort rank of the sections `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`. They are sorted after the
-/// sections that describe sub-indices.
+/// Sort rank of the sections `[xxxxName]`, `[xxxxValue]`, `[xxxxDenotation]` and `[xxxxObjectLinks]`. They are sorted
+/// after the sections that describe sub-indices.
 const REFINEMENT: u16 = 0x200;
 
 /// Sections of a file, grouped by subject.
@@ -157,8 +157,8 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKin
     reader.diagnostics.push(diagnostic);
 }
 
-/// Stores the entries of sections that are unknown to CiA 306. The entries become extensions of the device, with keys
-/// such as `section/key`.
+/// Reports sections that CiA 306 does not define. Stores their entries as extensions of the device, with keys such as
+/// `section/key`. Also stores the entries of sections that belong to an undescribed object.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
     let mut seen: HashMap<String, &Section> = HashMap::new();
     for section in unknown {

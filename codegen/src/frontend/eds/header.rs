@@ -300,7 +300,8 @@ fn bit_rate(
     true
 }
 
-/// Reads the PDO mapping granularity, from 1 to 64 bits. Some tools write the flag 0 or 1 instead.
+/// Reads the PDO mapping granularity: 0 for fixed mappings, or 1 to 64 bits. Some tools write 1 only to state that
+/// mappings can be changed.
 fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     let value = reader.unsigned(entry, 0xFF)?;
     network::granularity(value as u8, reader.doc.value_span(entry), reader.diagnostics);

@@ -270,8 +270,8 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Returns the value of an entry. A comment after the value is removed, except from texts, DOMAIN values and values
-    /// without a basic type.
+    /// Converts the text of an entry to a value of type `ty`. A comment after the value is removed, except from texts,
+    /// DOMAIN values and values without a basic type.
     pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
         let entry = entry?;
         let text = self.doc.value(entry);

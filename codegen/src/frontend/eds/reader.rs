@@ -22,9 +22,10 @@ pub(super) struct Reader<'a, 'd> {
     pub orphan_sections: Vec<Section>,
     /// Number of modules that `[SupportedModules]` announces, and the span of the number.
     pub announced_modules: Option<(u32, Span)>,
-    /// Number of items that were created from `CompactSubObj`.
+    /// Number of items that the `CompactSubObj` entries read so far announce.
     pub derived_items: usize,
-    /// Remaining number of text bytes that may be copied into derived elements.
+    /// Remaining number of text bytes that may be copied: names of unknown sections, and texts of objects with
+    /// `CompactSubObj`.
     pub copies_left: usize,
     pub copies_exceeded: bool,
     /// Comments after values. They are collected until the element that contains the values is complete.
@@ -86,8 +87,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         let found = match (text.as_bytes()[cut], form) {
             (b'#', _) => Some((&codes::HASH_COMMENT, "there is a `#` comment after the value")),
             (_, Fixed::Flag) => Some((&codes::TRAILING_TEXT, "there is text after the value")),
-            // A comment after `;` is not reported. CiA 306 defines `;` only at the start of a line, but most tools end
-            // a number at `;`.
+            // A `;` comment after a number or access type is not reported. CiA 306 defines `;` only at the start of a
+            // line, but most tools end a number at `;`.
             _ => None,
         };
         if let Some((code, message)) = found {
@@ -109,7 +110,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
-    /// Reads a flag: 0, 1, or a word with the meaning of 0 or 1.
+    /// Reads a flag. Reports a value other than 0 and 1, unless the value is empty. Reads `true`, `yes` and numbers
+    /// except 0 as 1, and any other text as 0.
     pub(super) fn flag(&mut self, entry: &Entry) -> bool {
         match self.doc.value(entry) {
             "0" | "" => return false,
@@ -225,8 +227,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         *at = span;
     }
 
-    /// Stores an entry or a comment as an extension. Drops a comment that contains no letter or digit, such as a line
-    /// of dashes.
+    /// Stores a comment, or an entry with an unknown key, as an extension. Drops a comment that contains no letter or
+    /// digit, such as a line of dashes.
     pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Extensions) {
         let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
         if self.doc.is_comment(entry) {

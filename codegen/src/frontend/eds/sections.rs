@@ -16,8 +16,8 @@ pub(super) enum SectionKind {
     Object(u16),
     /// Sub-index section `[xxxxsubN]`.
     Sub(u16, u8),
-    /// Section `[xxxxName]`, `[xxxxValue]` or `[xxxxDenotation]`, which contains a fact about each sub-index of a
-    /// compact object.
+    /// Section `[xxxxName]`, `[xxxxValue]` or `[xxxxDenotation]`, which lists the names, values or denotations of the
+    /// sub-indices of a compact object.
     Refinement(u16, Refinement),
     /// Object links section `[xxxxObjectLinks]`.
     Links(u16),
@@ -34,7 +34,7 @@ pub(super) enum List {
     Manufacturer,
 }
 
-/// Kind of fact that a section contains about the sub-indices of a compact object.
+/// Content of a section that describes the sub-indices of a compact object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refinement {
     Name,

@@ -1,4 +1,5 @@
-//! Splits the default value and limits of a whole array, which some files declare on the first element.
+//! Splits the default value and limits of a whole array into those of the elements. Some files declare the values of
+//! the whole array on the first element.
 
 use std::borrow::Cow;
 use std::collections::HashMap;

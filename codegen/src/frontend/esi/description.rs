@@ -64,7 +64,7 @@ impl Reference {
 pub(super) struct OtherFiles {
     pub files: Vec<Reference>,
     pub types: Vec<EntryType>,
-    /// Diagnosis messages that a module declares. In the IR, these messages apply to all modules.
+    /// Diagnosis messages that a module declares. In the IR, these messages belong to the catalog.
     pub messages: Vec<CodeTable>,
 }
 

@@ -16,7 +16,7 @@ use crate::syntax::xml::Tag;
 /// Names of the flags of a diagnosis message, in the order of the table columns.
 const COLUMNS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
-/// Reads a `DiagMessages` element. Returns a table of the messages, and a table for each list of flag values.
+/// Reads a `DiagMessages` element. Returns a table of the messages, and a table for each non-empty list of flag values.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Vec<CodeTable>> {
     let origin = reader.origin(parent);
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {

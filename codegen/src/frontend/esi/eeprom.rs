@@ -28,7 +28,8 @@ fn octets<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Vec<u8>> {
     Ok(reader.octets(&given).unwrap_or_default())
 }
 
-/// Reads an EEPROM category: its number, and its content from bytes, text or a number.
+/// Reads the number and the content of an EEPROM category. The file contains the content as bytes, a text or a number.
+/// Returns `None` for a category without a number.
 fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u16, Vec<u8>)>> {
     let [preserve] = reader.attributes(parent, ["PreserveOnlineData"])?;
     reader.note("Category@PreserveOnlineData", &preserve);

@@ -1,4 +1,4 @@
-//! Entries of an object, which its data type defines, and their assignment to the sub-items of the object.
+//! Entries that the data type of an object defines, and the assignment of the object's sub-items to these entries.
 
 use std::collections::HashMap;
 
@@ -21,11 +21,12 @@ pub(super) struct Entry<'t, 'a> {
     pub sub_index: u8,
     pub ty: Type,
     pub field: &'t RawField<'a>,
-    /// Number of the array element, counted from 1; `None` if the field is not an array.
+    /// Number of the array element, counted from 1; `None` if the field is a single entry.
     pub element: Option<u32>,
 }
 
-/// Returns the entries of an object, sorted by sub-index. Each element of an array is a separate entry.
+/// Returns the entries of an object, sorted by sub-index. Each element of an array is a separate entry, unless the
+/// array is read as a single value.
 pub(super) fn of_object<'t, 'a>(
     reader: &mut Reader<'_, '_>,
     types: &Types<'_, 'a>,

@@ -1,4 +1,4 @@
-//! Reads the flags of objects and sub-items: access rights, PDO mapping, backup.
+//! Reads the flags of objects and sub-items, such as access rights and PDO mapping.
 
 use super::reader::Reader;
 use crate::diagnostics::codes;

@@ -98,7 +98,8 @@ fn read_vendor<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, vendor: &mut V
     Ok(())
 }
 
-/// Sets the vendor of all devices and modules of a file. The `Vendor` element may come after the devices and modules.
+/// Sets the vendor of all devices and modules of a file, and the header of the devices. The `Vendor` element may come
+/// after the devices and modules.
 fn identify(
     reader: &mut Reader<'_, '_>,
     root: Span,

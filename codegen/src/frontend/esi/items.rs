@@ -313,7 +313,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         item
     }
 
-    /// Sets the access rights, PDO mapping and storage of an item. `sub_index` is `Some` for an entry of a record.
+    /// Sets the access rights, PDO mapping and behavior of an item. `sub_index` is `None` for the value of an object
+    /// without sub-items.
     fn flags(&self, item: &mut Item, flags: &Flags, object: &Flags, sub_index: Option<u8>) {
         let (access, at) = flags.access_or(object);
         (item.access, item.at.access) = (access.unwrap_or(Access::ReadOnly), at);

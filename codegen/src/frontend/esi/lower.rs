@@ -37,7 +37,7 @@ pub(super) fn lower<'a>(
 }
 
 /// Returns the type that a PDO entry names. If the entry names no type, returns an integer type of the entry's length,
-/// or raw bytes for padding and for entries of more than 64 bits.
+/// or raw bytes for padding and for lengths other than 1 to 64 bits.
 fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {
@@ -54,7 +54,8 @@ fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Gi
     ty
 }
 
-/// Reports a PDO entry whose length differs from the length of its type. `bits` is the length of the type.
+/// Reports a PDO entry, except padding, whose length differs from the length of its type. `bits` is the length of the
+/// type.
 pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: &Given<'_>, bits: Option<u32>) {
     match bits {
         Some(bits)

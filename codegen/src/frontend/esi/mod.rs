@@ -1,9 +1,9 @@
 //! Converts EtherCAT slave information (ESI, ETG.2000) to IR.
 //!
-//! The reader accepts elements in any order, because real files do not follow the schema. Each file is read once. Some
-//! facts depend on later elements, such as the data types of objects and the vendor of devices. These facts are
-//! resolved at the end of the common parent element. Data types, objects and PDOs belong to one device or module.
-//! Referenced files are read last.
+//! The reader accepts elements in any order, because real files do not follow the schema. Each file is parsed once,
+//! except for its PDO templates. Some facts depend on later elements, such as the data types of objects and the vendor
+//! of devices. These facts are resolved at the end of the common parent element. Data types, objects and PDOs belong to
+//! one device or module. Referenced files are read last.
 //!
 //! | file | subject |
 //! |---|---|

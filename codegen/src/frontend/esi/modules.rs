@@ -72,7 +72,7 @@ fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Modu
     Ok(())
 }
 
-/// Reads the mailbox of a module. Stores the start-up commands in `module`, and the supported protocols as extensions.
+/// Reads the mailbox of a module. Stores the CoE start-up commands in `module`, and all other settings as extensions.
 fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
     let mailbox = mailbox::read(reader, tag)?;
     let mut keep = |key: CompactString, value: &str| {
@@ -100,7 +100,7 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
     Ok(())
 }
 
-/// Passes the mailbox protocols of a module, except CoE, to `keep`, which stores them as extensions.
+/// Passes the attributes of a mailbox and its protocols, except CoE, to `keep`, which stores them as extensions.
 fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     let flags = [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)];
     for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
@@ -120,7 +120,7 @@ fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     }
 }
 
-/// Adds the modules of the catalog that fit into the slots of each device.
+/// Adds to each device the modules of the catalog that fit into its slots.
 pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     let Catalog { devices, modules, .. } = catalog;
     let known = Known::new(modules, diagnostics);
@@ -164,8 +164,8 @@ impl<'m> Known<'m> {
         known
     }
 
-    /// Adds the modules that fit into the slots of a device, and subtracts their number from `left`. Returns false if
-    /// `left` is too small.
+    /// Adds to a device the modules that fit into its slots. Subtracts the number of modules of each slot from `left`,
+    /// and returns false without adding modules if `left` is too small.
     fn plug(
         &self,
         device: &mut Device,
@@ -210,7 +210,7 @@ fn push_range(numbers: &mut Numbers, first: u16, last: u16) {
     }
 }
 
-/// Reports a slot into which no module fits. Only the first such diagnostic of a file has a help text.
+/// Reports a slot into which no module fits. Only the first such diagnostic of a catalog has a help text.
 fn nothing_fits(device: &Device, slot: u16, is_first: bool, diagnostics: &mut Diagnostics) {
     let message = format!("no module of this description fits into slot {slot}");
     let found = Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message).label("the slot stays empty");

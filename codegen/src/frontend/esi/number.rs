@@ -6,7 +6,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Number, and whether the file writes it as a bit pattern.
+/// Number, and whether its notation is a bit pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
     pub value: i128,
@@ -25,8 +25,8 @@ pub(super) enum Fault {
     TwoPrefixes,
 }
 
-/// Reads decimal digits with an optional sign, or hexadecimal digits after `#x`, `0x` or both. Digits without a prefix
-/// are hexadecimal if one of them is a letter.
+/// Reads decimal digits, or hexadecimal digits after `#x`, `0x` or both. Digits without a prefix are hexadecimal if one
+/// of them is a letter. A sign may precede decimal digits, or hexadecimal digits with one prefix.
 pub(super) fn parse(text: &str) -> Option<Number> {
     let bytes = text.as_bytes();
     if let Some(value) = decimal(bytes) {

@@ -11,7 +11,7 @@ use crate::source::{FileId, References, Source};
 /// Reads the devices and modules that `source` describes, and the files that it refers to. Reports repairs to
 /// `diagnostics`.
 ///
-/// Returns `None` and reports one error if `source` is not well-formed.
+/// Returns `None` and reports one error if `source` is not well-formed or not an ESI file.
 pub fn read(
     source: &Source,
     file: FileId,

@@ -45,8 +45,8 @@ pub(super) fn follow(
     let main_name = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     // Content of each file for later references; `None` if later references cannot use the file.
     let mut files: HashMap<String, Option<Content>> = HashMap::new();
-    // A description with devices uses only the modules of referenced files. A description without devices only lists
-    // other files, and uses the devices of these files, too.
+    // A description with devices does not use the devices of referenced files. A description without devices only lists
+    // other files, and uses the devices of these files.
     let only_modules = !description.catalog.devices.is_empty();
     let mut is_reported = false;
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
@@ -87,7 +87,7 @@ pub(super) fn follow(
     entry_types(description, diagnostics);
 }
 
-/// Resolves the types of PDO entries for which the type is defined in a referenced file.
+/// Resolves those types of PDO entries that only the dictionary of a referenced file can define.
 fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
     let Description { catalog, entry_types, refused, .. } = description;
     // The types of a file that was not copied remain unknown.
@@ -133,7 +133,8 @@ fn normal(name: &str) -> String {
     name.trim_start_matches("./").to_owned()
 }
 
-/// Reads a referenced file. Returns the contents of the file, and its length in bytes.
+/// Reads a referenced file. Returns the contents of the file and its length in bytes. Reports the reference and returns
+/// `None` if the file cannot be read.
 fn open(
     reference: &Reference,
     is_reported: &mut bool,

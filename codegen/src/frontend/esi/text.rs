@@ -31,8 +31,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Stores the children of a `VendorSpecific` element as extensions, with attributes and texts. Elements inside of
-    /// the children are dropped because only the vendor's tool uses them.
+    /// Stores the children of a `VendorSpecific` element as extensions, with attributes and texts. Elements inside the
+    /// children are dropped because only the vendor's tool uses them.
     pub fn vendor_specific(&mut self, tag: &Tag<'a>) -> Read<()> {
         while let Some(child) = self.child(tag)? {
             self.keep_attributes(&child)?;

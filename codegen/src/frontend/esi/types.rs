@@ -24,9 +24,9 @@ pub(super) struct Types<'t, 'a> {
     values: Vec<Vec<EnumValue>>,
     by_name: HashMap<&'t str, u32>,
     links: Links,
-    /// IR type for each data type of the file. For an alias of a basic type, this is the basic type itself.
+    /// IR type for each data type of the file. For an alias, this is the type that the alias names.
     meaning: Vec<Type>,
-    /// Types in the order of the file, followed by types that are defined only by their names.
+    /// Types in the order of the file, followed by types that a name such as `BITARR8` defines.
     defs: Vec<TypeDef>,
     made: HashMap<CompactString, Type>,
 }
@@ -40,7 +40,7 @@ struct Links {
     fields: Vec<Option<u32>>,
     /// Position in `fields` of the first field of each data type.
     first: Vec<usize>,
-    /// For each data type, whether it contains itself or is nested too deeply.
+    /// For each data type, whether it contains itself, is nested too deeply, or refers to such a type.
     endless: Vec<bool>,
 }
 
@@ -78,8 +78,8 @@ impl Links {
         self.first.get(at).and_then(|first| self.fields.get(first + field).copied()).flatten()
     }
 
-    /// Returns the data types in an order in which each type comes after the types that it refers to. Marks types that
-    /// contain themselves or are nested too deeply.
+    /// Returns the data types in an order in which each type comes after the types that it refers to. Types for which
+    /// no such order exists come last. Marks these types, and types that are nested too deeply.
     fn order(&mut self) -> Vec<usize> {
         let count = self.bases.len();
         let (mut waiting, mut depth) = (vec![0usize; count], vec![0usize; count]);
@@ -199,7 +199,7 @@ impl<'t, 'a> Types<'t, 'a> {
         ty.base.text == ty.name.text
     }
 
-    /// Lowers a data type that has no definition except the name of a basic type.
+    /// Lowers a data type that is defined only by its name or by its data type index.
     fn defined_by_name(&mut self, reader: &mut Reader<'_, '_>, ty: &RawType<'_>) -> (Shape, Option<u32>) {
         let known = type_name::basic(&ty.name.text);
         let known = known.or_else(|| Some((type_name::by_code(ty.code?)?, Spelling::Standard)));
@@ -451,7 +451,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the types in the order of the file, followed by types that are defined only by their names.
+    /// Returns the types in the order of the file, followed by types that a name such as `BITARR8` defines.
     pub fn into_defs(self) -> Vec<TypeDef> {
         self.defs
     }
@@ -551,7 +551,8 @@ fn extents(one: &Field, other: &Field) -> String {
     format!("{} and {}", bits(one), bits(other))
 }
 
-/// Returns the lower bound and size of each dimension. Calculates a missing size from `BitSize`.
+/// Returns the lower bound and the number of elements of each dimension. If the number of a single dimension is
+/// missing, calculates it from `BitSize`.
 fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
     const MAX_DIMENSIONS: usize = 3;
     if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {

@@ -9,9 +9,9 @@ pub(super) enum DataType {
     Basic(Type),
     /// String whose length in bytes the file declares.
     String(StringType),
-    /// Number with a defined meaning (PROFIdrive and process control profiles).
+    /// Number with a defined meaning, such as a normalized value of PROFIdrive.
     Number(&'static NumberType),
-    /// Value with its quality, or two values.
+    /// Value with its status, or two values.
     Pair(&'static PairType),
     /// Octet string whose length in bytes the file declares. The last octet is a status.
     OctetsWithStatus,

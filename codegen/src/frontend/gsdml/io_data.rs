@@ -175,7 +175,7 @@ struct Bit {
 struct Layout {
     fields: Vec<PdoEntry>,
     items: Vec<IoItem>,
-    /// Length in bits of the fields that were added so far.
+    /// Length in bits of the data items that were added so far.
     at: u32,
     /// Number of bytes at the end of the data that are not user data.
     overhead: u32,
@@ -228,8 +228,8 @@ impl Layout {
         }
     }
 
-    /// Converts and reports PROFIsafe trailers that other data items follow. A trailer must be at the end of the data,
-    /// so such a trailer becomes data.
+    /// Converts the collected PROFIsafe trailers to data, and reports them. A trailer must be at the end of the data, so
+    /// a trailer before another data item is data.
     fn trailers_to_data(&mut self, reader: &mut Reader<'_, '_>) {
         for (at, origin) in std::mem::take(&mut self.trailers) {
             let Some(item) = self.items.get_mut(at) else { continue };
@@ -262,7 +262,8 @@ impl Layout {
         self.fields.push(PdoEntry { bit_offset, kind, name, ty, origin, ..PdoEntry::new(0, 0, bits) });
     }
 
-    /// Adds the named bits of a data item in ascending order, with padding between them.
+    /// Adds the named bits of a data item in ascending order, with padding for the other bits. Reports and leaves out
+    /// repeated bits and bits outside the data item.
     fn bits(&mut self, item: &DataItem, length: u32, reader: &mut Reader<'_, '_>) {
         let is_number = matches!(item.found, Some(DataType::Basic(Type::Unsigned(_) | Type::Integer(_))));
         let mut bits: Vec<(u32, &Bit)> =

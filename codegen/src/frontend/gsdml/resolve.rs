@@ -116,8 +116,8 @@ pub(super) struct Resolver<'a, 'd> {
     pub diagnostics: &'d mut Diagnostics,
     /// Texts with a suffix, by text identifier and suffix.
     suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
-    /// Numbers of the references whose missing texts were reported. Several elements of the IR may have the same
-    /// reference.
+    /// Numbers of the references whose missing texts were reported. Each reference is reported once, although several
+    /// elements of the IR may have it.
     missing: HashSet<usize>,
     /// Remaining number of text bytes that may be copied.
     budget: usize,
@@ -135,7 +135,8 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Resolver { list, references, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
     }
 
-    /// Replaces the placeholder in `name` with its text, and stores the translations in `names`.
+    /// Replaces the placeholder in `name` with its text, or with the text identifier if the text is missing. Stores the
+    /// translations of the text in `names`.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
         let digits = name.bytes().take_while(u8::is_ascii_digit).count();
         let (placeholder, suffix) = name.split_at(digits);
@@ -179,8 +180,8 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Some(found)
     }
 
-    /// Subtracts `length` bytes from the budget for copied texts. The budget prevents many references from multiplying
-    /// a long text.
+    /// Subtracts `length` bytes from the budget for copied texts. Returns false if the budget is too small. Without the
+    /// budget, many references could multiply a long text.
     fn spend(&mut self, length: usize, given: &Given<'_>) -> bool {
         self.spend_at(length, given.span)
     }

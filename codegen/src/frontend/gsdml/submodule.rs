@@ -121,14 +121,15 @@ impl<'a> Reader<'a, '_> {
         Ok((submodule, fixed))
     }
 
-    /// Reads an `ApplicationRelations` element. Only the first interface fills the fields of the IR.
+    /// Reads an `ApplicationRelations` element. Only the first such element of a device access point fills the fields
+    /// of the IR.
     pub fn application_relations(
         &mut self,
         parent: &Tag<'a>,
         settings: Option<&mut ProfinetSettings>,
         submodule: &mut Submodule,
     ) -> Read<()> {
-        // The `ApplicationRelations` element of a further interface becomes attributes of the submodule.
+        // Any other `ApplicationRelations` element becomes attributes of the submodule.
         let Some(settings) = settings.filter(|settings| settings.startup_modes.is_empty()) else {
             return self.keep_as_attributes(parent, &mut submodule.attributes);
         };

@@ -23,14 +23,14 @@ pub(super) struct TextList<'a> {
     primaries: usize,
     languages: Vec<CompactString>,
     seen: HashMap<CompactString, Span>,
-    /// Position of the entry to which the next text or reference probably belongs, because the texts of all languages
-    /// and most references have the same order.
+    /// Position of the entry that is tried first for the next text or reference. The texts of all languages and most
+    /// references have the same order.
     next: usize,
 }
 
 struct Entry<'a> {
     id: Cow<'a, str>,
-    /// Span of the text identifier in the primary language, or in another language if the primary one lacks the text.
+    /// Span of the first occurrence of the text identifier in the text list.
     span: Span,
     primary: Option<Cow<'a, str>>,
     /// Positions of the first and the last translation.
@@ -144,7 +144,8 @@ impl<'a> TextList<'a> {
         None
     }
 
-    /// Reports a language that translates only `count` texts of the primary language.
+    /// Reports a language that translates fewer texts than the primary language contains. `count` is the number of
+    /// translated texts.
     fn report_missing(&self, diagnostics: &mut Diagnostics, tag: &Tag<'a>, language: usize, count: usize) {
         let missing = self.primaries.saturating_sub(count);
         if missing == 0 {
@@ -180,7 +181,8 @@ impl<'a> TextList<'a> {
         self.entries.get(at)?.finished.clone()
     }
 
-    /// Stores unreferenced texts as extensions, and reports texts that are missing in the primary language.
+    /// Reports unreferenced texts and stores them as extensions. Also reports texts that are missing in the primary
+    /// language.
     pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         for entry in &self.entries {
             if entry.primary.is_none() {

@@ -76,7 +76,7 @@ impl<'a> Reader<'a, '_> {
         let parse = match ty {
             Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer_range,
             Type::Real32 | Type::Real64 => real_range,
-            // The IR cannot express allowed values of strings.
+            // The IR cannot express allowed values of other types, such as strings.
             _ => {
                 self.note("AllowedValues", given);
                 return limits;

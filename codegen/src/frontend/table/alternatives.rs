@@ -1,5 +1,5 @@
-//! Reads keys whose value can have one of two forms: a scale is a factor or a rule, and a condition contains values or
-//! bits.
+//! Reads keys whose value can have one of two forms: a scale factor or a scale rule, a number or a text, a Boolean or a
+//! text, the values or the bits of a condition.
 
 use toml::de::DeValue;
 

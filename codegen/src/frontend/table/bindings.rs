@@ -108,7 +108,7 @@ impl Rows {
         space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits))
     }
 
-    /// Returns all addresses of a row.
+    /// Returns all addresses of one item of a row.
     pub(super) fn bindings(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -158,7 +158,7 @@ impl Rows {
         bindings
     }
 
-    /// Returns the addresses of a row that do not depend on a space.
+    /// Returns those addresses of one item of a row that do not depend on a space.
     pub(super) fn other_addresses(
         &self,
         reader: &mut Reader<'_, '_>,
@@ -192,7 +192,7 @@ impl Rows {
         bindings
     }
 
-    /// Reports that a row has no address, or no address on the buses that it names.
+    /// Reports that a row has no address, or no address on its buses.
     pub(super) fn no_address(&self, reader: &mut Reader<'_, '_>, space: Option<usize>, named: Named<'_>, row: &Row) {
         let key = brief(&named.key.value);
         let message = match (&row.reg, &row.buses, space.and_then(|at| self.spaces.get(at))) {

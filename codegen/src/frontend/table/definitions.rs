@@ -66,7 +66,7 @@ impl Definitions {
         if let Some(&(_, id)) = made {
             return Some(Type::Named(id));
         }
-        // The name of the type has no suffix if `base` is the base that the definition declares.
+        // The name of the type has a suffix only if the definition declares a base other than `base`.
         let suffix = match self.base(reader, kind, &name.value) {
             Some(default_base) if default_base != base => base.integer_suffix(),
             _ => String::new(),
@@ -132,7 +132,8 @@ impl Definitions {
         }
     }
 
-    /// Creates types for unused definitions, so that errors in them are reported and the output contains them.
+    /// Creates types for unused definitions, so that the compiler reports errors in these definitions, and the output
+    /// contains their types.
     pub fn make_unused(&mut self, reader: &mut Reader<'_, '_>) {
         let enums = self.enums.names().map(|name| (DefinitionKind::Enumeration, name.clone()));
         let all: Vec<_> = enums.chain(self.bits.names().map(|name| (DefinitionKind::Bits, name.clone()))).collect();

@@ -25,7 +25,7 @@ pub const SCHEMA: &str = include_str!("../../../schema/table.json");
 /// Supported version of the format.
 const VERSION: u32 = 1;
 
-/// Keys of a table in the order in which they are read: elements come before the elements that refer to them.
+/// Top-level keys of a table, overlay or profile, except `doubts`.
 const KEYS: [&str; 25] = [
     "lexibus",
     "device",
@@ -120,7 +120,7 @@ pub(super) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// Parses a file, and replaces each option with the chosen value.
+    /// Parses a file, and replaces each option with the chosen value or the default value of the option.
     pub(super) fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
         let mut parts: Vec<_> =
             tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();
@@ -170,7 +170,7 @@ impl<'a> Table<'a> {
         self.parts.iter_mut().find(|(name, _)| name.value == key)?.1.take()
     }
 
-    /// Reads the table below the key `key`.
+    /// Reads the value of the top-level key `key`.
     pub(super) fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
         let node = self.node(key)?;
         let (start, end) = (node.span().start as u32, node.span().end as u32);
@@ -205,7 +205,7 @@ impl<'a> Table<'a> {
         entries.into_iter().filter_map(|(name, node)| Some((name, reader.piece(node)?))).collect()
     }
 
-    /// Reads the state that rows need: definitions, spaces and default values.
+    /// Reads the state that rows need: definitions, spaces and the table `[defaults]`.
     pub(super) fn rows(&mut self, reader: &mut Reader<'a, '_>, buses: Buses) -> Rows {
         let definitions = Definitions {
             units: ByName::new(self.named(reader, "units")),
@@ -232,7 +232,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads the elements that have fields: process images and messages.
+    /// Reads process images, messages, and the Modbus frames that the manual prints.
     fn frames(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         let mut images = images::Images::new(device);
         for image in self.list(reader, "images") {
@@ -255,7 +255,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads the elements that describe no items: axes, PDOs, codes, sequences.
+    /// Reads the elements that describe no items: axes, PDOs, codes, sequences and ambiguities.
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
             let models = axes.value.models.iter().flatten();
@@ -313,7 +313,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Reports names without a definition, in rows and sequences.
+/// Reports names without a definition in rows, definitions, messages and sequences.
 pub(super) fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
     let all = rows.references.iter().chain(&rows.definitions.mentioned);
     references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);

@@ -139,7 +139,8 @@ fn entry(item: &Item) -> PdoEntry {
     PdoEntry { kind: PdoEntryKind::Item, name: item.name.clone(), ty: item.ty, names: item.names.clone(), ..entry }
 }
 
-/// Returns the position in the image of a field that refers to an item. A field without a type has the length of the item.
+/// Returns the position of a field in the image. The field refers to `item`, and has the length of this item unless the
+/// field declares a type.
 fn of_item(
     reader: &mut Reader<'_, '_>,
     rows: &Rows,

@@ -1,4 +1,4 @@
-//! Names and addresses that are in use. Each name or address may belong to only one item.
+//! Finds items with the same name, the same address or overlapping registers.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};

@@ -10,8 +10,8 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Minimum number of rows in a chapter with both a register number and its object. From this number on, the lint
-/// expects an object in each row of the chapter.
+/// Minimum number of rows with both a register number and its object. If a chapter has this number of such rows, the
+/// lint expects an object in each row of the chapter.
 const PRINTED: usize = 3;
 
 /// Checks the digits and the value of a number against its type.
@@ -121,7 +121,7 @@ const BLOCK: u64 = 16;
 pub(super) const FORMULA: &str = "keep the number that the neighboring rows support, add a `doubt`, \
                                   and allow this code on the row";
 
-/// Register number and object of a row that prints both, and the object according to the rule of the space.
+/// Register number and object of a row that contains both, and the object according to the rule of the space.
 struct Printed {
     span: Span,
     number: i64,
@@ -183,7 +183,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
     }
 }
 
-/// Reports rows without an object in a chapter in which at least [`PRINTED`] rows print objects according to the rule
+/// Reports rows without an object in a chapter in which at least [`PRINTED`] rows contain objects that follow the rule
 /// of the space.
 pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)], space: Option<&Space>) {
     let printed = rows.iter().filter_map(|(_, row)| Printed::new(reader, &row.value, space));

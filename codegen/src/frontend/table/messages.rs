@@ -155,7 +155,7 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
     }
 }
 
-/// Reads an example frame of the manual.
+/// Reads an example in the manual: a request and its reply.
 fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Doubts) -> MessageExample {
     let example = &given.value;
     let origin = reader.origin(given);

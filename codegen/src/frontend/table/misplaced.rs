@@ -5,7 +5,7 @@ use super::format::{NumberOrText, Row};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 
-/// Keys, each with a flag that is true if the row has the key, and with the reason why the key has no effect.
+/// Keys, each with a flag that is true if the row has the key, and with the help text for a misplaced key.
 type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
 
 /// Checks a row in `[chapters.registers]` of a register table.
@@ -72,7 +72,7 @@ fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
     );
 }
 
-/// Checks a row of an overlay or profile, which cannot change addresses.
+/// Checks a row of an overlay or profile, which cannot change register numbers or object addresses.
 pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
     let patch = &row.value;
     let repeats = patch.count.is_some() || patch.max_count.is_some() || patch.stride.is_some();

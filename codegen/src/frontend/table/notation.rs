@@ -4,7 +4,7 @@
 pub(super) const OBJECT_HELP: &str =
     "write an index such as `0x6040`, a sub-index such as `\"0x1018:1\"`, or a range such as `\"0x1400..0x1403:1\"`";
 
-/// Reads an integer: `16`, `0x10`, `0b10000`, with an optional sign and `_` between digits.
+/// Reads an integer: `16`, `0x10`, `0o20`, `0b10000`, with an optional sign and `_` between digits.
 pub(super) fn integer(text: &str) -> Option<i128> {
     let text = text.trim();
     let (negative, digits) = match text.strip_prefix('-') {

@@ -73,7 +73,8 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
     }
 }
 
-/// Returns the register numbers in a text. A word such as `register` precedes each number: `register 10015`, `registro 10086-87`.
+/// Returns the register numbers in a text, and only the first number of a range. A word such as `register` precedes
+/// each number or range: `register 10015`, `registro 10086-87`.
 fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
     const WORDS: [&str; 4] = ["register", "registers", "registro", "registri"];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>'));

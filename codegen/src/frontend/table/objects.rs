@@ -38,7 +38,7 @@ pub(super) fn add(
     rows.allow(reader, key, row);
     super::lints::index(reader, key);
     let complete = match objects.subs {
-        // A row for an object as a whole describes no value, so it inherits no defaults.
+        // A row for a whole array or record describes no value, so the row inherits no defaults.
         None if row.value.ty.is_none() && has_no_value(&row.value) => row.value.clone(),
         _ => rows.complete(reader, key, &row.value, chapter),
     };

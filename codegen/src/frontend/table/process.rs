@@ -30,7 +30,7 @@ impl<'d> Targets<'d> {
         Targets { device, entries: Entries::new(&device.groups), names: ItemNames::new(&device.groups) }
     }
 
-    /// Returns the first item called `name`, or the item at the path `name`.
+    /// Returns the first item called `name`, or the item at the path `name` (`Chapter/Item`).
     fn by_name(&self, name: &str) -> Option<&'d Item> {
         self.names.by_name(name).or_else(|| self.names.by_path(name))
     }

@@ -26,7 +26,7 @@ pub(super) struct Mistake {
 
 #[derive(Debug)]
 pub(super) enum MistakeKind {
-    /// Key that the table does not have, and the keys that it has.
+    /// Unknown key, and the keys that the table can have.
     UnknownKey { key: String, known: &'static [&'static str] },
     /// Any other error, as a message.
     Value(String),

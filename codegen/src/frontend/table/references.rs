@@ -1,4 +1,4 @@
-//! Names that refer to other elements of the table: items, models, constants, messages, procedures.
+//! Names that refer to other elements of the table, such as items, models, messages and states.
 
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};

@@ -1,7 +1,7 @@
 //! JSON Schema of the format, which editors use to complete and check tables.
 //!
-//! The module is compiled for unit tests only, so that the compiler does not depend on `schemars`. The test below compares the
-//! schema with the file [`super::SCHEMA`].
+//! The module is compiled for unit tests only, so that the compiler does not depend on `schemars`. The test below
+//! compares the schema with [`super::SCHEMA`].
 //!
 //! The schema is derived from the types in `format`. This module adds the allowed words, the grammars of keys, and
 //! options in place of values.

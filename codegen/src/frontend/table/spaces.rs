@@ -90,7 +90,8 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
     }
 }
 
-/// Returns the Modbus requests that the device supports, according to the Modbus tables of its spaces.
+/// Returns the Modbus requests that the device supports, according to the Modbus rules of the spaces. Reports spaces
+/// whose rules contradict each other.
 pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<ModbusTable> {
     let mut found: Vec<ModbusTable> = Vec::new();
     for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.value.modbus.as_ref()?))) {

@@ -15,7 +15,8 @@ pub(super) fn enumeration<'d>(device: &'d Device, name: &str) -> Option<(Type, &
     })
 }
 
-/// Reads the states of a machine from bit patterns, or from the values of an enumeration.
+/// Reads the states of a machine from bit patterns, or from the values of an enumeration. Ranges of values, and
+/// reserved or vendor-specific values, are not states. Also returns a reference to the enumeration.
 pub(super) fn states(
     reader: &mut Reader<'_, '_>,
     table: &MachineTable,

@@ -251,7 +251,7 @@ impl<'a> Reader<'a, '_> {
         self.diagnostics.list().len() < MAX_HELPED
     }
 
-    /// Returns whether the file writes a number in hexadecimal or binary.
+    /// Returns whether a number is hexadecimal or binary in the file.
     pub fn is_pattern<T>(&self, at: &At<T>) -> bool {
         let text = self.source.slice(self.span(at)).trim_start_matches(['"', '\'']);
         text.starts_with("0x") || text.starts_with("0X") || text.starts_with("0b")

@@ -98,8 +98,8 @@ fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Dev
     Ok(())
 }
 
-/// Reads a decimal number or a number with the prefix `0x`. In other ISO 15745 profiles, the element may contain a
-/// text, which becomes an extension.
+/// Reads a number of the device identity. A text, which other ISO 15745 profiles allow, or a number that differs from
+/// an earlier one, becomes an extension.
 fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u32>) -> Read<()> {
     let given = reader.text(tag)?;
     if given.is_missing() {

@@ -16,8 +16,8 @@ use crate::ir::{
 };
 use crate::source::Span;
 
-/// Facts that a sub-object takes from its object: the parameter of the object, and the type that the type of the object
-/// defines for the sub-object.
+/// Facts that a sub-object takes from its object: the parameter of the object, and the type of the sub-object according
+/// to the data type of the object.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
@@ -277,7 +277,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Sets the unit and scale of an item: physical value = (raw value + offset) × multiplier of the parameter ×
+    /// Sets the unit, step and scale of an item: physical value = (raw value + offset) × multiplier of the parameter ×
     /// multiplier of the unit.
     fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
         let unit = view.find(|parameter| parameter.unit.as_deref());

@@ -1,4 +1,4 @@
-//! Records the positions of the objects in a file, which are read later in the order of their indices.
+//! Records the positions of the objects in a file. The objects are read later, in the order of their indices.
 
 use super::reader::Reader;
 use crate::diagnostics::codes;

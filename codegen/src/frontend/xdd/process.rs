@@ -10,7 +10,7 @@ use crate::syntax::xml::Tag;
 /// Maximum number of characters of a group label that are stored with each parameter of the group.
 const MAX_GROUP_LABEL: usize = 128;
 
-/// References of groups to parameters, each with the label of the innermost group.
+/// References of groups to parameters, each with the label of the innermost group that has a label.
 type Grouped<'a> = Vec<(Given<'a>, CompactString)>;
 
 /// Reads an `ApplicationProcess` element.

@@ -27,10 +27,11 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
     .collect()
 }
 
-/// Order in which data types are lowered: each type comes after the types that it refers to.
+/// Order in which data types are lowered: each type comes after the types that it refers to. Types for which no such
+/// order exists come last.
 struct Order {
     sequence: Vec<usize>,
-    /// For each data type, whether it contains itself or is nested too deeply.
+    /// For each data type, whether it contains itself, is nested too deeply, or refers to such a type.
     endless: Vec<bool>,
 }
 
@@ -147,7 +148,8 @@ impl<'t, 'a> Types<'t, 'a, '_> {
     }
 }
 
-/// Returns a type derived from `base`: a string of `count` characters or bytes, or an array of `count` elements.
+/// Returns a type derived from `base`: a string of `count` characters or bytes, an array of `count` elements, or an
+/// alias of `base` if there is no count or only one element.
 fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, Option<u32>) {
     let Some(count) = count.filter(|&count| count > 0) else { return (Shape::Alias(base), bits) };
     match base {

@@ -1,5 +1,6 @@
 //! Elements and attributes that the standard does not define, or for which the IR has no field. They become extensions.
-//! Those that the standard does not define are reported if the user enables the diagnostic.
+//! The reader reports likely misspellings by default, and all other names that the standard does not define if the user
+//! enables the diagnostic.
 
 use compact_str::{format_compact, CompactString};
 

@@ -44,8 +44,8 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
 
-/// Returns, for each message, whether the meaning of its reply depends on an earlier message, but no message with
-/// generated code can determine this meaning.
+/// Returns, for each message, whether its reply cannot be decoded: the meaning of the reply depends on an earlier message, and no
+/// message with generated code can determine this meaning.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let selectors: HashSet<MessageId> =
         all.iter().filter(|shaped| shaped.can_select()).map(|shaped| shaped.id).collect();
@@ -77,7 +77,7 @@ pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize>
     shapes.iter().position(|shaped| shaped.id == id && !shaped.message.reply.is_empty() && !shaped.reply.borrows())
 }
 
-/// Returns an error if the request or reply of a message has no supported steps.
+/// Returns the reason as an error if the request or reply of a message cannot be represented as steps.
 pub(crate) fn problem(device: &Device, message: &Message) -> Result<(), Problem> {
     sides(device, message).map(drop)
 }

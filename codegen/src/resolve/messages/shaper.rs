@@ -26,9 +26,9 @@ const COUNT: Problem = "the number of repetitions is not a separate unsigned int
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,
-    /// Name, bit offset and length in bits of each value before the first step with a variable length.
+    /// Name, bit offset and length in bits of each value and completely copied field before the first step with a variable length.
     offsets: Vec<(&'a str, u32, u32)>,
-    /// Names of the values and copied fields that are not repeated.
+    /// Names of the values and completely copied fields that are not repeated.
     names: Vec<&'a str>,
     /// Bit offset and length in bits of the first parameter number.
     code: Option<(u32, u32)>,
@@ -197,7 +197,8 @@ impl<'a> Shaper<'a, '_> {
         (is_whole && is_within).then_some(Step::Echo { first: at / 8 + first, count: last - first + 1 }).ok_or(ECHO)
     }
 
-    /// Returns the byte offset of the parameter number in the request, if this number has a length of `bits` bits.
+    /// Returns the byte offset of the parameter number in the request, if this number consists of whole bytes, starts at a byte
+    /// boundary, and has a length of `bits` bits.
     fn requested_code(&self, bits: u32) -> Option<u32> {
         let (at, length) = self.request?.code?;
         (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
@@ -236,8 +237,8 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Checks that the steps contain at most one counted list and at most one other step with a variable length. The counted list
-/// must come after its count and before the other step.
+/// Checks that the steps contain at most one list of repeated fields, and at most one step with a variable length in addition to a
+/// counted list. A counted list must come after its count and before the other step.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);
@@ -275,7 +276,7 @@ fn name(field: &MessageField) -> Option<&str> {
     }
 }
 
-/// Returns the names of the values and copied fields that are not repeated.
+/// Returns the names of the values and completely copied fields that are not repeated.
 fn names(fields: &[MessageField]) -> impl Iterator<Item = &str> {
     fields.iter().filter_map(name)
 }

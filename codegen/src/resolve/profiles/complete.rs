@@ -1,7 +1,7 @@
 //! Adds the facts of a profile that a description lacks.
 //!
-//! Facts of the description do not change: names, types of bits and values, units, descriptions. A profile adds nothing to an
-//! object whose width differs from that in the profile, or to a missing object. Such differences are not reported.
+//! Facts that the description states do not change. A profile adds nothing to an item whose type does not match the type in the
+//! profile, or to a missing object. Such differences are not reported.
 
 use std::collections::HashMap;
 
@@ -30,7 +30,7 @@ pub(crate) struct Completion<'p> {
     added: HashMap<(TypeId, Type), TypeId>,
 }
 
-/// The old and the new type of each changed item, by object.
+/// The old and the new type of each changed item, by index and sub-index.
 type Replaced = HashMap<(u16, u8), (Type, Type)>;
 
 impl<'p> Completion<'p> {
@@ -42,8 +42,8 @@ impl<'p> Completion<'p> {
     /// or overlay.
     pub(crate) fn device(&mut self, device: &mut Device, is_table: &dyn Fn(FileId) -> bool) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        // The codes of the profile are left out if the manual lists codes, because both lists may contradict each
-        // other. The diagnosis texts of an ESI have other codes, which do not conflict with those of the profile.
+        // The codes of the profile are left out if the manual lists codes, because the two lists can contradict each other. The
+        // diagnosis texts of an ESI have other codes, which do not conflict with those of the profile.
         let of_manual =
             |table: &CodeTable| is_table(table.origin.span.file) && !is_of_profile(table.stated_by.as_deref());
         let has_codes = device.code_tables.iter().any(of_manual);
@@ -210,7 +210,7 @@ impl<'p> Completion<'p> {
         ty
     }
 
-    /// Returns whether a type names neither bits nor values.
+    /// Returns whether a type is basic, or an alias of a basic type.
     fn is_plain(&self, ty: Type) -> bool {
         let mut ty = ty;
         loop {
@@ -341,7 +341,7 @@ fn letters(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Returns whether the name of a submodule contains the name of a telegram that no further digit follows.
+/// Returns whether the name of a submodule contains the name of a telegram without a digit directly after it.
 fn is_called(name: &str, telegram: &str) -> bool {
     let (name, telegram) = (name.to_lowercase(), telegram.to_lowercase());
     let mut matches = name.match_indices(telegram.as_str());

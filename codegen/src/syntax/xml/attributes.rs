@@ -58,7 +58,7 @@ pub struct Attributes<'a> {
     rest: &'a str,
     at: u32,
     file: FileId,
-    /// The first names of the tag, up to [`limits::MAX_COMPARED_EXTENSIONS`], to detect duplicates.
+    /// Names of the first attributes of the tag, up to [`limits::MAX_COMPARED_EXTENSIONS`], to detect duplicates.
     seen: SmallVec<[&'a str; 16]>,
     /// Bit mask of the names in `seen`. Each name sets one of 64 bits, which depends on its first byte and its length.
     /// A name whose bit is not set is no duplicate, so `seen` need not be searched.

@@ -39,7 +39,7 @@ pub enum Event<'a> {
     Start(Tag<'a>),
     /// End of the innermost open element.
     End,
-    /// Text or CDATA. Comments divide a text into several events.
+    /// Text or CDATA. Comments, processing instructions and CDATA sections divide a text into several events.
     Text(Text<'a>),
 }
 

@@ -128,8 +128,8 @@ pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
     }
 }
 
-/// Returns whether `bytes` contain an even number of double quotation marks and no single quotation mark. Then, the `>`
-/// after `bytes` ends the tag. The loop has no early exit, which allows vectorization.
+/// Returns whether `bytes` contain an even number of double quotation marks and no single quotation mark. If so, the `>` after
+/// `bytes` ends the tag. The loop has no early exit, which allows vectorization.
 fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
     let (odd, single) = bytes
         .iter()

@@ -9,7 +9,7 @@
         /// Peak: 0x2000:01, UNSIGNED16, read-only, mappable into TPDOs.
         /// Accessor: [`TemperatureAccessors::peak`]. Mapped in [`Values`](super::super::pdo::Values).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const PEAK: super::ReadOnly<u16> = super::ReadOnlyU16::flagged_coe_object(
             0x2000,
             0x01,

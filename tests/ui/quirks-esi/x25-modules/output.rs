@@ -62,7 +62,7 @@
                 /// In 1: 0x6000:01, BOOLEAN, read-only, mappable into TPDOs.
                 /// Mapped in [`Inputs`](super::super::pdo::Inputs).
                 ///
-                /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+                /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
                 pub const IN_1: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
                     0x6000,
                     0x01,

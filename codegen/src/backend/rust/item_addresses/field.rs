@@ -16,8 +16,8 @@ pub(super) struct Field<'i> {
 }
 
 impl<'i> Field<'i> {
-    /// Creates the field of a value of type `base`. Returns `None` for other bindings, and for fields that the runtime
-    /// cannot read.
+    /// Creates the field of a value of type `base` from a binding. Returns `None` if the binding does not refer to a
+    /// process image of the device, or if the runtime cannot read the field.
     pub fn of(scope: &Scope<'_>, base: Type, binding: &'i Binding) -> Option<Self> {
         let Binding::Image(binding) = binding else { return None };
         let ImageBinding { image, bit_offset, bits, ty } = &**binding;

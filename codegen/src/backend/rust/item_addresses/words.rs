@@ -9,7 +9,7 @@ use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// Returns all addresses of an item in words.
+    /// Returns the addresses of an item in words, except an address in the memory of a slave controller.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
         let object = |(index, sub)| address::object(index, sub);
         let mut facts = Vec::new();

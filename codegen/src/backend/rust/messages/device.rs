@@ -79,8 +79,8 @@ pub(super) fn calls(
     calls
 }
 
-/// Returns the names of a method's arguments: the names of the fields. A name that consists only of digits is replaced,
-/// because clippy rejects such names.
+/// Returns the names of a method's arguments: the names of the fields. A name that consists only of digits and
+/// underscores is replaced, because clippy rejects such names.
 fn arguments(fields: &[Field]) -> Vec<String> {
     let mut names: Vec<String> = fields.iter().map(|field| field.name.clone()).collect();
     for at in 0..names.len() {
@@ -91,7 +91,7 @@ fn arguments(fields: &[Field]) -> Vec<String> {
     names
 }
 
-/// Returns the documentation of a method: the lines about the message, and the type of the request.
+/// Returns the documentation of a method: the lines about the message, and a link to the type of the request.
 fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     let sends = format!("Sends the message {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
@@ -109,7 +109,8 @@ pub(super) fn by_default(
     calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
 }
 
-/// Returns a note about the replacement of a message. The note names the new message and the models that have it.
+/// Returns a note that names the replacement of a message and, if the description states them, the models that have the
+/// replacement. Returns `None` if the message is not replaced.
 fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
     let name = message.availability.as_ref()?.replaced_by.as_ref()?;
     let other = all.iter().find(|shape| name.id == Some(shape.id.into()));
@@ -122,7 +123,7 @@ fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
     })
 }
 
-/// Returns the type of the referenced message.
+/// Returns the name of the request type of the referenced message.
 fn selector(shaped: &[Shaped<'_>], messages: &[MessageModel], message: Option<&MessageRef>) -> Option<String> {
     let id = message?.id?;
     let at = shaped.iter().position(|shape| shape.id == id)?;

@@ -120,7 +120,8 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     let base = context.base(item.ty);
     let (ty, kind) = match field_type {
         FieldType::Bytes(length) => (format!("[u8; {length}]"), FieldKind::Text { length }),
-        // A number with a width that no primitive integer has is stored in a primitive integer and needs a range check.
+        // If no primitive integer has the width of the number, the number is stored in a wider primitive integer and
+        // needs a range check.
         FieldType::Odd(signed, _) => {
             let native = native(signed, bits);
             let width: u32 = native[1..].parse().unwrap_or(64);
@@ -169,7 +170,7 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
     Field { docs: documentation(context, item, base), ty, ty_at_top, attribute: None, scale, position, kind, name }
 }
 
-/// Returns the name of the variable for the value that was read for the field at `position`.
+/// Returns the name of the variable that holds the undecoded value of the field at `position`.
 fn local(position: usize) -> String {
     format!("value_{position}")
 }
@@ -186,7 +187,7 @@ fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Che
     (range.text() != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
 }
 
-/// Returns the range check for a number with fewer bits than its Rust type.
+/// Returns the range check for a number that has fewer bits than its Rust type, or a list of allowed values.
 fn narrow(item: &Item, base: Type, native: &str, value: String) -> Option<Check> {
     let value_type = ValueType::Odd { name: "", range: base.integer_range()? };
     Some((native.to_owned(), value, value_type.range_within(&variant::widest(item))?))
@@ -224,7 +225,7 @@ fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> 
 }
 
 impl Field {
-    /// Returns the name of the variable for the value that was read.
+    /// Returns the name of the variable that holds the undecoded value of the field.
     pub(super) fn local(&self) -> String {
         match self.kind {
             FieldKind::List => "list".to_owned(),
@@ -245,7 +246,8 @@ impl Field {
         }
     }
 
-    /// Returns whether a limit of the field may be close to a mathematical constant. Clippy reports such literals.
+    /// Returns whether the limits of the field are real numbers. Clippy reports literals that are close to a
+    /// mathematical constant.
     pub(super) fn has_real_limits(&self) -> bool {
         matches!(&self.kind, FieldKind::Value { check: Some((ty, ..)), .. } if ty.starts_with('f'))
     }
@@ -255,7 +257,7 @@ impl Field {
         matches!(self.kind, FieldKind::List)
     }
 
-    /// Returns whether the field contains the value of a single parameter in a parameter space.
+    /// Returns whether the field contains the value of a single parameter from the parameter space `space`.
     pub(super) fn is_value_of(&self, space: &str) -> bool {
         match &self.kind {
             FieldKind::Setting { space: of_field, .. } | FieldKind::ValueOnly { space: of_field } => of_field == space,
@@ -263,7 +265,7 @@ impl Field {
         }
     }
 
-    /// Returns the method argument for the field, named `name`, and the field initializer that uses this argument.
+    /// Returns the method argument `name`, which sets the field, and the field initializer that uses this argument.
     pub(super) fn argument(&self, name: &str, rules: &Rules) -> (String, (String, Doc)) {
         match &self.kind {
             FieldKind::Settings { space, bits } => {

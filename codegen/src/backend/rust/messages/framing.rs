@@ -7,7 +7,7 @@ use crate::facts::number::{hex16, hex8};
 use crate::ir::{Device, Framing};
 use crate::resolve::messages::{Shaped, Step};
 
-/// Assumed length in bytes of a part of the data without a maximum length.
+/// Assumed length in bytes of a part of the message data that has no maximum length.
 const UNBOUNDED_LENGTH: u32 = 256;
 
 /// Returns the expression of the framing constant. Returns `None` if frames have no end byte, or if the runtime does

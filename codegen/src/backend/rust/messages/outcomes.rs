@@ -24,7 +24,7 @@ pub(in crate::backend::rust) struct OutcomesModel {
     pub value: Doc,
 }
 
-/// Returns the effects of all messages.
+/// Returns the effects of all messages, keyed by message.
 pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<MessageId, Vec<OutcomesModel>> {
     let machines = || device.machines.iter().enumerate().filter(|(_, machine)| !machine.outcomes.is_empty());
     let mut all: HashMap<MessageId, Vec<OutcomesModel>> = HashMap::new();
@@ -51,7 +51,7 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
     all
 }
 
-/// Returns the name of a machine's constant, for devices with effects for several machines.
+/// Returns the name of the constant for a machine. Used only if several machines of the device have effects.
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
     let name_request = NameRequest { name: &name, fallback: String::new(), suffix: "machine".to_owned() };
@@ -68,7 +68,7 @@ fn states(context: &Context<'_>, machine: &StateMachine, position: usize, types:
     machine::states_of(context, machine, model, &types.enumerations)
 }
 
-/// Returns the paths of the states of all machines.
+/// Returns the path of each state of each machine.
 pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<DeviceStateId, String> {
     let mut links = HashMap::new();
     for (position, machine) in device.machines.iter().enumerate() {
@@ -119,7 +119,7 @@ fn documentation(
         docs::words(cell.documentation.as_deref(), &mut words);
         [cell.outcomes.iter().map(one).collect::<Vec<_>>().join(" or "), words.join(" ")]
     };
-    // States in which the message has the same effect share a row of the documentation table.
+    // States with the same effect and the same note share a row of the documentation table.
     let mut rows: Vec<[String; 3]> = Vec::new();
     for state_outcome in &row.cells {
         let [outcome, note] = cell(state_outcome);

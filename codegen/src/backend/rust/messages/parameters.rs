@@ -15,13 +15,13 @@ pub(in crate::backend::rust) struct ParametersModel {
 
 /// The message that reads or writes the parameters of a space.
 pub(in crate::backend::rust) struct Arm {
-    /// Name of the constant with the space's parameter numbers and lengths.
+    /// Name of the constant with the encoding rule of the space.
     pub rule: String,
     /// Rust type of the message.
     pub message: String,
     /// Names and values of the message's fields.
     pub build: Vec<(String, Doc)>,
-    /// Expression that returns the value from the reply.
+    /// Expression that returns the value from the reply. Empty for a message that writes.
     pub value: String,
 }
 

@@ -44,9 +44,9 @@ pub(in super::super) struct MessageModel {
     pub call_docs: Vec<String>,
     /// The request. `None` if only the device sends the message.
     pub request: Option<DataModel>,
-    /// The reply. `None` if the description contains no reply to the request.
+    /// The reply. `None` if the description contains no reply.
     pub reply: Option<DataModel>,
-    /// Type of the reply with which the device refuses the request.
+    /// Type of the reply with which the device refuses the request, or `Infallible` if there is no such reply.
     pub refusal: String,
     pub completion: Doc,
     /// True if this request determines the meaning of other requests.
@@ -80,8 +80,8 @@ pub(in super::super) struct EntryModel {
 }
 
 impl ProtocolModel {
-    /// Creates the protocol of a device. Returns `None` if the device has no messages. `reserved` contains names that
-    /// the protocol's methods must not have.
+    /// Creates the protocol of a device. Returns `None` for a module, and if code is generated for none of the device's
+    /// messages. `reserved` contains names that the protocol's methods must not have.
     pub(in super::super) fn new(
         context: &Context<'_>,
         options: &RustOptions,
@@ -258,8 +258,8 @@ impl Maker<'_, '_> {
         (fields, borrows)
     }
 
-    /// Returns the `derive` attributes of a struct. Structs that borrow, for example lists, support neither `serde` nor
-    /// `defmt`.
+    /// Returns the `derive` attributes of a struct. Structs that borrow, for example those with a list, support neither
+    /// `serde` nor `defmt`.
     fn derives(&self, borrows: bool) -> Vec<String> {
         if !borrows {
             return self.options.derives(true);

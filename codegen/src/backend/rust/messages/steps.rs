@@ -30,7 +30,7 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
     let mut statements = Statements::default();
     let list = fields.iter().find(|field| field.is_list()).map_or("", |field| field.name.as_str());
     let mut fields = fields.iter();
-    // Statements that come after all others, because they need the total length.
+    // Statements for writing that come after all others, because they need the total length.
     let mut end = Vec::new();
     // A check that follows the statement of the next step.
     let mut next = None;

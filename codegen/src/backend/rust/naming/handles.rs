@@ -112,7 +112,7 @@ impl<'a> HandleNames<'a> {
     }
 }
 
-/// Returns unique names: first of the registers, then of the objects.
+/// Returns unique names: first those of the registers, then those of the objects.
 fn unique(located: &Located<'_>) -> Vec<String> {
     let suffixes: Vec<String> =
         located.registers.iter().map(|register| ItemAddresses::of(located, register.item).suffix()).collect();

@@ -50,7 +50,7 @@ impl<'a> NamedMessages<'a> {
         NamedMessages { names: names(&shapes), shapes }
     }
 
-    /// Returns the paths of all messages.
+    /// Returns the path of each message that has a request or a reply.
     pub fn paths(&self) -> impl Iterator<Item = MessagePath> + use<'_> {
         let path = |(shape, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
             let is_request = !shape.message.request.is_empty();

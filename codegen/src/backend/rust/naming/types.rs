@@ -136,7 +136,7 @@ impl<'a> TypeNames<'a> {
     }
 }
 
-/// Returns the name of a type before it is made unique.
+/// Returns the name of a type before the names are made unique.
 fn pascal(name_request: &NameRequest<'_>) -> String {
     names::identifier(name_request, Case::Pascal)
 }
@@ -210,7 +210,8 @@ fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     TypeNames { enumerations, bit_fields, in_fields, machines: Vec::new() }
 }
 
-/// Returns whether any bit has a name in the description. Fallback names such as "Bit 3" do not count.
+/// Returns whether any bit has a name in the description. Reserved bits and fallback names such as "Bit 3" do not
+/// count.
 fn is_named(fields: &[BitFieldEntry]) -> bool {
     fields.iter().any(|field| match field.meaning {
         BitMeaning::Reserved { .. } => false,
@@ -254,7 +255,8 @@ fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<Vie
     views
 }
 
-/// Returns the names of the values in a condition. Returns `None` if a value has no name or the condition has a mask.
+/// Returns the names of the values in a condition: from the enumeration of the item, or as the condition states them.
+/// Returns `None` if neither source names all values, or if the condition has a mask.
 pub(in crate::backend::rust) fn value_names(scope: &Scope<'_>, condition: &Condition) -> Option<Vec<String>> {
     let item = scope.referred(&condition.item);
     let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);

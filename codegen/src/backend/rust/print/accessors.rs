@@ -1,4 +1,4 @@
-//! Prints the Rust type of a device, which has a method for each value and each request.
+//! Prints the Rust type of a device, which has methods for objects, registers, requests and state machines.
 
 use super::objects::access;
 use crate::backend::rust::code::{call, generic, line, open, seq, Code};
@@ -9,7 +9,7 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::walk::WalkModel;
 
-/// Drops the documentation of the methods after it was printed.
+/// Prints the type, and drops the documentation of its methods.
 pub(super) fn write(code: &mut Code, model: &mut Model) {
     if !model.has_accessors {
         return;
@@ -106,7 +106,7 @@ fn methods(code: &mut Code, model: &mut Model) {
     }
 }
 
-/// Writes the method that leads a state machine to a state, blocking or async.
+/// Writes the blocking or async method that leads a state machine to a state.
 fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
     let (suffix, keyword, client, done) =
         if is_async { ("_async", "async ", "rt::AsyncClient", ".await") } else { ("", "", "rt::Client", "") };

@@ -1,4 +1,5 @@
-//! Prints the method that returns the operations of CiA 402, and the implementations of their traits.
+//! Prints the method that returns the CiA 402 operations, and the implementations of the traits that these operations
+//! need.
 
 use crate::backend::rust::cia402::{Cia402Model, FunctionModel};
 use crate::backend::rust::code::{call, generic, line, open, seq, Code, MARGIN};
@@ -12,7 +13,7 @@ pub(super) fn method(code: &mut Code, device: &str, model: &Cia402Model) {
     code.close("}");
 }
 
-/// Writes the implementations of the traits for the type `device` without a client.
+/// Writes the implementations of the traits for the type `device<()>`, which has no client.
 pub(super) fn objects(code: &mut Code, device: &str, model: &Cia402Model) {
     for implementation in &model.traits {
         let (bound, ty) = (format!("impl<B: rt::Bus> {}<B>", implementation.path), format!("for {device}<()>"));

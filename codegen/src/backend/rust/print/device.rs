@@ -1,4 +1,4 @@
-//! Prints the start of a device's module: its identity and the constants for an EtherCAT master.
+//! Prints the start of a device's module: identity, node-ID, bus constants, EtherCAT constants and axes.
 
 use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::ethercat::EtherCatModel;

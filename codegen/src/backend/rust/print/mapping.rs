@@ -1,4 +1,5 @@
-//! Prints the modules that `lexibus::pdo!` reads: PDOs with a changeable mapping, and items that can be mapped.
+//! Prints the modules that `lexibus::pdo!` uses: PDOs with a changeable mapping, and the items that the macro must
+//! know.
 
 use crate::backend::rust::code::{line, list, open, Code, Stop};
 use crate::backend::rust::model::Model;

@@ -124,7 +124,7 @@ fn parameters(code: &mut Code, model: &ParametersModel, has_station: bool) {
     code.close("}");
 }
 
-/// Writes code that sends the message of the first arm whose condition is true. Also writes the end of the function.
+/// Writes code that encodes the message of the first arm whose condition is true. Also writes the end of the function.
 fn sent(code: &mut Code, arms: &[Arm], has_station: bool, unused: &str, condition: impl Fn(&Arm) -> String) {
     if arms.is_empty() {
         line!(code, "let _ = (", unused, ", &mut to);");
@@ -332,7 +332,7 @@ fn scales(code: &mut Code, name: &str, lifetime: &str, fields: &[Field]) {
     code.close("}");
 }
 
-/// Writes the methods that send requests.
+/// Writes the constructor `on` and the methods that send requests.
 pub(super) fn methods(code: &mut Code, model: &Model) {
     let Some(protocol) = model.protocol.as_ref().filter(|protocol| !protocol.calls.is_empty()) else { return };
     let (name, state) = (&model.device_name, selected(model));

@@ -8,7 +8,7 @@ use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::reexport::Section;
 use crate::backend::rust::window_model::WindowModel;
 
-/// Drops the code and documentation of each handle after it was printed.
+/// Prints the windows and handles, and drops the code and documentation of each printed handle.
 pub(super) fn write(code: &mut Code, model: &mut Model) {
     windows(code, &model.windows);
     if model.objects.is_empty() {

@@ -9,7 +9,7 @@ use super::device::identity;
 use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
 use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
 
-/// Writes all device access points of a file with the modules and submodules that fit into them.
+/// Writes the code of a file: device access points, modules, submodules, enumerations and diagnosis.
 pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     for point in &file.access_points {
         if file.is_single {

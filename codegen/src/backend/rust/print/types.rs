@@ -293,7 +293,7 @@ fn commands(code: &mut Code, patterns: &PatternsModel) {
     open!(code, "impl ", patterns.name, " {");
     code.doc("Returns the command that these bits encode, or `None` if the bits match no command.");
     code.doc("");
-    code.doc("If several commands match, the function returns the command with the most bits, and the first of several such commands.");
+    code.doc("If several commands match, the function returns the first of those whose masks have the most bits.");
     let mut by_bits: Vec<&PatternModel> = patterns.patterns.iter().collect();
     by_bits.sort_by_key(|pattern| std::cmp::Reverse(pattern.defined_bits));
     decoder(code, patterns, by_bits.into_iter());

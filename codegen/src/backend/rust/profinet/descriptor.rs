@@ -28,7 +28,7 @@ pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub f_record: Option<FRecordModel>,
     /// Elements of the record list, sorted by transfer sequence.
     pub record_list: Vec<Doc>,
-    /// True if any field is an enumeration.
+    /// True if the type of any field or constant is an enumeration.
     pub uses_values: bool,
 }
 

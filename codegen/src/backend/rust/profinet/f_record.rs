@@ -10,7 +10,7 @@ pub(in crate::backend::rust) struct FRecordModel {
     pub transfer_sequence: u16,
     pub length: u32,
     pub docs: Vec<String>,
-    /// Fields of the runtime's type with their default values.
+    /// Fields of `rt::profinet::FParameters` with their default values.
     pub defaults: Vec<(&'static str, String)>,
     pub limits: Vec<Doc>,
 }

@@ -21,8 +21,8 @@ pub(super) struct FieldPosition {
 }
 
 impl FieldPosition {
-    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if `bits` is 0, or if the bits end
-    /// after `length` bytes.
+    /// Returns the position of `bits` bits at bit offset `offset`. Returns `None` if `bits` is 0, or if the bits extend
+    /// beyond `length` bytes.
     pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
         let position = FieldPosition { byte: offset / 8, bit: offset % 8, bits };
         let last_bit = (position.bit + 8).checked_add(bits)?;
@@ -67,8 +67,8 @@ enum FieldKind {
         signed: bool,
     },
     Real,
-    /// A time type of the runtime that consists of six bytes. The text is the name of the functions that convert the
-    /// type.
+    /// A time type of the runtime that consists of six bytes. The text is the name of the function that decodes the
+    /// type; the function that encodes it has the prefix `from_`.
     Time(&'static str),
     Bytes,
 }
@@ -76,8 +76,8 @@ enum FieldKind {
 /// Purpose of the struct that contains a field. The purpose determines the Rust types of integers with unusual widths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
-    /// The struct is an image of cyclic data, which is written without checks. The types of fields can hold only valid
-    /// values.
+    /// The struct is an image of cyclic data, which is written without checks. Each field therefore has a type that can
+    /// hold only valid values.
     Image,
     /// The struct is a record, whose values are checked before the record is written. Integer fields have primitive
     /// types.
@@ -94,8 +94,8 @@ pub(super) struct Field<'v> {
 }
 
 impl<'v> Field<'v> {
-    /// Creates a field of type `ty`. `bits` contains the bit offset of the field and its number of bits. Returns `None` if the field
-    /// exceeds `length` bytes or has no Rust type.
+    /// Creates a field of type `ty`. `bits` contains the bit offset of the field and its number of bits. Returns `None`
+    /// if the field exceeds `length` bytes or has no Rust type.
     pub(super) fn new(values: &'v Values<'_>, ty: Type, bits: (u32, u32), length: u32, usage: Use) -> Option<Self> {
         let position = FieldPosition::within(length, bits.0, bits.1)?;
         let (base, enumeration) = values.resolve(ty);
@@ -104,7 +104,8 @@ impl<'v> Field<'v> {
         Some(Field { kind, position, enumeration, usage })
     }
 
-    /// Returns the field's original type and its position, in words.
+    /// Returns the field's original type and its position, in words. For a bit or a bit area, returns only the
+    /// position.
     pub(super) fn facts(&self, types: &[TypeDef], ty: Type) -> String {
         let position = self.position.words();
         match self.kind {
@@ -259,7 +260,8 @@ impl<'v> Field<'v> {
     }
 }
 
-/// Returns the interpretation of a field with a basic type.
+/// Returns the interpretation of a field with the basic type `base`. Returns `None` if the field is neither a sequence
+/// of whole bytes nor an integer within one word.
 fn kind(base: Type, position: FieldPosition) -> Option<FieldKind> {
     let FieldPosition { bit, bits, .. } = position;
     let is_bytes = position.is_bytes();

@@ -54,7 +54,8 @@ pub(in crate::backend::rust) struct FieldModel {
     pub constant: &'static str,
 }
 
-/// Returns the inputs or outputs of `submodule`. Returns `None` if the inputs or outputs have no fields.
+/// Returns the inputs or outputs of `submodule`. Returns `None` if the submodule has no data or no fields in this
+/// direction.
 pub(super) fn model(
     submodule: &Submodule,
     direction: Direction,

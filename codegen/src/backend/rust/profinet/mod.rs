@@ -2,7 +2,7 @@
 //! slots.
 //!
 //! The device access points of a file share modules and submodules. No code is generated for modules and submodules
-//! that fit none of the device access points.
+//! that fit into none of the device access points.
 
 mod descriptor;
 mod diagnosis;

@@ -12,8 +12,8 @@ use crate::ir::{Catalog, Direction, IoData, ModuleUse, Numbers, Submodule, Submo
 pub struct ProfinetProgram {
     /// Number of places in the slot plan: one for each submodule, and one for each module without submodules.
     pub places: usize,
-    /// Module that the program plugs, and its slot. `None` if the program exchanges the data of a fixed or default
-    /// module, or if no module has cyclic data.
+    /// Slot and name of the module that the program plugs. `None` if the program exchanges the data of a fixed or
+    /// default module, or no data.
     pub plugged: Option<(u16, String)>,
     /// Whether the program also plugs the submodule whose data it exchanges.
     pub plugs_submodule: bool,
@@ -158,7 +158,7 @@ impl<'s> Plan<'s> {
         })
     }
 
-    /// Returns whether the device can exchange the data of all submodules.
+    /// Returns whether the device can exchange the data of all plugged submodules.
     fn has_room(&self) -> bool {
         let ids = self.slots.values().flat_map(|slot| slot.submodules.values());
         let all = ids.filter_map(|id| Some(self.scope.submodules.get(&id.0)?.0)).map(lengths);

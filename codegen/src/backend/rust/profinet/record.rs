@@ -43,7 +43,7 @@ pub(in crate::backend::rust) struct RecordModel {
     pub fields: Vec<FieldModel>,
     /// Default values of the changeable fields.
     pub defaults: Vec<Doc>,
-    /// Fields that users cannot change, and which become constants.
+    /// Fields that cannot be changed and therefore become constants.
     pub constants: Vec<ConstantModel>,
     /// Statements that check the values of the fields.
     pub checks: Vec<Doc>,

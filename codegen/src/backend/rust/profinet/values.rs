@@ -95,7 +95,7 @@ impl<'a> Values<'a> {
 }
 
 /// Returns the base type of an enumeration and the values that fit in it, without repetitions. A range of values does
-/// not become a variant. Returns `None` if no value remains.
+/// not become a variant. Returns `None` if no value remains, or if the base type is not an integer.
 fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&'a EnumValue>)> {
     let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
     let base = match resolve(types, *base).0 {

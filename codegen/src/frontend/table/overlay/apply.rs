@@ -267,8 +267,8 @@ impl<'o> Applied<'o> {
         if count > 0 {
             self.overlay_doubts(reader, &mut doubts);
         }
-        // In the IR, only devices have ambiguities. The selected devices that have the module get the ambiguities, or all
-        // selected devices if none has the module.
+        // In the IR, a module has no list of ambiguities. The selected devices that have the module get the
+        // ambiguities, or all selected devices if none has the module.
         let takes = |device: &Device| device.modules.iter().any(|usage| chosen(&wanted, usage.module.0 as usize));
         let any_takes = devices.iter().any(|device| is_for(device, applies) && takes(device));
         for device in devices.iter_mut().filter(|device| is_for(device, applies) && (takes(device) || !any_takes)) {
@@ -307,7 +307,7 @@ impl<'o> Applied<'o> {
         best
     }
 
-    /// Reports rows that match or change nothing, and definitions that no row uses.
+    /// Reports rows that match nothing or change nothing, and definitions that no row uses.
     fn report(&self, reader: &mut Reader<'_, '_>) {
         let errors = reader.diagnostics.error_spans();
         for (row, effect) in self.patcher.overlay.patch.rows.iter().zip(&self.effects) {

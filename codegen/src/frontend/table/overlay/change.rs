@@ -30,7 +30,7 @@ pub(super) struct ObjectSet<'c> {
     pub buses: ObjectBuses,
 }
 
-/// Effect of a row, in ascending order. The maximum effect counts if a row applies to several devices.
+/// Effect of a row. The variants are in ascending order. The maximum effect counts if a row applies to several devices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RowEffect {
     /// The row matches no object or item.
@@ -198,7 +198,7 @@ impl RowPatcher<'_> {
         item.bindings.extend(new);
     }
 
-    /// Returns the new type of an item, or `None` if the row does not change the type.
+    /// Returns the new type of an item, or `None` if the row declares no type or an invalid type.
     fn new_type(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, old: Type) -> Option<Type> {
         if row.ty.is_some() {
             return self.rows.ty(reader, named, row);
@@ -246,7 +246,7 @@ impl RowPatcher<'_> {
         });
     }
 
-    /// Changes the name, texts and object code of an object that has sub-entries.
+    /// Changes the name, texts, ambiguities and object code of an object that has sub-entries.
     fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> RowEffect {
         let patch = &row.row.value;
         if super::super::misplaced::of_value(patch).is_some() {
@@ -380,8 +380,8 @@ impl Change {
         FactOrigin::Overlay(Box::new(row))
     }
 
-    /// Records the overlay row as the origin of the facts that it changed in an item. `is_type` is true if the row has
-    /// a type. Access rights that are an assumption keep their origin.
+    /// Records the overlay row as the origin of the facts that the row changed in an item. `is_type` is true if the row
+    /// has a type. Access rights that are an assumption keep their origin.
     fn record(&self, item: &mut Item, before: &Item, is_type: bool) {
         for fact in Fact::ALL {
             let is_other = matches!(fact, Fact::Type if !is_type) || matches!(fact, Fact::Meaning if is_type);
@@ -397,8 +397,8 @@ impl Change {
         }
     }
 
-    /// Records the overlay row as the origin of all facts in an item that it added. Facts that already have an origin,
-    /// such as a rule of the compiler, keep this origin.
+    /// Records the overlay row as the origin of all facts in an item that the row added. Facts that already have an
+    /// origin, such as a rule of the compiler, keep this origin.
     fn record_new(&self, item: &mut Item) {
         for fact in Fact::ALL {
             if fact.is_stated(item) && item.origins.get(fact).is_none() {

@@ -29,7 +29,8 @@ pub(super) fn write(code: &mut Code, record: &RecordModel) {
     record_data(code, name);
 }
 
-/// Writes an attribute for a function or constant whose numbers may be close to a mathematical constant.
+/// Writes the attribute that suppresses the clippy lint about numbers close to a mathematical constant. Writes nothing
+/// if the record has no real numbers.
 fn allow_real(code: &mut Code, record: &RecordModel) {
     if record.has_real {
         line!(code, "#[allow(clippy::approx_constant)]");
