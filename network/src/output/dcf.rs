@@ -3,7 +3,8 @@
 use lexibus_codegen::ir::{Catalog, Commissioning, Configured, Device};
 use lexibus_export::eds::{self, Flavor, Reals};
 
-use crate::model::{Network, NetworkNode, Write};
+use crate::model::{Network, NetworkNode};
+use crate::values::Write;
 
 /// Returns the DCF of a node. Returns `None` if the description has no objects.
 pub fn dcf(network: &Network, node: &NetworkNode) -> Option<String> {
