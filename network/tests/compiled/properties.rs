@@ -110,7 +110,7 @@ fn can_id(cob_id: u64) -> u64 {
 fn compare_master(network: &Network, master: &Dictionary, nodes: &[(u8, Dictionary)], text: &str) {
     let heartbeats =
         nodes.iter().map(|(id, values)| (u64::from(*id), values[&(0x1017, 0)])).filter(|(_, time)| *time > 0);
-    let mut expected: Vec<u64> = heartbeats.map(|(id, time)| id << 16 | time * 3).collect();
+    let mut expected: Vec<u64> = heartbeats.map(|(id, time)| (id << 16) | (time * 3)).collect();
     if !network.master.as_ref().expect("a master").consumes_heartbeats {
         expected.clear();
     }
