@@ -3,13 +3,13 @@
 use std::collections::HashSet;
 use std::rc::Rc;
 
-use lexibus_codegen::ir::{Device, Direction, Item, Value};
+use lexibus_codegen::ir::{Device, Direction, Item};
 use lexibus_codegen::source::Span;
 
 use crate::declared::DeclaredMaster;
 use crate::description::Description;
 use crate::syntax::At;
-use crate::values::Values;
+use crate::values::{Values, Write};
 
 /// Bit of a COB-ID that disables a PDO or an EMCY (CiA 301 7.5.2.17, 7.5.2.35).
 pub const DISABLED: u32 = 1 << 31;
@@ -249,17 +249,4 @@ pub struct MappedObject {
     pub sub_index: u8,
     /// Length in bits.
     pub bits: u8,
-}
-
-/// A value that is written to an object of a node.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Write {
-    /// Index and sub-index.
-    pub object: (u16, u8),
-    /// The value, as a value of the object's type; `None` for a value that the description already configures.
-    pub value: Option<Value>,
-    /// The value as in an SDO transfer.
-    pub bytes: Vec<u8>,
-    /// Location of the value in the network file.
-    pub span: Span,
 }

@@ -1,9 +1,20 @@
-//! Values of the objects of a device after its configuration.
+//! Values that configure a device, and the values of its objects after the configuration.
 
-use lexibus_codegen::ir::Device;
+use lexibus_codegen::ir::{Device, Value};
 use lexibus_codegen::source::Span;
 
-use crate::model::Write;
+/// A value that is written to an object of a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Write {
+    /// Index and sub-index.
+    pub object: (u16, u8),
+    /// The value, as a value of the object's type; `None` for a value that the description already configures.
+    pub value: Option<Value>,
+    /// The value as in an SDO transfer.
+    pub bytes: Vec<u8>,
+    /// Location of the value in the network file.
+    pub span: Span,
+}
 
 /// Values of the objects of a device: the last value that is written, or else the initial value of the description.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +35,7 @@ impl Values<'_> {
         written.or_else(|| self.device.entry(object.0, object.1)?.initial())?.resolved(self.id).as_int()
     }
 
-    /// Returns the value of an object as an unsigned number. Returns `None` for a value that does not fit, too.
+    /// Returns the value of an object as a number of type `T`. Returns `None` if it does not fit.
     pub fn number<T: TryFrom<i128>>(&self, object: (u16, u8)) -> Option<T> {
         self.get(object).and_then(|value| T::try_from(value).ok())
     }

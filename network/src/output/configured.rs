@@ -5,7 +5,8 @@ use lexibus_codegen::ir::{
     Value,
 };
 
-use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo, Write};
+use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo};
+use crate::values::Write;
 
 /// Returns the catalog of a node with its node-ID, configured values, and the PDOs that it uses in the network.
 pub(super) fn with_pdos(network: &Network, node: &NetworkNode) -> Catalog {

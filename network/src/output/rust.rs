@@ -11,7 +11,8 @@ use lexibus_codegen::source::Source;
 use super::configured::with_pdos;
 use super::identity::checked;
 use crate::check::bus_load;
-use crate::model::{Network, NetworkNode, Write};
+use crate::model::{Network, NetworkNode};
+use crate::values::Write;
 
 /// Bit of 0x1F81: the master does not reset the node while it is Operational.
 const KEEP_RUNNING: u32 = 0x10;

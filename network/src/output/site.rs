@@ -10,7 +10,8 @@ use lexibus_site::{network, Page, Site};
 
 use super::configured::with_pdos;
 use crate::check::{bus_load, frame_bits, Traffic};
-use crate::model::{Network, NetworkNode, NetworkPdo, Write, EXTENDED};
+use crate::model::{Network, NetworkNode, NetworkPdo, EXTENDED};
+use crate::values::Write;
 
 /// The first index of an object. Smaller indices are data types, which leave a gap in a PDO.
 const FIRST_OBJECT: u16 = 0x1000;

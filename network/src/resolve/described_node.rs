@@ -9,8 +9,7 @@ use super::pdo_values::direction;
 use super::writer::Writer;
 use crate::declared::DeclaredNode;
 use crate::description::Description;
-use crate::model::Write;
-use crate::values::Values;
+use crate::values::{Values, Write};
 
 /// A declared node with its description, and with the values of `parameters`, which are written last.
 pub(super) struct DescribedNode<'n> {

@@ -13,9 +13,9 @@ use super::versions;
 use super::writer::Writer;
 use crate::declared::DeclaredNode;
 use crate::description::{expanded, Description};
-use crate::model::{file_stem, NetworkNode, Write, DISABLED};
+use crate::model::{file_stem, NetworkNode, DISABLED};
 use crate::syntax::At;
-use crate::values::Values;
+use crate::values::{Values, Write};
 
 /// Default COB-ID of EMCY without the node-ID (CiA 301 7.5.2.17).
 const EMCY: u32 = 0x80;

@@ -5,9 +5,9 @@ use lexibus_codegen::ir::Direction;
 use lexibus_codegen::source::Span;
 
 use crate::declared::{DeclaredNode, DeclaredPdo};
-use crate::model::{communication_index, MappedObject, NetworkPdo, Write, DISABLED};
+use crate::model::{communication_index, MappedObject, NetworkPdo, DISABLED};
 use crate::syntax::At;
-use crate::values::Values;
+use crate::values::{Values, Write};
 
 /// Returns the direction of a declared PDO.
 pub(super) fn direction(declared: &DeclaredPdo) -> Direction {

@@ -8,9 +8,8 @@ use lexibus_codegen::source::Span;
 use super::object::{address, find};
 use super::value::{basic_type, broken_limit, convert};
 use crate::declared::{DeclaredParameter, ObjectName};
-use crate::model::Write;
 use crate::syntax::{At, Scalar};
-use crate::values::Values;
+use crate::values::{Values, Write};
 
 /// Collects the values that are written to a node.
 pub(super) struct Writer<'a> {

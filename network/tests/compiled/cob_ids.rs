@@ -1,14 +1,6 @@
 //! COB-IDs that the compiler chooses.
 
-use crate::support::{compiled, example_file, messages, node, valid, written};
-
-/// Returns the description of a drive with TPDO 5 instead of TPDO 2.
-fn drive_with_tpdo_5() -> String {
-    let drive = example_file("drive.eds");
-    [("[1801", "[1804"), ("[1A01", "[1A04"), ("=0x1801", "=0x1804"), ("=0x1A01", "=0x1A04")]
-        .into_iter()
-        .fold(drive, |drive, (old, new)| drive.replace(old, new))
-}
+use crate::support::{compiled, example_file, messages, node, valid, with_tpdo_5, written};
 
 #[test]
 fn automatic_cob_ids_keep_the_rtr_bit_of_a_tpdo() {
@@ -64,7 +56,7 @@ id = 3
 device = "other.eds"
 tpdo = { 5 = { cob_id = "auto", map = ["Position actual value"] } }
 "#;
-    let drive = drive_with_tpdo_5();
+    let drive = with_tpdo_5(&example_file("drive.eds"));
     // TPDO 1 of the other drive is enabled, and RPDO 2 is disabled.
     let other = drive.replace("$NODEID+0x180", "$NODEID+0x681").replace("$NODEID+0x80000300", "0x80000685");
     let compilation =

@@ -2,10 +2,11 @@
 //! the master use.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
 use lexibus_codegen::compile::{check, Options};
-use lexibus_codegen::diagnostics::{Level, Levels};
-use lexibus_codegen::ir::{Catalog, Direction};
+use lexibus_codegen::diagnostics::{Level, Levels, Severity};
+use lexibus_codegen::ir::{Catalog, Direction, Item};
 use lexibus_codegen::source::Source;
 use lexibus_network::compile::{compile, Compilation};
 use lexibus_network::model::{Network, NetworkNode, NetworkPdo};
@@ -13,7 +14,7 @@ use lexibus_network::output::{files, OutputFile};
 
 use crate::random::Random;
 use crate::random_networks;
-use crate::support::{compiled, configured, entries, example_file};
+use crate::support::{compiled, configured, entries, example_file, with_tpdo_5};
 
 /// Values of all integer objects.
 type Dictionary = BTreeMap<(u16, u8), u64>;
@@ -21,7 +22,7 @@ type Dictionary = BTreeMap<(u16, u8), u64>;
 /// Returns the initial values of a device, with a node-ID.
 fn dictionary(catalog: &Catalog, id: u8) -> Dictionary {
     let items = catalog.devices[0].items();
-    let value = |item: &lexibus_codegen::ir::Item| Some((item.object()?, item.initial()?.resolved(id).as_int()?));
+    let value = |item: &Item| Some((item.object()?, item.initial()?.resolved(id).as_int()?));
     items.filter_map(value).map(|(object, value)| (object, value as u64)).collect()
 }
 
@@ -109,7 +110,7 @@ fn can_id(cob_id: u64) -> u64 {
 fn compare_master(network: &Network, master: &Dictionary, nodes: &[(u8, Dictionary)], text: &str) {
     let heartbeats =
         nodes.iter().map(|(id, values)| (u64::from(*id), values[&(0x1017, 0)])).filter(|(_, time)| *time > 0);
-    let mut expected: Vec<u64> = heartbeats.map(|(id, time)| id << 16 | time * 3).collect();
+    let mut expected: Vec<u64> = heartbeats.map(|(id, time)| (id << 16) | (time * 3)).collect();
     if !network.master.as_ref().expect("a master").consumes_heartbeats {
         expected.clear();
     }
@@ -160,62 +161,61 @@ fn read(files: &[OutputFile], name: &str) -> Catalog {
     check(Source::new(name, file.content.clone()), &Options::default()).catalog.expect("a catalog")
 }
 
-/// Compiles a network in a folder. Faults on the bus are allowed.
-fn compiled_in(folder: &std::path::Path, text: &str) -> Compilation {
-    let mut levels = Levels::lenient();
-    for number in [13, 17, 18, 19, 20, 21, 22, 23] {
-        levels.set(&format!("NET{number:03}"), Level::Warn).expect("a code");
-    }
-    compile(Source::new("network.toml", text.as_bytes().to_vec()).in_folder(folder), levels)
-}
-
-#[test]
-fn the_last_values_are_those_of_the_model_and_of_the_master() {
+/// Writes the descriptions of the devices to a folder.
+fn descriptions() -> PathBuf {
     let drive = example_file("drive.eds").replace("$NODEID+0x80000280", "$NODEID+0xC0000280");
-    let fifth = [("[1801", "[1804"), ("[1A01", "[1A04"), ("=0x1801", "=0x1804"), ("=0x1A01", "=0x1A04")]
-        .into_iter()
-        .fold(drive.clone(), |drive, (old, new)| drive.replace(old, new));
     let values =
         [("1016sub1", "0x007F0032"), ("1017", "80"), ("1801sub1", "0x401"), ("1801sub2", "3"), ("1014", "0xA0")];
     let dcf = values.into_iter().fold(drive.clone(), |dcf, (object, value)| configured(&dcf, object, value));
     let name = "random-networks";
-    compiled(
-        name,
-        &[
-            ("drive.eds", drive),
-            ("drive.dcf", dcf),
-            ("fifth.eds", fifth),
-            ("io.eds", example_file("io.eds")),
-            ("network.toml", String::new()),
-        ],
-    );
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let files = [
+        ("fifth.eds", with_tpdo_5(&drive)),
+        ("drive.eds", drive),
+        ("drive.dcf", dcf),
+        ("io.eds", example_file("io.eds")),
+        ("network.toml", String::new()),
+    ];
+    compiled(name, &files);
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+/// Compiles a network in a folder. Faults on the bus are allowed, and an RPDO that receives a disabled TPDO is an error.
+fn compiled_in(folder: &Path, text: &str) -> Compilation {
+    let mut levels = Levels::lenient();
+    for number in [13, 17, 18, 19, 20, 21, 22, 23] {
+        levels.set(&format!("NET{number:03}"), Level::Warn).expect("a code");
+    }
+    let compilation = compile(Source::new("network.toml", text.as_bytes().to_vec()).in_folder(folder), levels);
+    let mut errors = compilation.diagnostics.list().iter().filter(|found| found.severity == Severity::Error);
+    assert!(errors.all(|found| found.code.id == "NET015"), "{:?}\n{text}", compilation.diagnostics.list());
+    compilation
+}
+
+/// Compares the model with the values of a node.
+fn compare_node(node: &NetworkNode, values: &Dictionary, text: &str) {
+    let number = |index| values.get(&(index, 0)).copied().unwrap_or(0);
+    assert_eq!(u64::from(node.heartbeat.value), number(0x1017), "{text}");
+    assert_eq!(u64::from(node.guard_time), number(0x100C), "{text}");
+    assert_eq!(u64::from(node.life_time_factor), number(0x100D), "{text}");
+    assert_eq!(u64::from(node.emcy_cob_id), number(0x1014), "{text}");
+    node.pdos.iter().for_each(|pdo| compare_pdo(node, pdo, values, text));
+}
+
+#[test]
+fn the_last_values_are_those_of_the_model_and_of_the_master() {
+    let folder = descriptions();
     let mut random = Random(30);
     let mut usable = 0;
-    for _ in 0..100 {
+    for _ in 0..40 {
         let text = random_networks::network(&mut random);
         let compilation = compiled_in(&folder, &text);
-        // A receiver of a disabled TPDO is an error.
-        let errors: Vec<&str> = compilation
-            .diagnostics
-            .list()
-            .iter()
-            .filter(|found| found.severity == lexibus_codegen::diagnostics::Severity::Error)
-            .map(|found| found.code.id)
-            .collect();
-        assert!(errors.iter().all(|code| *code == "NET015"), "{:?}\n{text}", compilation.diagnostics.list());
         let Some(network) = compilation.usable() else { continue };
         usable += 1;
         let files = files(network);
         let nodes: Vec<(u8, Dictionary)> =
             network.nodes.iter().map(|node| (node.id, configured_dictionary(node, &files))).collect();
         for (node, (id, values)) in network.nodes.iter().zip(&nodes) {
-            let number = |index| values.get(&(index, 0)).copied().unwrap_or(0);
-            assert_eq!(u64::from(node.heartbeat.value), number(0x1017), "{text}");
-            assert_eq!(u64::from(node.guard_time), number(0x100C), "{text}");
-            assert_eq!(u64::from(node.life_time_factor), number(0x100D), "{text}");
-            assert_eq!(u64::from(node.emcy_cob_id), number(0x1014), "{text}");
-            node.pdos.iter().for_each(|pdo| compare_pdo(node, pdo, values, &text));
+            compare_node(node, values, &text);
             compare_consumer(&compilation, node, values, &text);
             let written = dictionary(&read(&files, &format!("{}.dcf", node.name.value)), *id);
             assert_eq!(&written, values, "{}\n{text}", node.name.value);
@@ -223,5 +223,5 @@ fn the_last_values_are_those_of_the_model_and_of_the_master() {
         let master = dictionary(&read(&files, "master.dcf"), network.master_id());
         compare_master(network, &master, &nodes, &text);
     }
-    assert!(usable >= 50, "{usable}");
+    assert!(usable >= 20, "{usable}");
 }

@@ -91,3 +91,9 @@ pub fn with_object(eds: &str, index: &str, value: &str) -> String {
          ParameterName=Object {index}\r\nObjectType=0x7\r\nDataType=0x0007\r\nAccessType=rw\r\nDefaultValue={value}\r\nPDOMapping=0\r\n"
     )
 }
+
+/// Returns the text of a drive's description with TPDO 5 instead of TPDO 2.
+pub fn with_tpdo_5(eds: &str) -> String {
+    let names = [("[1801", "[1804"), ("[1A01", "[1A04"), ("=0x1801", "=0x1804"), ("=0x1A01", "=0x1A04")];
+    names.into_iter().fold(eds.to_owned(), |eds, (old, new)| eds.replace(old, new))
+}
