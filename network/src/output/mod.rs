@@ -13,4 +13,4 @@ pub use dbc::dbc;
 pub use dcf::dcf;
 pub use files::{files, OutputFile};
 pub use master::{master_dcf, master_writes};
-pub use rust::rust;
+pub use rust::{node_catalog, rust};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use lexibus_codegen::backend::rust::{emit_catalog, RustOptions};
 use lexibus_codegen::facts::configuration::Configuration;
-use lexibus_codegen::ir::{Direction, Entries, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
+use lexibus_codegen::ir::{Catalog, Direction, Entries, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use lexibus_codegen::names::{unique, Case, NameRequest};
 use lexibus_codegen::source::Source;
 
@@ -44,8 +44,8 @@ struct Named<'n> {
     is_configured: bool,
 }
 
-/// Returns the bindings of a node's device with the configured values and PDOs of the node, and whether they contain a configuration.
-fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<(String, bool)> {
+/// Returns the description of a node's device with the configured values and PDOs of the node.
+pub fn node_catalog(network: &Network, node: &NetworkNode) -> Catalog {
     let mut catalog = configured(network, node, node.description.catalog().clone());
     let device = &mut catalog.devices[0];
     let entries = Entries::new(&device.groups);
@@ -63,6 +63,12 @@ fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptio
         node.pdos.iter().find(is_same).is_none_or(|pdo| pdo.is_enabled)
     };
     device.process_data.pdos.retain(is_used);
+    catalog
+}
+
+/// Returns the bindings of a node's device with the configured values and PDOs of the node, and whether they contain a configuration.
+fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<(String, bool)> {
+    let catalog = node_catalog(network, node);
     let is_configured = Configuration::of(&catalog.devices[0]).is_some();
     let options = RustOptions { device_name: Some(ty.to_owned()), ..options.clone() };
     Some((emit_catalog(&catalog, &options)?, is_configured))
