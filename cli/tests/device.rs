@@ -284,7 +284,8 @@ fn faults_of_a_network_file_are_reported_with_their_line() {
 
 #[test]
 fn pdos_have_the_mapping_of_the_network_file() {
-    let more = "tpdo = { 2 = { cob_id = 0x1F5, transmission = 255, map = [\"Position actual value\", \"Statusword\"] } }";
+    let more =
+        "tpdo = { 2 = { cob_id = 0x1F5, transmission = 255, map = [\"Position actual value\", \"Statusword\"] } }";
     let file = network("mapping", "", more);
     let trace = file.with_file_name("trace.log");
     std::fs::write(&trace, "(1.0) can0 1F5#FEFFFFFF3702\n").expect("a trace");

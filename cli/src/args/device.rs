@@ -89,7 +89,7 @@ pub(crate) struct Target {
     #[arg(long, value_name = "MS", default_value_t = 500, value_parser = clap::value_parser!(u16).range(1..))]
     pub timeout: u16,
     /// Device description, or the name of a node in the network file.
-    #[arg(value_name = "DEVICE")]
+    #[arg(value_name = "FILE|NODE")]
     pub file_or_node: PathBuf,
     #[command(flatten)]
     pub options: DescriptionOptions,
