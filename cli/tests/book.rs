@@ -165,7 +165,7 @@ fn commands_run_and_print_what_stands_there() {
             let position = format!("{name}:{}", block.line);
             if let Some(file) = &block.file {
                 std::fs::create_dir_all(folder.join(file).parent().expect("a folder")).expect("a folder");
-                std::fs::write(folder.join(file), &block.text).expect("a file of the book");
+                std::fs::write(folder.join(file), on_simulated_bus(&block.text)).expect("a file of the book");
             }
             if let Some(example) = &block.same_as {
                 let path = docs().join("examples").join(example);

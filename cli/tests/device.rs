@@ -229,3 +229,83 @@ fn a_blf_file_is_not_read_as_text() {
         "{error}"
     );
 }
+
+/// Writes a network with the simulated drive and another node to a folder. Returns the path of the file.
+fn network(name: &str, bus: &str, more: &str) -> PathBuf {
+    let folder = folder(name);
+    let eds = dictionary("demo-drive.eds");
+    let text = format!(
+        "[network]\nbit_rate = 500\n{bus}\n[master]\nid = 127\n[nodes]\naxis2 = {{ id = 6, device = \"{eds}\" }}\n\
+         [nodes.axis1]\nid = 5\ndevice = \"{eds}\"\n{more}\n"
+    );
+    std::fs::write(folder.join("network.toml"), text).expect("a network file");
+    folder.join("network.toml")
+}
+
+#[test]
+fn a_node_of_a_network_is_accessed_by_name() {
+    let adapter = adapter(Duration::ZERO);
+    let file = network("nodes", &format!("bus = \"slcan:{adapter}\""), "");
+    let folder = file.parent().expect("a folder");
+    let in_folder = |arguments: &[&str]| {
+        let output = lexibus(arguments).current_dir(folder).output().expect("lexibus runs");
+        (output.status.code(), texts(&output).0, texts(&output).1)
+    };
+    let (code, text, error) = in_folder(&["read", "axis1", "Profile velocity"]);
+    assert_eq!((code, text.as_str()), (Some(0), "0x6081:00 Profile velocity = 1000\n"), "{error}");
+    let (code, _, error) = in_folder(&["write", "axis1", "Profile velocity", "20000", "--yes"]);
+    assert_eq!(code, Some(0), "{error}");
+    let (code, text, error) = in_folder(&["backup", "axis1", "--out", "axis.toml"]);
+    assert_eq!(code, Some(0), "{text}{error}");
+    let (code, text, _) = in_folder(&["restore", "axis1", "axis.toml", "--dry-run"]);
+    assert!(code == Some(0) && text.contains("write 0x6081:00 Profile velocity = 20000\n"), "{text}");
+    let (code, text, error) = in_folder(&["verify", "axis1"]);
+    assert!(code == Some(0) && text.starts_with("0 deviations"), "{text}{error}");
+    let monitor = ["monitor", "axis1", "--read", "0x6081", "--duration", "300", "--format", "csv"];
+    let (code, text, error) = in_folder(&monitor);
+    assert!(code == Some(0) && text.contains(",5,sdo,0x6081:00,Profile velocity,20000\n"), "{text}{error}");
+    let (code, text, error) = in_folder(&["monitor", "--duration", "500"]);
+    assert!(code == Some(0) && text.contains("node 5: state Pre-operational\n"), "{text}{error}");
+    // A node that the file does not contain, and options that a network file states itself.
+    let (code, _, error) = in_folder(&["read", "axis3", "0x6081"]);
+    assert!(code == Some(2) && error.contains("has no node `axis3`. Its nodes are axis2 (6), axis1 (5)."), "{error}");
+    let (code, _, error) = in_folder(&["read", "axis1", "0x6081", "--overlay", "x.toml"]);
+    assert!(code == Some(2) && error.contains("need a description file"), "{error}");
+    // The file has another name or another folder.
+    let path = file.to_string_lossy();
+    let output = run(&["read", "--network", &path, "--bus", &format!("slcan:{adapter}@500k"), "axis1", "0x6081"]);
+    assert_eq!(texts(&output).0, "0x6081:00 Profile velocity = 20000\n", "{:?}", texts(&output));
+    let (_, error) = texts(&run(&["read", "axis1", "0x6081"]));
+    assert!(error.contains("--network to use the name of a node"), "{error}");
+    let (_, error) = texts(&run(&["read", &dictionary("demo-drive.eds"), "0x6081"]));
+    assert!(error.contains("add the node-ID or server address"), "{error}");
+}
+
+#[test]
+fn faults_of_a_network_file_are_reported_with_their_line() {
+    for (name, bus, more, message) in [
+        ("no-bus", "", "", "states no bus: add the key `bus`"),
+        ("wrong-bus", "bus = \"usb:1\"", "", "network.toml:3:7: "),
+        ("wrong-network", "bus = \"tcp:127.0.0.1\"", "", "needs a CAN bus"),
+        ("wrong-key", "bus = \"can:can0\"", "speed = 5", "network.toml:11:1: the key `speed` is unknown [NET002]"),
+    ] {
+        let file = network(name, bus, more);
+        let output = run(&["read", "--network", &file.to_string_lossy(), "axis1", "0x6081"]);
+        assert!(!output.status.success() && texts(&output).1.contains(message), "{:?}", texts(&output));
+    }
+}
+
+#[test]
+fn pdos_have_the_mapping_of_the_network_file() {
+    let more =
+        "tpdo = { 2 = { cob_id = 0x1F5, transmission = 255, map = [\"Position actual value\", \"Statusword\"] } }";
+    let file = network("mapping", "", more);
+    let trace = file.with_file_name("trace.log");
+    std::fs::write(&trace, "(1.0) can0 1F5#FEFFFFFF3702\n").expect("a trace");
+    let output = run(&["decode", &trace.to_string_lossy(), "--network", &file.to_string_lossy(), "axis1"]);
+    let (text, error) = texts(&output);
+    assert!(
+        text.starts_with("1.000000 node 5: TPDO 2: Position actual value = -2, Statusword = 567 ("),
+        "{text}{error}"
+    );
+}

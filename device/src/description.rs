@@ -5,7 +5,7 @@ use std::fmt;
 
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::facts::address;
-use lexibus_codegen::ir::{Catalog, Device, Format, Group, ObjectCode};
+use lexibus_codegen::ir::{AxisStep, Catalog, Device, Format, Group, ObjectCode};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::text::similar;
 
@@ -59,6 +59,9 @@ impl Error for DescriptionError {}
 pub enum FindError {
     /// No parameter has this name or address. The second field is a similar name, if there is one.
     Unknown(String, Option<String>),
+    /// The address is that of an object of a further axis. The fields are the address, the number of the axis, and the object of the first
+    /// axis.
+    OtherAxis(String, u8, String),
     /// Several parameters have this name. The list contains the addresses and paths of the first ones.
     Ambiguous(String, Vec<String>),
 }
@@ -70,6 +73,10 @@ impl fmt::Display for FindError {
             FindError::Unknown(text, Some(similar)) => {
                 write!(f, "the description has no parameter `{text}`; did you mean `{similar}`?")
             }
+            FindError::OtherAxis(text, axis, first) => write!(
+                f,
+                "`{text}` is an object of axis {axis}, but only objects of the first axis can be accessed: {first}"
+            ),
             FindError::Ambiguous(text, candidates) => {
                 write!(f, "several parameters have the name `{text}`; use an address: {}", candidates.join(", "))
             }
@@ -206,6 +213,9 @@ impl Description {
         if let Some(parameter) = self.by_address(text) {
             return Ok(parameter);
         }
+        if let Some((axis, first)) = object_address(text).and_then(|object| self.of_other_axis(object)) {
+            return Err(FindError::OtherAxis(text.to_owned(), axis, first.to_string()));
+        }
         let matching =
             |is: &dyn Fn(&Parameter<'_>) -> bool| self.parameters().filter(|parameter| is(parameter)).collect();
         let by_path: Vec<Parameter<'_>> = matching(&|parameter| parameter.path().eq_ignore_ascii_case(text));
@@ -227,15 +237,24 @@ impl Description {
         }
     }
 
+    /// Returns the number of the axis that has an object, and the object of the first axis from which it is derived.
+    fn of_other_axis(&self, (index, sub_index): (u16, u8)) -> Option<(u8, Parameter<'_>)> {
+        let axes = self.device().axes.as_ref().filter(|_| self.network == Network::CanOpen)?;
+        let first = |step: u16, axis: u8| index.checked_sub(step.checked_mul(axis.into())?);
+        let objects = (1..axes.axes).flat_map(|axis| axes.rules.iter().map(move |rule| (axis, rule)));
+        let mut objects = objects.filter_map(|(axis, rule)| match rule.step {
+            AxisStep::Index(step) => {
+                Some((axis, first(step, axis).filter(|first| (rule.indices.0..=rule.indices.1).contains(first))?))
+            }
+            _ => None,
+        });
+        objects.find_map(|(axis, first)| Some((axis + 1, self.object(first, sub_index)?)))
+    }
+
     fn by_address(&self, text: &str) -> Option<Parameter<'_>> {
         match self.network {
             Network::CanOpen => {
-                let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
-                let index = u16::from_str_radix(hexadecimal(index)?, 16).ok()?;
-                let sub_index = match hexadecimal(sub_index) {
-                    Some(digits) => u8::from_str_radix(digits, 16).ok()?,
-                    None => u8::from_str_radix(sub_index, 16).ok()?,
-                };
+                let (index, sub_index) = object_address(text)?;
                 self.object(index, sub_index)
             }
             Network::Modbus => {
@@ -247,6 +266,14 @@ impl Description {
             }
         }
     }
+}
+
+/// Parses index and sub-index: `0x6081`, `0x1018:1`.
+fn object_address(text: &str) -> Option<(u16, u8)> {
+    let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
+    let index = u16::from_str_radix(hexadecimal(index)?, 16).ok()?;
+    let sub_index = hexadecimal(sub_index).unwrap_or(sub_index);
+    Some((index, u8::from_str_radix(sub_index, 16).ok()?))
 }
 
 fn hexadecimal(text: &str) -> Option<&str> {

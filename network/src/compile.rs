@@ -4,6 +4,7 @@ use lexibus_codegen::diagnostics::{Diagnostics, Levels};
 use lexibus_codegen::source::{FileId, Source};
 
 use crate::model::Network;
+use crate::syntax::At;
 use crate::{check, frontend, resolve};
 
 /// The result of a compilation.
@@ -11,6 +12,8 @@ use crate::{check, frontend, resolve};
 pub struct Compilation {
     /// The network file.
     pub source: Source,
+    /// Bus of the computer to which the network is connected, for commands that access its devices.
+    pub bus: Option<At<String>>,
     /// The network; `None` if the file cannot be read as a network.
     pub network: Option<Network>,
     /// Diagnostics, sorted by position.
@@ -28,10 +31,11 @@ impl Compilation {
 pub fn compile(source: Source, levels: Levels) -> Compilation {
     let mut diagnostics = Diagnostics::new(levels);
     let declared = frontend::read(&source, FileId(0), &mut diagnostics);
+    let bus = declared.as_ref().and_then(|declared| declared.bus.clone());
     let network = declared.map(|declared| resolve::resolve(&source, declared, &mut diagnostics));
     if let Some(network) = &network {
         check::check(network, &mut diagnostics);
     }
     diagnostics.sort();
-    Compilation { source, network, diagnostics }
+    Compilation { source, bus, network, diagnostics }
 }

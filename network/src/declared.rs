@@ -11,6 +11,8 @@ pub struct DeclaredNetwork {
     pub name: Option<At<String>>,
     /// Bit rate in kbit/s.
     pub bit_rate: Option<At<u16>>,
+    /// Bus of the computer to which the network is connected, for commands that access its devices.
+    pub bus: Option<At<String>>,
     /// The master.
     pub master: Option<DeclaredMaster>,
     /// True if the format of the file has no master, so that a missing master is no fault.

@@ -12,11 +12,13 @@ use super::inputs::choice;
 #[derive(Debug, Subcommand)]
 pub(crate) enum DeviceCommand {
     /// Read values of a device by name.
-    #[command(after_help = "Example:\n  lexibus read --bus can:can0 --node 5 drive.eds \"Profile velocity\"")]
+    #[command(
+        after_help = "Examples:\n  lexibus read --bus can:can0 --node 5 drive.eds \"Profile velocity\"\n  lexibus read axis1 \"Profile velocity\""
+    )]
     Read(Read),
     /// Write a value of a device by name. The value is checked and shown before it is written.
     #[command(
-        after_help = "Example:\n  lexibus write --bus can:can0 --node 5 drive.eds \"Profile velocity\" 15.5 rev/s"
+        after_help = "Examples:\n  lexibus write --bus can:can0 --node 5 drive.eds \"Profile velocity\" 15.5 rev/s\n  lexibus write axis1 \"Profile velocity\" 15.5 rev/s"
     )]
     Write(WriteCommand),
     /// Compare a device with its description. Nothing is written. The exit code is 1 if there is a deviation.
@@ -38,7 +40,9 @@ pub(crate) enum DeviceCommand {
     Scan(Scan),
     /// Show the traffic on a CANopen bus, or values of a device, with their names. Ends on Ctrl-C or after the time
     /// `--duration`.
-    #[command(after_help = "Example:\n  lexibus monitor --bus can:can0 5=drive.eds")]
+    #[command(
+        after_help = "Examples:\n  lexibus monitor --bus can:can0 5=drive.eds\n  lexibus monitor --network network.toml"
+    )]
     Monitor(Monitor),
     /// Convert a recorded trace of a CANopen bus (candump, ASC) to names and values.
     #[command(after_help = "Example:\n  lexibus decode trace.log 5=drive.eds")]
@@ -51,6 +55,13 @@ pub(crate) struct Described {
     /// Device description.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
+    #[command(flatten)]
+    pub options: DescriptionOptions,
+}
+
+/// How a description file is read.
+#[derive(Debug, Args)]
+pub(crate) struct DescriptionOptions {
     /// Use this device of the file (a name, order code or product code, optionally with @REVISION or @latest).
     #[arg(long, value_name = "DEVICE")]
     pub device: Option<DeviceFilter>,
@@ -62,20 +73,27 @@ pub(crate) struct Described {
     pub overlay: Vec<PathBuf>,
 }
 
-/// A device on a bus, with its description.
+/// A device on a bus, with its description: a description file with `--bus` and `--node`, or a node of a network file.
 #[derive(Debug, Args)]
 pub(crate) struct Target {
-    /// Bus, such as can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.1.5:502 or rtu:/dev/ttyUSB0@19200-8E1.
+    /// Bus, such as can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.1.5:502 or rtu:/dev/ttyUSB0@19200-8E1. A network file can state the
+    /// bus.
     #[arg(long, value_name = "BUS")]
-    pub bus: BusAddress,
-    /// Node-ID on CANopen, or server address on Modbus.
+    pub bus: Option<BusAddress>,
+    /// Node-ID on CANopen, or server address on Modbus. Without this option, the device is a node of a network file.
     #[arg(long, value_name = "NODE")]
-    pub node: u8,
+    pub node: Option<u8>,
+    /// Network file with the node; by default, network.toml in the working folder.
+    #[arg(long, value_name = "FILE", conflicts_with = "node")]
+    pub network: Option<PathBuf>,
     /// Maximum time for a reply, in milliseconds.
     #[arg(long, value_name = "MS", default_value_t = 500, value_parser = clap::value_parser!(u16).range(1..))]
     pub timeout: u16,
+    /// Device description, or the name of a node in the network file.
+    #[arg(value_name = "FILE|NODE")]
+    pub file_or_node: PathBuf,
     #[command(flatten)]
-    pub described: Described,
+    pub options: DescriptionOptions,
 }
 
 #[derive(Debug, Args)]
@@ -212,21 +230,35 @@ pub(crate) enum ScanFormat {
     Json,
 }
 
-/// A node-ID with a description: `5=drive.eds`.
+/// A node that is watched.
 #[derive(Clone, Debug)]
-pub(crate) struct NodeFile {
-    pub node: u8,
-    pub file: PathBuf,
+pub(crate) enum WatchedNode {
+    /// A node-ID with a description: `5=drive.eds`.
+    File(u8, PathBuf),
+    /// The name of a node in the network file.
+    Named(String),
+}
+
+/// The nodes that are watched.
+#[derive(Debug, Args)]
+pub(crate) struct WatchedNodes {
+    /// Network file; by default, network.toml in the working folder.
+    #[arg(long, value_name = "FILE")]
+    pub network: Option<PathBuf>,
+    /// Nodes with their descriptions, as NODE=FILE, or names of nodes in the network file. By default, all nodes of the file that
+    /// --network names.
+    #[arg(value_name = "NODE", value_parser = watched_node)]
+    pub nodes: Vec<WatchedNode>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Monitor {
-    /// Bus, such as can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.1.5:502 or rtu:/dev/ttyUSB0@19200-8E1.
+    /// Bus, such as can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.1.5:502 or rtu:/dev/ttyUSB0@19200-8E1. A network file can state the
+    /// bus.
     #[arg(long, value_name = "BUS")]
-    pub bus: BusAddress,
-    /// Nodes with their descriptions, as NODE=FILE.
-    #[arg(required = true, value_name = "NODE=FILE", value_parser = node_file)]
-    pub nodes: Vec<NodeFile>,
+    pub bus: Option<BusAddress>,
+    #[command(flatten)]
+    pub watched: WatchedNodes,
     /// Read this value of the first node periodically (a name, path or address); can be repeated. On Modbus, at least one value is
     /// required.
     #[arg(long, value_name = "NAME")]
@@ -263,18 +295,17 @@ pub(crate) struct Decode {
     /// Trace: the output of candump, with or without -L, or an ASC file.
     #[arg(value_name = "TRACE")]
     pub trace: PathBuf,
-    /// Nodes with their descriptions, as NODE=FILE.
-    #[arg(value_name = "NODE=FILE", value_parser = node_file)]
-    pub nodes: Vec<NodeFile>,
+    #[command(flatten)]
+    pub watched: WatchedNodes,
     /// Output format.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = EventFormat::Text)]
     pub format: EventFormat,
 }
 
-fn node_file(text: &str) -> Result<NodeFile, String> {
-    let (node, file) = text.split_once('=').ok_or("expected NODE=FILE")?;
+fn watched_node(text: &str) -> Result<WatchedNode, String> {
+    let Some((node, file)) = text.split_once('=') else { return Ok(WatchedNode::Named(text.to_owned())) };
     let node = node.parse().ok().filter(|node| *node > 0).ok_or("the node must be a number from 1 to 255")?;
-    Ok(NodeFile { node, file: file.into() })
+    Ok(WatchedNode::File(node, file.into()))
 }
 
 fn indices(text: &str) -> Result<std::ops::RangeInclusive<u16>, String> {

@@ -13,8 +13,8 @@ pub(super) use command::{
 };
 #[cfg(feature = "bus")]
 pub(super) use device::{
-    BackupCommand, BackupFormat, Compare, Decode, Described, DeviceCommand, EventFormat, Monitor, NodeFile, Read,
-    Restore, Scan, ScanFormat, Target, Verify, VerifyFormat, WriteCommand,
+    BackupCommand, BackupFormat, Compare, Decode, Described, DescriptionOptions, DeviceCommand, EventFormat, Monitor,
+    Read, Restore, Scan, ScanFormat, Target, Verify, VerifyFormat, WatchedNode, WatchedNodes, WriteCommand,
 };
 pub(super) use inputs::{ColorChoice, Inputs, LevelArguments, MessageFormat, Printing};
 pub(super) use network::{Network, NetworkBuild, NetworkCheck, NetworkCommand, NetworkInput};

@@ -6,22 +6,24 @@ use lexibus_codegen::text::printable;
 use lexibus_device::backup::{backup, difference, Backup, Options};
 use lexibus_device::{Description, Network};
 
-use super::{bus, files, verify};
-use crate::args::{BackupCommand, BackupFormat, Compare};
+use super::target::Device;
+use super::{files, verify};
+use crate::args::{BackupCommand, BackupFormat, Compare, Described};
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &BackupCommand) -> Result<bool, Failure> {
-    let description = bus::description(&arguments.target)?;
-    let include = files::addresses(&arguments.include, &description)?;
+    let device = Device::described(&arguments.target)?;
+    let description = &device.description;
+    let include = files::addresses(&arguments.include, description)?;
     let format = format(arguments)?;
-    let mut connection = bus::connect(&arguments.target, &description)?;
-    let options = Options { node_id: Some(arguments.target.node), include };
-    let saved = backup(&description, &mut connection, &options)?;
+    let mut connection = device.connect()?;
+    let options = Options { node_id: Some(device.node), include };
+    let saved = backup(description, &mut connection, &options)?;
     let mut is_complete = saved.is_complete();
     let text = match format {
-        BackupFormat::Toml => saved.toml(&description),
+        BackupFormat::Toml => saved.toml(description),
         BackupFormat::Dcf => {
-            let file = saved.dcf(&description).map_err(|error| Failure::Usage(error.to_string()))?;
+            let file = saved.dcf(description).map_err(|error| Failure::Usage(error.to_string()))?;
             is_complete &= file.lost.is_empty();
             file.lost.iter().for_each(|lost| say(&format!("warning: not saved: {lost}")));
             file.text
@@ -63,13 +65,14 @@ pub(super) fn compare(arguments: &Compare) -> Result<bool, Failure> {
 /// Reads the description for CANopen. If this fails, or if the backups are TOML files without object addresses, reads
 /// the description for Modbus.
 fn either(arguments: &Compare) -> Result<Description, Failure> {
-    let of_objects = files::description(&arguments.described, Network::CanOpen);
+    let Described { file, options } = &arguments.described;
+    let of_objects = files::description(file, options, Network::CanOpen);
     let has_toml =
         [&arguments.old, &arguments.new].iter().all(|path| path.extension().is_some_and(|end| end == "toml"));
     match of_objects {
         Ok(description) if !has_toml => Ok(description),
         // A device can have both registers and objects, so the addresses in the backup determine the bus.
         Ok(description) if files::backup(&arguments.old, &description).is_ok() => Ok(description),
-        Ok(_) | Err(_) => files::description(&arguments.described, Network::Modbus),
+        Ok(_) | Err(_) => files::description(file, options, Network::Modbus),
     }
 }

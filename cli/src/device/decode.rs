@@ -4,23 +4,20 @@ use std::io::BufRead;
 
 use lexibus_device::monitor::Interpreter;
 use lexibus_device::trace::{Line, Reader};
-use lexibus_device::{Description, Network};
 
 use super::events::Output;
-use super::files;
-use crate::args::{Decode, NodeFile};
+use super::target::Watched;
+use crate::args::Decode;
 use crate::{say, Failure};
 
 /// The first bytes of a BLF file (Vector).
 const BLF: &[u8] = b"LOGG";
 
-/// Reads the descriptions of nodes.
-pub(super) fn descriptions(nodes: &[NodeFile], network: Network) -> Result<Vec<(u8, Description)>, Failure> {
-    nodes.iter().map(|node| Ok((node.node, files::plain(&node.file, network)?))).collect()
-}
-
 pub(super) fn run(arguments: &Decode) -> Result<bool, Failure> {
-    let descriptions = descriptions(&arguments.nodes, Network::CanOpen)?;
+    let descriptions = match (&arguments.watched.network, arguments.watched.nodes.as_slice()) {
+        (None, []) => Vec::new(),
+        _ => Watched::new(&arguments.watched, None)?.nodes,
+    };
     let mut interpreter = Interpreter::new(descriptions.iter().map(|(node, description)| (*node, description)));
     let unreadable =
         |error: std::io::Error| Failure::Device(format!("cannot read {}: {error}", arguments.trace.display()));

@@ -9,15 +9,15 @@ use lexibus_codegen::source::Source;
 use lexibus_device::backup::Backup;
 use lexibus_device::{Address, Description, Network};
 
-use crate::args::Described;
+use crate::args::DescriptionOptions;
 use crate::Failure;
 
 /// Reads a description.
-pub(super) fn description(described: &Described, network: Network) -> Result<Description, Failure> {
-    let overlays = described.overlay.iter().map(|path| source(path)).collect::<Result<_, _>>()?;
-    let select = Selection { devices: described.device.iter().cloned().collect(), ..Selection::default() };
-    let options = Options { overlays, select, choices: described.option.clone(), ..Options::default() };
-    compiled(&described.file, network, &options)
+pub(super) fn description(path: &Path, given: &DescriptionOptions, network: Network) -> Result<Description, Failure> {
+    let overlays = given.overlay.iter().map(|path| source(path)).collect::<Result<_, _>>()?;
+    let select = Selection { devices: given.device.iter().cloned().collect(), ..Selection::default() };
+    let options = Options { overlays, select, choices: given.option.clone(), ..Options::default() };
+    compiled(path, network, &options)
 }
 
 /// Reads a description without options.
@@ -30,7 +30,8 @@ fn compiled(path: &Path, network: Network, options: &Options) -> Result<Descript
     found.map_err(|error| Failure::Device(format!("{}: {error}", path.display())))
 }
 
-fn source(path: &Path) -> Result<Source, Failure> {
+/// Reads a file.
+pub(super) fn source(path: &Path) -> Result<Source, Failure> {
     Source::read(path).map_err(|error| Failure::Device(format!("cannot read {}: {error}", path.display())))
 }
 

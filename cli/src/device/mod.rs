@@ -1,14 +1,15 @@
 //! The subcommands that access devices on a bus.
 
 mod backup;
-mod bus;
 mod decode;
 mod events;
 mod files;
 mod monitor;
+mod network;
 mod question;
 mod restore;
 mod scan;
+mod target;
 mod value;
 mod verify;
 

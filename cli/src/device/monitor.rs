@@ -7,8 +7,8 @@ use lexibus::NodeId;
 use lexibus_device::monitor::{Event, EventKind, Interpreter, Named};
 use lexibus_device::{CanOpenConnection, Connection, Network, Parameter};
 
-use super::decode::descriptions;
 use super::events::Output;
+use super::target::Watched;
 use crate::args::Monitor;
 use crate::interrupt::Deferred;
 use crate::Failure;
@@ -48,20 +48,20 @@ impl Schedule {
 }
 
 pub(super) fn run(arguments: &Monitor) -> Result<bool, Failure> {
-    let network = arguments.bus.network();
-    let descriptions = descriptions(&arguments.nodes, network)?;
-    let Some((node, first)) = descriptions.first() else { return Ok(true) };
+    let watched = Watched::new(&arguments.watched, arguments.bus.as_ref())?;
+    let bus = watched.bus()?;
+    let Some((node, first)) = watched.nodes.first() else { return Ok(true) };
     let parameters = arguments.read.iter().map(|name| first.find(name)).collect::<Result<Vec<_>, _>>();
     let parameters = parameters.map_err(|error| Failure::Usage(error.to_string()))?;
     let mut output = Output::new(std::io::stdout(), arguments.format)?;
     let timeout = Duration::from_millis(arguments.timeout.into());
     let mut schedule = Schedule::new(arguments);
-    match network {
+    match bus.network() {
         Network::Modbus if parameters.is_empty() => {
             return Err(Failure::Usage("on Modbus, name the values to read with --read".to_owned()));
         }
         Network::Modbus => {
-            let mut connection = arguments.bus.connect(first, *node, timeout)?;
+            let mut connection = bus.connect(first, *node, timeout)?;
             while !schedule.is_over() {
                 match schedule.is_due() {
                     true => read(*node, &parameters, &mut connection, &schedule, &mut output)?,
@@ -71,8 +71,8 @@ pub(super) fn run(arguments: &Monitor) -> Result<bool, Failure> {
         }
         Network::CanOpen => {
             let id = NodeId::new(*node).ok_or_else(|| Failure::Usage("the node-ID is not in 1 to 127".to_owned()))?;
-            let mut connection = arguments.bus.open_port()?.connection(id, timeout);
-            let nodes = descriptions.iter().map(|(node, description)| (*node, description));
+            let mut connection = bus.open_port()?.connection(id, timeout);
+            let nodes = watched.nodes.iter().map(|(node, description)| (*node, description));
             let mut interpreter = Interpreter::new(nodes);
             while !schedule.is_over() {
                 if !parameters.is_empty() && schedule.is_due() {

@@ -5,16 +5,18 @@ use std::io::Write as _;
 use lexibus_codegen::text::printable;
 use lexibus_device::restore::Plan;
 
-use super::{bus, files, question};
+use super::target::Device;
+use super::{files, question};
 use crate::args::Restore;
 use crate::interrupt::Deferred;
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &Restore) -> Result<bool, Failure> {
-    let description = bus::description(&arguments.target)?;
-    let include = files::addresses(&arguments.include, &description)?;
-    let saved = files::backup(&arguments.backup, &description)?;
-    let plan = Plan::new(&description, &saved, Some(arguments.target.node), &include);
+    let device = Device::described(&arguments.target)?;
+    let description = &device.description;
+    let include = files::addresses(&arguments.include, description)?;
+    let saved = files::backup(&arguments.backup, description)?;
+    let plan = Plan::new(description, &saved, Some(device.node), &include);
     let mut out = std::io::stdout().lock();
     for line in plan.to_string().lines() {
         writeln!(out, "{}", printable(line))?;
@@ -29,7 +31,7 @@ pub(super) fn run(arguments: &Restore) -> Result<bool, Failure> {
         say("nothing was written");
         return Ok(false);
     }
-    let mut connection = bus::connect(&arguments.target, &description)?;
+    let mut connection = device.connect()?;
     let deferred = Deferred::new();
     let outcome = plan.execute(&mut connection, &mut |_| !deferred.is_requested());
     for line in outcome.to_string().lines() {

@@ -5,16 +5,17 @@ use std::io::Write as _;
 use lexibus_codegen::text::printable;
 use lexibus_device::Write;
 
-use super::{bus, question};
+use super::question;
+use super::target::Device;
 use crate::args::{Read, WriteCommand};
 use crate::interrupt::Deferred;
 use crate::{say, Failure};
 
 pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
-    let description = bus::description(&arguments.target)?;
-    let parameters = arguments.names.iter().map(|name| description.find(name));
+    let device = Device::described(&arguments.target)?;
+    let parameters = arguments.names.iter().map(|name| device.description.find(name));
     let parameters = parameters.collect::<Result<Vec<_>, _>>().map_err(|error| Failure::Usage(error.to_string()))?;
-    let mut connection = bus::connect(&arguments.target, &description)?;
+    let mut connection = device.connect()?;
     let mut is_ok = true;
     for parameter in parameters {
         match parameter.read(&mut connection) {
@@ -32,12 +33,12 @@ pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
 }
 
 pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
-    let description = bus::description(&arguments.target)?;
-    let parameter = description.find(&arguments.name).map_err(|error| Failure::Usage(error.to_string()))?;
+    let device = Device::described(&arguments.target)?;
+    let parameter = device.description.find(&arguments.name).map_err(|error| Failure::Usage(error.to_string()))?;
     let text = arguments.value.join(" ");
-    let write = Write::parse(parameter, &text, Some(arguments.target.node));
+    let write = Write::parse(parameter, &text, Some(device.node));
     let write = write.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
-    let mut connection = bus::connect(&arguments.target, &description)?;
+    let mut connection = device.connect()?;
     let old = match parameter.read_refusal() {
         Some(refusal) => format!("not read: {refusal}"),
         None => match parameter.read(&mut connection) {

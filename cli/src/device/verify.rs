@@ -7,16 +7,17 @@ use lexibus_codegen::output::write_if_changed;
 use lexibus_device::verify::{verify, Options};
 use lexibus_device::Network;
 
-use super::bus;
+use super::target::Device;
 use crate::args::{Verify, VerifyFormat};
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
-    let description = bus::description(&arguments.target)?;
-    let mut connection = bus::connect(&arguments.target, &description)?;
+    let device = Device::configured(&arguments.target)?;
+    let description = &device.description;
+    let mut connection = device.connect()?;
     let is_canopen = description.network() == Network::CanOpen;
-    let options = Options { node_id: is_canopen.then_some(arguments.target.node), search: arguments.search.clone() };
-    let report = verify(&description, &mut connection, &options)?;
+    let options = Options { node_id: is_canopen.then_some(device.node), search: arguments.search.clone() };
+    let report = verify(description, &mut connection, &options)?;
     let text = match arguments.format {
         VerifyFormat::Text => report.text(arguments.changed),
         VerifyFormat::Json => report.json(),

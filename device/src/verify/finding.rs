@@ -128,6 +128,20 @@ impl Finding {
         }
     }
 
+    /// Creates a finding about a fact of the device that cannot be verified.
+    pub(super) fn unverifiable(fact: &str, message: &str) -> Self {
+        Self {
+            kind: FindingKind::Unverifiable,
+            address: fact.to_owned(),
+            name: String::new(),
+            message: message.to_owned(),
+            declared: None,
+            actual: None,
+            abort_code: None,
+            found: Found::Other,
+        }
+    }
+
     /// Adds what the description declares and what the device has.
     pub(super) fn compared(self, declared: impl Into<String>, actual: impl Into<String>) -> Self {
         Self { declared: Some(declared.into()), actual: Some(actual.into()), ..self }

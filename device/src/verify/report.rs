@@ -45,6 +45,12 @@ impl Report {
         self.findings.iter().filter(|finding| finding.kind == kind).count()
     }
 
+    /// Returns the number of parameters that cannot be verified. Other facts of the device have no name.
+    fn unverifiable_parameters(&self) -> usize {
+        let is_parameter = |finding: &&Finding| finding.kind == FindingKind::Unverifiable && !finding.name.is_empty();
+        self.findings.iter().filter(is_parameter).count()
+    }
+
     /// Returns the report as text, with one line per finding and a summary. `shows_changed` lists the values that differ
     /// from their default value.
     #[must_use]
@@ -65,7 +71,7 @@ impl Report {
              access of {} parameters",
             self.read,
             self.changed.len(),
-            self.count(FindingKind::Unverifiable),
+            self.unverifiable_parameters(),
             self.unverified_writes
         );
         text

@@ -1,6 +1,7 @@
 //! Runs the comparison.
 
 use super::extra;
+use super::finding::Finding;
 use super::item;
 use super::mapping;
 use super::report::Report;
@@ -28,6 +29,8 @@ pub fn verify(
         item::check_identity(&mut run)?;
         mapping::check(&mut run)?;
         extra::check(&mut run)?;
+    } else {
+        run.add(Finding::unverifiable("identity", "the device identification (function 43) is not read"));
     }
     let mut report = run.report;
     report.findings.sort_by_key(|finding| finding.kind);

@@ -413,3 +413,29 @@ fn a_restore_over_a_faulty_modbus_line_reports_every_value() {
     }
     assert_eq!(incomplete, 20, "each restore with a fault is reported as incomplete");
 }
+
+#[test]
+fn an_object_of_another_axis_is_not_unknown() {
+    let stepper = dictionary("aec-vector-step.toml", Network::CanOpen);
+    let found =
+        |address: &str| stepper.find(address).map(|parameter| parameter.to_string()).map_err(|error| error.to_string());
+    let first = found("0x6081").expect("an object of the first axis");
+    let message = |address: &str, axis: u8| {
+        format!("`{address}` is an object of axis {axis}, but only objects of the first axis can be accessed: {first}")
+    };
+    assert_eq!(found("0x6881"), Err(message("0x6881", 2)));
+    assert_eq!(found("0x7081"), Err(message("0x7081", 3)));
+    assert_eq!(found("0x7881"), Err("the description has no parameter `0x7881`".to_owned()));
+}
+
+#[test]
+fn the_identity_is_unverifiable_on_modbus() {
+    let description = dictionary("aec-vector-step.toml", Network::Modbus);
+    let mut device = Device::new(vector_step::ENTRIES);
+    let mut connection = ModbusConnection::new(device.client::<Modbus>());
+    let report = verify(&description, &mut connection, &VerifyOptions::default()).expect("a report");
+    let identity = report.findings.iter().find(|finding| finding.address == "identity").expect("a finding");
+    assert_eq!((identity.kind.name(), identity.kind.is_deviation()), ("unverifiable", false));
+    let parameters = report.findings.iter().filter(|finding| finding.kind == identity.kind).count() - 1;
+    assert!(report.text(false).contains(&format!("unverifiable: {parameters} parameters")), "{}", report.text(false));
+}

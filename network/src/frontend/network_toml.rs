@@ -20,7 +20,7 @@ const VERSION: Form = Form::ShortText(64);
 pub(super) static FILE: Section = Section {
     name: "the top level of the file",
     keys: keys! {
-        "network" Form::Table(&NETWORK), "Name and bit rate of the network.";
+        "network" Form::Table(&NETWORK), "Name, bit rate and bus of the network.";
         "master" Form::Table(&MASTER), "The NMT master.";
         "nodes" Form::Named(&NODE), "All nodes except the master, by name.";
     },
@@ -31,6 +31,7 @@ static NETWORK: Section = Section {
     keys: keys! {
         "name" Form::Text, "Name of the network.";
         "bit_rate" Form::Integer(10, 1000), "Bit rate in kbit/s.";
+        "bus" Form::Text, "Bus of the commands that access devices, such as `can:can0` or `slcan:/dev/ttyACM0`. The option `--bus` takes precedence.";
     },
 };
 
@@ -121,6 +122,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> DeclaredNetwor
         let section = reader.table(section, &NETWORK);
         network.name = reader.text(section, "name");
         network.bit_rate = reader.integer(section, "bit_rate");
+        network.bus = reader.text(section, "bus");
     }
     network.master = file.get("master").map(|section| {
         let section = reader.table(section, &MASTER);

@@ -9,7 +9,7 @@ use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo};
 use crate::values::Write;
 
 /// Returns the catalog of a node with its node-ID, configured values, and the PDOs that it uses in the network.
-pub(super) fn with_pdos(network: &Network, node: &NetworkNode) -> Catalog {
+pub fn node_catalog(network: &Network, node: &NetworkNode) -> Catalog {
     let mut catalog = configured(network, node, node.description.catalog().clone());
     let device = &mut catalog.devices[0];
     let entries = Entries::new(&device.groups);

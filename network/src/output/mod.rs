@@ -14,6 +14,7 @@ mod rust;
 mod site;
 
 pub use concise::concise;
+pub use configured::node_catalog;
 pub use dbc::dbc;
 pub use dcf::dcf;
 pub use files::{files, OutputFile};

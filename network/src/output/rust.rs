@@ -8,7 +8,7 @@ use lexibus_codegen::ir::Bus;
 use lexibus_codegen::names::{unique, Case, NameRequest};
 use lexibus_codegen::source::Source;
 
-use super::configured::with_pdos;
+use super::configured::node_catalog;
 use super::identity::checked;
 use crate::check::bus_load;
 use crate::model::{Network, NetworkNode};
@@ -50,7 +50,7 @@ fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptio
     let configuration = node.writes.iter().map(|write| setting(node, write)).collect();
     let options =
         RustOptions { device_name: Some(ty.to_owned()), configuration: Some(configuration), ..options.clone() };
-    emit_catalog(&with_pdos(network, node), &options)
+    emit_catalog(&node_catalog(network, node), &options)
 }
 
 /// Returns a write as a setting of the constant `CONFIGURATION`.

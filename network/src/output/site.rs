@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{Direction, Item, Value};
 use lexibus_site::network::{Frame, Node, Parameter, Party};
 use lexibus_site::{network, Page, Site};
 
-use super::configured::with_pdos;
+use super::configured::node_catalog;
 use crate::check::{bus_load, frame_bits, Traffic};
 use crate::model::{Network, NetworkNode, NetworkPdo, EXTENDED};
 use crate::values::Write;
@@ -19,14 +19,14 @@ const FIRST_OBJECT: u16 = 0x1000;
 /// Announces the devices of all nodes. Announce all networks of a site before you add the pages of one of them.
 pub fn announce(network: &Network, title: &str, site: &mut Site) {
     for node in &network.nodes {
-        site.announce(&catalog_name(title, node), &with_pdos(network, node));
+        site.announce(&catalog_name(title, node), &node_catalog(network, node));
     }
 }
 
 /// Returns the pages of a network: those of the nodes' devices, and the page of the network. `title` is the name of the network or of
 /// its file.
 pub fn pages(network: &Network, title: &str, site: &mut Site) -> Vec<Page> {
-    let add = |node| site.add(&catalog_name(title, node), &with_pdos(network, node));
+    let add = |node| site.add(&catalog_name(title, node), &node_catalog(network, node));
     let mut pages: Vec<Page> = network.nodes.iter().flat_map(add).collect();
     let page = network::Network {
         name: title.to_owned(),
