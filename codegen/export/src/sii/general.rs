@@ -10,7 +10,7 @@ const LENGTH: usize = 32;
 pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
     let Context { device, settings, notes, texts, .. } = context;
     let mut bytes = [0; LENGTH];
-    let group = texts.number(&settings.group.to_string(), notes);
+    let group = texts.number(settings.group.as_ref(), notes);
     bytes[0] = group;
     bytes[2] = texts.number(&device.identity.order_code, notes);
     bytes[3] = texts.number(&device.name, notes);

@@ -48,7 +48,7 @@ impl EepromSize {
 
     /// Returns the size if an EEPROM can have it.
     pub fn new(bytes: u32) -> Option<Self> {
-        ((1..=0x8_0000).contains(&bytes) && bytes % Self::STEP == 0).then_some(EepromSize(bytes))
+        ((1..=0x8_0000).contains(&bytes) && bytes.is_multiple_of(Self::STEP)).then_some(EepromSize(bytes))
     }
 
     /// Returns the size in bytes.
