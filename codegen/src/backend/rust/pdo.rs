@@ -23,6 +23,7 @@ use crate::facts::cob_id::has_identifier as contains_identifier;
 use crate::ir::{Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::names;
 use crate::source::Span;
+use crate::text::count_of;
 
 /// Maximum length of a field's name in an expression that packs the field. The limit keeps the generated line short.
 const MAX_FIELD_NAME: usize = 30;
@@ -264,7 +265,7 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
         _ => address,
     };
     let location = if object.is_empty() { "an object with an unknown index" } else { object.as_str() };
-    let facts = format!("{location}, {} bits at bit offset {}.", entry.bits, entry.bit_offset);
+    let facts = format!("{location}, {} at bit offset {}.", count_of(entry.bits, "bit"), entry.bit_offset);
     let type_link = match &kind {
         FieldType::Named(name, _) => DocModule::PDO.code(&format!("types::{name}")),
         _ => format!("`{}`", ty.trim_start_matches("rt::")),
