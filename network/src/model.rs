@@ -250,3 +250,15 @@ pub struct MappedObject {
     /// Length in bits.
     pub bits: u8,
 }
+
+impl MappedObject {
+    /// Returns the object in an entry of a mapping (CiA 301 7.5.2.36).
+    pub fn of_word(word: u32) -> Self {
+        MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 }
+    }
+
+    /// Returns the entry of a mapping for the object.
+    pub fn word(self) -> u32 {
+        u32::from(self.index) << 16 | u32::from(self.sub_index) << 8 | u32::from(self.bits)
+    }
+}

@@ -966,10 +966,11 @@ codes! {
         "The description has no communication object for the PDO, or no node sends the PDO that an RPDO receives. Use \
         a PDO that the device has."
     NET016 UNMAPPABLE_OBJECT Lint Deny "an object cannot be mapped"
-        "The description states that no PDO of this direction can map the object, or the type of the object has no \
-        fixed length. The device aborts the write of the mapping. Map another object. If the description is wrong, \
-        correct it with an overlay. A dummy entry (0x0001 to 0x0007) reserves space. Only an RPDO can contain one, and \
-        `[DummyUsage]` lists the data types that the device supports."
+        "The description states that no PDO of this direction can map the object, or it has no such object. Or the type \
+        of the object has no fixed length, or another length than the entry. The device aborts the write of the \
+        mapping. Map another object. If the description is wrong, correct it with an overlay. A dummy entry (0x0001 to \
+        0x0007) reserves space. Only an RPDO can contain one, and `[DummyUsage]` lists the data types that the device \
+        supports."
     NET017 PDO_LENGTH Lint Deny "a PDO has an invalid length"
         "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the PDO that it receives, because the node \
         then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."

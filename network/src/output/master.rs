@@ -287,13 +287,9 @@ fn mapping_object(pdo: &NetworkPdo, number: u16, places: &Places) -> Group {
     let (index, kind) = if is_received { (0x1600 + number, "RPDO") } else { (0x1A00 + number, "TPDO") };
     let word = |entry: &MappedObject| {
         let (index, sub_index) = places.get(&(entry.index, entry.sub_index)).copied().unwrap_or_default();
-        mapping_word(index, sub_index, entry.bits)
+        MappedObject { index, sub_index, bits: entry.bits }.word()
     };
     words(index, &format!("{kind} mapping parameter"), &pdo.entries.iter().map(word).collect::<Vec<_>>())
-}
-
-fn mapping_word(index: u16, sub_index: u8, bits: u8) -> u32 {
-    u32::from(index) << 16 | u32::from(sub_index) << 8 | u32::from(bits)
 }
 
 fn words(index: u16, name: &str, words: &[u32]) -> Group {
@@ -310,8 +306,7 @@ fn remote(node: &NetworkNode, pdo: &NetworkPdo, number: u16) -> [Group; 2] {
     let name = format!("Remote {kind} number and node-ID");
     let number_item = item(first + number, 0, (&name, U32, Access::ReadWrite));
     let value = u32::from(pdo.number) << 8 | u32::from(node.id);
-    let mapped: Vec<u32> =
-        pdo.entries.iter().map(|entry| mapping_word(entry.index, entry.sub_index, entry.bits)).collect();
+    let mapped: Vec<u32> = pdo.entries.iter().map(|entry| entry.word()).collect();
     let name = format!("Remote {kind} mapping parameter");
     [var(with_value(number_item, value)), words(first + 0x200 + number, &name, &mapped)]
 }

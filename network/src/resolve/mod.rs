@@ -3,6 +3,7 @@
 mod cob_ids;
 mod described_node;
 mod heartbeat;
+mod mapping;
 mod node;
 mod object;
 mod pdo;

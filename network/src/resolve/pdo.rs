@@ -2,14 +2,15 @@
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
 use lexibus_codegen::facts::number::hex16;
-use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
+use lexibus_codegen::facts::pdo::mapped_bits;
 use lexibus_codegen::ir::{CanOpenSettings, Direction, Type};
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
+use super::mapping::unmappable;
 use super::object::find;
 use super::pdo_values::{direction, pdos};
-use super::writer::{title, Writer};
+use super::writer::Writer;
 use crate::declared::{DeclaredNode, DeclaredPdo, ObjectName};
 use crate::model::{MappedObject, NetworkPdo, DISABLED};
 use crate::syntax::At;
@@ -82,35 +83,25 @@ fn write_mapping(pdo: &NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &m
         writer.write((index, 0), 0, objects.span);
     }
     for (entry, sub_index) in entries.iter().zip(1..=u8::MAX) {
-        let (MappedObject { index: object, sub_index: sub, bits }, span) = *entry;
-        let word = u32::from(object) << 16 | u32::from(sub) << 8 | u32::from(bits);
-        writer.write((index, sub_index), word, span);
+        let (entry, span) = *entry;
+        writer.write((index, sub_index), entry.word(), span);
     }
     if !entries.is_empty() {
         writer.write((index, 0), entries.len() as i128, objects.span);
     }
 }
 
-/// Returns the entry for an object. Reports an object that a PDO of this direction cannot map.
+/// Returns the entry for an object. Reports an object without a fixed length.
 fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>) -> Option<MappedObject> {
     if let ObjectName::Address(code @ 1..=0x1B, 0) = object.value {
         return dummy(direction, code, object.span, writer);
     }
     let (item, address) = find(writer.device, object, writer.diagnostics)?;
-    let able = mappable(item, &mapped_objects(&writer.device.process_data.pdos));
-    let (is_able, name) = match direction {
-        Direction::Receive => (able.rpdo, "an RPDO"),
-        Direction::Transmit => (able.tpdo, "a TPDO"),
-    };
     let bits = mapped_bits(item, &writer.device.types);
-    if !is_able || bits.is_none() {
-        let message = format!("{} cannot be mapped in {name}", title(item, address));
+    if bits.is_none() {
+        let message = unmappable(item, address, direction);
         let found = Diagnostic::new(&codes::UNMAPPABLE_OBJECT, object.span, message);
-        let reason = match bits {
-            None => "its type has no fixed length".to_owned(),
-            Some(_) => format!("the description states PDO mapping and access rights `{}`", item.access.name()),
-        };
-        writer.diagnostics.push(found.label(reason));
+        writer.diagnostics.push(found.label("its type has no fixed length"));
     }
     Some(MappedObject { index: address.0, sub_index: address.1, bits: u8::try_from(bits?).ok()? })
 }

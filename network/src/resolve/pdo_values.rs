@@ -113,8 +113,6 @@ pub(super) fn report_multiplexed(
 
 fn mapping(values: Values<'_>, index: u16) -> Vec<MappedObject> {
     let count = values.number((index, 0)).filter(|count| multiplexed_name(*count).is_none()).unwrap_or(0);
-    let words = (1..=count.min(64)).filter_map(|sub_index| values.get((index, sub_index)));
-    let entry =
-        |word: i128| MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 };
-    words.filter(|word| *word != 0).map(entry).collect()
+    let words = (1..=count.min(64)).filter_map(|sub_index| values.number((index, sub_index)));
+    words.filter(|word| *word != 0).map(MappedObject::of_word).collect()
 }

@@ -7,7 +7,7 @@ use lexibus_codegen::source::{FileId, Source, Span};
 
 use super::cob_ids::CobIds;
 use super::described_node::DescribedNode;
-use super::{heartbeat, node};
+use super::{heartbeat, mapping, node};
 use crate::declared::{DeclaredNetwork, DeclaredNode};
 use crate::description::Descriptions;
 use crate::model::{file_stem, Network};
@@ -38,6 +38,7 @@ pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Dia
         nodes: resolved,
     };
     let consumers: Vec<bool> = network.nodes.iter().map(|node| consumes(&declared.nodes, &node.name.value)).collect();
+    network.nodes.iter().for_each(|node| mapping::check(node, diagnostics));
     heartbeat::monitor_master(&mut network, &consumers, diagnostics);
     network
 }

@@ -101,4 +101,9 @@ fn pdos_that_parameters_configure_are_checked() {
     assert_eq!(messages(&long), ["NET017 TPDO 2 maps 80 bits, but a PDO has at most 64"]);
     let conflict = with_sdo(&TPDO.replace("value: 0x281}", "value: 0x81}"), 10_000);
     assert_eq!(messages(&conflict), ["NET019 the CAN-ID 0x81 of TPDO 2 of `axis` is also that of the EMCY of `axis`"]);
+    let mapped = |word: &str| messages(&with_sdo(&TPDO.replace("0x606C0020", word), 10_000));
+    assert_eq!(mapped("0x60400010"), ["NET016 object 0x6040 `Controlword` cannot be mapped in a TPDO"]);
+    assert_eq!(mapped("0x60490010"), ["NET016 TPDO 2 of `axis` maps object 0x6049:0"]);
+    assert_eq!(mapped("0x606C0010"), ["NET016 TPDO 2 maps 16 bits of object 0x606C `Velocity actual value`"]);
+    assert_eq!(mapped("0x00050008"), [""; 0], "a gap");
 }
