@@ -16,7 +16,7 @@ pub struct Write {
     pub span: Span,
 }
 
-/// Values of the objects of a device: the last value that is written, or else the initial value of the description.
+/// Values of the objects of a device: the last value that is written, or the initial value if none is written.
 #[derive(Clone, Copy, Debug)]
 pub struct Values<'a> {
     /// The device.
