@@ -43,7 +43,7 @@ impl<C> DemoDrive<C> {
     ///
     /// # Errors
     ///
-    /// Returns an error if an access fails, a fault occurs on the way (with the state and the error code from [Pre-defined error field1](objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1)), no command leads to the state, or the device is not in the state after the time `deadline`.
+    /// Returns an error if an access fails, a fault occurs on the way (the error contains the state and the error code from [Pre-defined error field1](objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1)), no command leads to the state, or the device does not reach the state within the time `deadline`.
     pub fn walk(
         &mut self,
         target: types::State,
@@ -2734,7 +2734,7 @@ pub mod types {
     impl Command {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
         ///
-        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        /// If several commands match, the function returns the first of those whose masks have the most bits.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x8F == 0x7 {
                 return Some(Self::SwitchOn);

@@ -9877,7 +9877,7 @@ pub mod types {
     impl InterpolationCommand {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
         ///
-        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        /// If several commands match, the function returns the first of those whose masks have the most bits.
         pub const fn from_raw(raw: u8) -> Option<Self> {
             if raw & 0xF0 == 0 {
                 return Some(Self::EmptyPacket);

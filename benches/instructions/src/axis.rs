@@ -124,7 +124,7 @@ impl<C> Ax1<C> {
     ///
     /// # Errors
     ///
-    /// Returns an error if an access fails, a fault occurs on the way (with the state), no command leads to the state, or the device is not in the state after the time `deadline`.
+    /// Returns an error if an access fails, a fault occurs on the way (the error contains the state), no command leads to the state, or the device does not reach the state within the time `deadline`.
     pub fn walk(
         &mut self,
         target: types::State,
@@ -1485,7 +1485,7 @@ pub mod types {
     impl Command {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
         ///
-        /// If several commands match, the function returns the command with the most bits, and the first of several such commands.
+        /// If several commands match, the function returns the first of those whose masks have the most bits.
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x8F == 0x7 {
                 return Some(Self::SwitchOn);
@@ -2111,7 +2111,7 @@ pub mod objects {
         /// Ready: 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::ready`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x01,
@@ -2121,7 +2121,7 @@ pub mod objects {
         /// Mode: 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2000,
             0x02,
@@ -2131,7 +2131,7 @@ pub mod objects {
         /// Referenced: 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::referenced`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x03,
@@ -2141,7 +2141,7 @@ pub mod objects {
         /// Position: 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::position`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
             0x2000,
             0x04,
@@ -2151,7 +2151,7 @@ pub mod objects {
         /// Overflow: 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::overflow`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x05,
@@ -2161,7 +2161,7 @@ pub mod objects {
         /// Quality: 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::quality`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
             0x2000,
             0x06,
@@ -2171,7 +2171,7 @@ pub mod objects {
         /// Speed: 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
         /// Accessor: [`Object2000Accessors::speed`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
             0x2000,
             0x07,
@@ -2244,7 +2244,7 @@ pub mod objects {
         /// Limit: 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
         /// Accessor: [`Object2001Accessors::limit`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2001,
             0x01,
@@ -2254,7 +2254,7 @@ pub mod objects {
         /// Mode: 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
         /// Accessor: [`Object2001Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2001,
             0x02,
@@ -2264,7 +2264,7 @@ pub mod objects {
         /// Current: 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
         /// Accessor: [`Object2001Accessors::current`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
         ///
-        /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+        /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
         pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
             0x2001,
             0x03,
@@ -2308,7 +2308,7 @@ pub mod objects {
     ///
     /// Bits from CiA 402, 10.3.1.
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     ///
     /// Description from CiA 402, 10.3.1.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_coe_object(
@@ -2338,7 +2338,7 @@ pub mod objects {
     ///
     /// Values from CiA 402, 10.3.8.
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     ///
     /// Description from CiA 402, 10.3.8.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::flagged_coe_object(
@@ -2350,7 +2350,7 @@ pub mod objects {
     /// Position: 0x6064:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`position`](super::Ax1::position). Mapped in [`ActualValues`](super::pdo::ActualValues) and [`DriveStatus`](super::pdo::DriveStatus).
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     pub const POSITION: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x6064,
         0x00,
@@ -2360,7 +2360,7 @@ pub mod objects {
     /// Velocity: 0x606C:00, INTEGER32, read-only, mappable into TPDOs.
     /// Accessor: [`velocity`](super::Ax1::velocity). Mapped in [`ActualValues`](super::pdo::ActualValues).
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     pub const VELOCITY: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x606C,
         0x00,
@@ -2372,7 +2372,7 @@ pub mod objects {
     ///
     /// Actual torque, relative to the rated torque.
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     ///
     /// Unit from CiA 402, 17.3.7.
     ///
@@ -2388,7 +2388,7 @@ pub mod objects {
     /// Target position: 0x607A:00, INTEGER32, read-write, mappable into RPDOs.
     /// Accessor: [`target_position`](super::Ax1::target_position). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x607A,
         0x00,
@@ -2400,7 +2400,7 @@ pub mod objects {
     ///
     /// Torque offset, which is added to the target torque. Both values are relative to the rated torque.
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     ///
     /// Unit from CiA 402, object 60B2h of CiA 402-2.
     ///
@@ -2416,7 +2416,7 @@ pub mod objects {
     /// Target velocity: 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.
     /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Mapped in [`SetPoints`](super::pdo::SetPoints).
     ///
-    /// Access rights and PDO mapping from the rule for objects that only a PDO describes.
+    /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
     pub const TARGET_VELOCITY: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x60FF,
         0x00,
@@ -2525,15 +2525,15 @@ pub mod pdo {
     /// | 4–5 | [`speed`](Self::speed) | [0x2000:07](super::objects::object_2000::SPEED) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Encoder {
-        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits at bit offset 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bit at bit offset 0.
         pub ready: bool,
         /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits at bit offset 1.
         pub mode: super::types::Mode,
-        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits at bit offset 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bit at bit offset 4.
         pub referenced: bool,
         /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits at bit offset 5.
         pub position: rt::Int<24>,
-        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits at bit offset 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bit at bit offset 29.
         pub overflow: bool,
         /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits at bit offset 30.
         pub quality: rt::Uint<2>,
@@ -2628,7 +2628,7 @@ pub mod pdo {
     pub struct ActualValues {
         /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits at bit offset 0.
         pub statusword: super::types::Statusword,
-        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits at bit offset 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bit at bit offset 16.
         pub limit: bool,
         /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits at bit offset 17.
         pub mode: super::types::Mode,
@@ -2893,7 +2893,7 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits at bit offset 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bit at bit offset 0.
         #[inline]
         pub fn ready(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit, 1) != 0
@@ -2905,7 +2905,7 @@ pub mod view {
                 rt::bits::get(self.data.as_ref(), self.bit + 1, 3) as u8,
             )
         }
-        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits at bit offset 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bit at bit offset 4.
         #[inline]
         pub fn referenced(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 4, 1) != 0
@@ -2915,7 +2915,7 @@ pub mod view {
         pub fn position(&self) -> rt::Int<24> {
             rt::Int::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 5, 24))
         }
-        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits at bit offset 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bit at bit offset 29.
         #[inline]
         pub fn overflow(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 29, 1) != 0
@@ -2932,7 +2932,7 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> Encoder<B> {
-        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits at bit offset 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bit at bit offset 0.
         #[inline]
         pub fn set_ready(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit, 1, value as u64);
@@ -2942,7 +2942,7 @@ pub mod view {
         pub fn set_mode(&mut self, value: super::types::Mode) {
             rt::bits::set(self.data.as_mut(), self.bit + 1, 3, value.raw() as u64);
         }
-        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits at bit offset 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bit at bit offset 4.
         #[inline]
         pub fn set_referenced(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 4, 1, value as u64);
@@ -2952,7 +2952,7 @@ pub mod view {
         pub fn set_position(&mut self, value: rt::Int<24>) {
             rt::bits::set(self.data.as_mut(), self.bit + 5, 24, value.raw());
         }
-        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits at bit offset 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bit at bit offset 29.
         #[inline]
         pub fn set_overflow(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 29, 1, value as u64);
@@ -3002,7 +3002,7 @@ pub mod view {
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits at bit offset 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bit at bit offset 16.
         #[inline]
         pub fn limit(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 1) != 0
@@ -3036,7 +3036,7 @@ pub mod view {
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits at bit offset 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bit at bit offset 16.
         #[inline]
         pub fn set_limit(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 1, value as u64);

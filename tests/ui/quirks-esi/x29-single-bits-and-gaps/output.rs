@@ -11,7 +11,7 @@
     /// | 4.0–5.3 | [`level`](Self::level) | [0x6020:00](super::objects::LEVEL) | `Uint<12>` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Sensors {
-        /// Ready: [0x6000:01](super::objects::object_6000::READY), 1 bits at bit offset 0.
+        /// Ready: [0x6000:01](super::objects::object_6000::READY), 1 bit at bit offset 0.
         pub ready: bool,
         /// Mode: [0x6000:02](super::objects::object_6000::MODE), 5 bits at bit offset 3.
         pub mode: rt::Uint<5>,

@@ -45,11 +45,11 @@
     /// | 2–3 | [`speed_2001`](Self::speed_2001) | [0x2001:00](super::objects::SPEED_2001) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
-        /// Inputs1\_B01: [0x2000:01](super::objects::digital_inputs::LIMIT_SWITCH), 1 bits at bit offset 0.
+        /// Inputs1\_B01: [0x2000:01](super::objects::digital_inputs::LIMIT_SWITCH), 1 bit at bit offset 0.
         pub digital_inputs_limit_switch: bool,
-        /// Inputs1\_B02: [0x2000:02](super::objects::digital_inputs::DIGITAL_INPUTS_2), 1 bits at bit offset 1.
+        /// Inputs1\_B02: [0x2000:02](super::objects::digital_inputs::DIGITAL_INPUTS_2), 1 bit at bit offset 1.
         pub digital_inputs_2: bool,
-        /// Inputs2\_B01: [0x2010:01](super::objects::safe_inputs::LIMIT_SWITCH), 1 bits at bit offset 2.
+        /// Inputs2\_B01: [0x2010:01](super::objects::safe_inputs::LIMIT_SWITCH), 1 bit at bit offset 2.
         pub safe_inputs_limit_switch: bool,
         /// Actual speed: [0x2001:00](super::objects::SPEED_2001), 16 bits at bit offset 16.
         pub speed_2001: i16,
