@@ -139,6 +139,18 @@ fn registers_are_read_and_written_over_tcp() {
     assert!(saved.contains("value = 1550 }, # 15.50 rev/s (raw 1550)"), "{saved}\n{:?}", texts(&output));
 }
 
+#[test]
+fn the_identity_of_a_modbus_device_is_compared() {
+    let bus = format!("tcp:127.0.0.1:{}", modbus_server());
+    let table = std::fs::read_to_string(dictionary("aec-vector-step.toml")).expect("a table");
+    let other = folder("identity").join("other.toml");
+    std::fs::write(&other, table.replace("vendor = \"AEC s.r.l.\"", "vendor = \"Other Ltd.\"")).expect("a table");
+    let verified = |table: &str| texts(&run(&["verify", "--bus", &bus, "--node", "1", table])).0;
+    let (same, other) = (verified(&dictionary("aec-vector-step.toml")), verified(&other.to_string_lossy()));
+    assert!(same.contains(" parameters read") && !same.contains(": identity"), "{same}");
+    assert!(other.contains("different: identity: vendor name: declared Other Ltd., found AEC SRL\n"), "{other}");
+}
+
 const ASC: &str = "date Fri Jan 16 09:00:00.000 am 2026\nbase hex  timestamps absolute\n\
     0.001000 1  705             Rx   d 1 7F\n0.002000 1  285             Rx   d 6 37 02 FE FF FF FF\n\
     0.003000 1  123             Rx   d 1 00\nnot a frame\n";

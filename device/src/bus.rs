@@ -14,6 +14,8 @@ use crate::failure::Failure;
 use crate::port::AnyPort;
 
 #[cfg(feature = "modbus")]
+mod line;
+#[cfg(feature = "modbus")]
 mod modbus;
 
 /// A bus on the computer.

@@ -10,6 +10,8 @@ use crate::failure::Failure;
 mod registers;
 
 pub use registers::ModbusConnection;
+#[cfg(feature = "modbus")]
+pub(crate) use registers::ModbusFailure;
 
 /// Transfers the bytes of values to and from one device. The least significant byte of a number comes first.
 pub trait Connection {
@@ -31,6 +33,15 @@ pub trait Connection {
     /// Returns the reason why the device or the bus didn't transfer the value. After a timeout, the device may have
     /// accepted the value.
     fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure>;
+
+    /// Reads the basic device identification of a Modbus device (function 43): numbers of objects with their texts.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the device or the connection doesn't support the function. This is the default.
+    fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
+        Err(Failure::Unsupported("the connection cannot read the device identification".to_owned()))
+    }
 }
 
 impl<C: Connection + ?Sized> Connection for &mut C {
@@ -45,6 +56,10 @@ impl<C: Connection + ?Sized> Connection for &mut C {
     fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure> {
         C::write(self, address, data)
     }
+
+    fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
+        C::identification(self)
+    }
 }
 
 impl<C: Connection + ?Sized> Connection for Box<C> {
@@ -58,6 +73,10 @@ impl<C: Connection + ?Sized> Connection for Box<C> {
 
     fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure> {
         C::write(self, address, data)
+    }
+
+    fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
+        C::identification(self)
     }
 }
 

@@ -25,6 +25,7 @@
 mod extra;
 mod finding;
 mod html;
+mod identity;
 mod item;
 mod mapping;
 mod overlay;

@@ -105,10 +105,19 @@ fn serve_modbus(mut stream: TcpStream, device: &mut Device) -> std::io::Result<(
     }
 }
 
-/// Answers a request with the function code 3, 4, 6 or 16, and rejects other function codes.
+/// Reply to a request for the device identification (function 43): the vendor name, and then the product code in another reply.
+fn identification(first: u8) -> Vec<u8> {
+    let (value, more) = if first == 0 { (&b"AEC SRL"[..], 0xFF) } else { (&b"SMD1204"[..], 0) };
+    [&[0x2B, 0x0E, 0x01, 0x01, more, 1, 1, first, value.len() as u8], value].concat()
+}
+
+/// Answers a request with the function code 3, 4, 6, 16 or 43, and rejects other function codes.
 fn answer(request: &[u8], device: &mut Device) -> Vec<u8> {
     let number = |at: usize| u16::from_be_bytes([request[at], request[at + 1]]);
     let function = request[0];
+    if function == 0x2B {
+        return identification(request[3]);
+    }
     let table = if function == 4 { RegisterTable::Input } else { RegisterTable::Holding };
     let result = match function {
         3 | 4 => device.read_words(table, number(1), number(3)).map(|words| {

@@ -9,6 +9,7 @@ use lexibus::modbus::{Limits, TableLimits};
 use lexibus_codegen::ir::{ModbusTable, RegisterSpace};
 use tokio_serial::{Parity, SerialStream, StopBits};
 
+use super::line::LineConnection;
 use super::BusAddress;
 use crate::connection::{Connection, ModbusConnection};
 use crate::description::Description;
@@ -29,7 +30,7 @@ impl BusAddress {
             BusAddress::Tcp(host) => {
                 let link = BlockingLink::tcp(resolve(host)?, Slave(address), timeout);
                 let link = link.map_err(|error| Failure::Bus(format!("cannot connect to {host}: {error}")))?;
-                Ok(Box::new(ModbusConnection::new(ModbusClient::new(link).with_limits(limits))))
+                Ok(Box::new(LineConnection(ModbusConnection::new(ModbusClient::new(link).with_limits(limits)))))
             }
             BusAddress::Rtu { path, bit_rate, parity, stop_bits } => {
                 if address == 0 {
@@ -45,7 +46,7 @@ impl BusAddress {
                 let link =
                     BlockingLink::open(async { Ok(Link::rtu(SerialStream::open(&line)?, Slave(address), timeout)) });
                 let link = link.map_err(|error| Failure::Bus(format!("cannot open {path}: {error}")))?;
-                Ok(Box::new(ModbusConnection::new(ModbusClient::new(link).with_limits(limits))))
+                Ok(Box::new(LineConnection(ModbusConnection::new(ModbusClient::new(link).with_limits(limits)))))
             }
             _ => Err(Failure::Bus("the bus is not a Modbus line".to_owned())),
         }

@@ -128,13 +128,13 @@ impl Finding {
         }
     }
 
-    /// Creates a finding about a fact of the device that cannot be verified.
-    pub(super) fn unverifiable(fact: &str, message: &str) -> Self {
+    /// Creates a finding about a fact of the whole device.
+    pub(super) fn of_device(kind: FindingKind, fact: &str, message: impl Into<String>) -> Self {
         Self {
-            kind: FindingKind::Unverifiable,
+            kind,
             address: fact.to_owned(),
             name: String::new(),
-            message: message.to_owned(),
+            message: message.into(),
             declared: None,
             actual: None,
             abort_code: None,

@@ -1,7 +1,7 @@
 //! Runs the comparison.
 
 use super::extra;
-use super::finding::Finding;
+use super::identity;
 use super::item;
 use super::mapping;
 use super::report::Report;
@@ -30,7 +30,7 @@ pub fn verify(
         mapping::check(&mut run)?;
         extra::check(&mut run)?;
     } else {
-        run.add(Finding::unverifiable("identity", "the device identification (function 43) is not read"));
+        identity::check(&mut run);
     }
     let mut report = run.report;
     report.findings.sort_by_key(|finding| finding.kind);
