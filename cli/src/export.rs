@@ -5,7 +5,7 @@ use std::path::Path;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_export::eds::{self, Flavor, Reals};
-use lexibus_export::{esi, gsdml, Export as Exported, Refusal};
+use lexibus_export::{esi, gsdml, sii, Export as Exported, Note, Refusal};
 
 use super::args::{Export, ExportFormat, MessageFormat, RealForm};
 use super::inputs;
@@ -17,6 +17,7 @@ use super::Failure;
 enum Format {
     Eds(eds::Options),
     Esi(Box<esi::Options>),
+    Sii(Box<sii::Options>),
     Gsdml(Box<gsdml::Options>),
 }
 
@@ -30,6 +31,7 @@ impl Format {
             ExportFormat::Eds => Format::Eds(eds::Options { flavor: Flavor::Eds, reals }),
             ExportFormat::Dcf => Format::Eds(eds::Options { flavor: Flavor::Dcf, reals }),
             ExportFormat::Esi => Format::Esi(Box::default()),
+            ExportFormat::Sii => Format::Sii(Box::default()),
             ExportFormat::Gsdml => Format::Gsdml(Box::default()),
         };
         if export.real.is_some() && !matches!(format, Format::Eds(_)) {
@@ -39,6 +41,7 @@ impl Format {
             let set = match &mut format {
                 Format::Eds(_) => Err("an EDS or DCF needs no additional facts".to_owned()),
                 Format::Esi(options) => options.set(key, value),
+                Format::Sii(options) => options.set(key, value),
                 Format::Gsdml(options) => options.set(key, value),
             };
             set.map_err(|message| Failure::Usage(format!("--set {key}: {message}")))?;
@@ -51,6 +54,7 @@ impl Format {
         match self {
             Format::Eds(_) => "no device with objects",
             Format::Esi(_) => "no EtherCAT slave and no device with objects",
+            Format::Sii(_) => "no EtherCAT slave",
             Format::Gsdml(_) => "no PROFINET device and no process image",
         }
     }
@@ -60,6 +64,7 @@ impl Format {
             Format::Eds(eds::Options { flavor: Flavor::Eds, .. }) => "eds",
             Format::Eds(_) => "dcf",
             Format::Esi(_) | Format::Gsdml(_) => "xml",
+            Format::Sii(_) => "bin",
         }
     }
 }
@@ -69,7 +74,14 @@ struct File<'c> {
     device: Option<&'c Device>,
     /// File name that the format requires. `None` means that the name of the input is used.
     name: Option<String>,
-    exported: Exported,
+    content: Vec<u8>,
+    notes: Vec<Note>,
+}
+
+impl<'c> File<'c> {
+    fn new(device: Option<&'c Device>, name: Option<String>, exported: Exported) -> Self {
+        File { device, name, content: exported.text.into_bytes(), notes: exported.notes }
+    }
 }
 
 pub(super) fn run(export: &Export) -> Result<bool, Failure> {
@@ -117,15 +129,15 @@ fn write(
             Some(name) => name.clone(),
             None => file_name(input, file.device.filter(|_| several)),
         };
-        target.put(name, format.ending(), &file.exported.text, reporter)?;
+        target.put(name, format.ending(), &file.content, reporter)?;
         let source = compilation.sources.first().map_or("", |source| source.name());
         let whose = file.device.filter(|_| several).map_or("", |device| device.name.as_str());
-        reporter.export_notes(source, whose, &file.exported.notes)?;
+        reporter.export_notes(source, whose, &file.notes)?;
     }
     Ok(())
 }
 
-/// Returns the exported files of an input: one EDS per device, or one file for all devices.
+/// Returns the exported files of an input: one EDS or SII per device, or one file for all devices.
 ///
 /// Returns `None` if the input contains nothing to export, which is an error only if it is the only input. Also reports
 /// an error and returns `None` if facts that the format requires are missing.
@@ -136,21 +148,20 @@ fn files<'c>(
     target: &Target<'_>,
     reporter: &mut Reporter,
 ) -> Option<Vec<File<'c>>> {
-    let one = |exported, name| vec![File { device: None, name, exported }];
+    let one = |exported, name| vec![File::new(None, name, exported)];
     let files = match format {
         Format::Eds(options) => {
-            let file = |device| {
-                let exported = eds::export(catalog, device, *options)?;
-                Some(File { device: Some(device), name: None, exported })
-            };
-            let files: Vec<File<'c>> = catalog.devices.iter().filter_map(file).collect();
-            if files.is_empty() {
-                Err(Refusal::Nothing)
-            } else {
-                Ok(files)
-            }
+            let file = |device| Some(File::new(Some(device), None, eds::export(catalog, device, *options)?));
+            of_devices(catalog.devices.iter().filter_map(file).map(Ok))
         }
         Format::Esi(options) => esi::export(catalog, options).map(|exported| one(exported, None)),
+        Format::Sii(options) => {
+            let file = |device| {
+                let sii::Image { bytes, notes } = sii::export(device, options)?;
+                Ok(File { device: Some(device), name: None, content: bytes, notes })
+            };
+            of_devices(catalog.devices.iter().map(file).filter(|file| !matches!(file, Err(Refusal::Nothing))))
+        }
         Format::Gsdml(options) => {
             gsdml::export(catalog, options).map(|exported| one(exported, gsdml::file_name(catalog, options)))
         }
@@ -163,12 +174,21 @@ fn files<'c>(
             reporter.error(&format!("{}: there is nothing to export: the input describes {what}", input.display()));
             None
         }
-        Err(refusal @ Refusal::Missing(_)) => {
+        Err(refusal @ (Refusal::Missing(_) | Refusal::TooLong { .. })) => {
             let help = "with --set KEY=VALUE";
             reporter.error(&format!("{}: {refusal}, {help}", input.display()));
             None
         }
     }
+}
+
+/// Returns the files of several devices. Refuses a list without files.
+fn of_devices<'c>(files: impl Iterator<Item = Result<File<'c>, Refusal>>) -> Result<Vec<File<'c>>, Refusal> {
+    let files: Vec<File<'c>> = files.collect::<Result<_, _>>()?;
+    if files.is_empty() {
+        return Err(Refusal::Nothing);
+    }
+    Ok(files)
 }
 
 /// Returns a file name: the name of the input, followed by the order code, name or ID of `device` if there is a device.

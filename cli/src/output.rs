@@ -1,7 +1,7 @@
 //! Writes the output of a command to files or standard output, or compares it with existing files.
 
 use std::collections::BTreeSet;
-use std::io::Write;
+use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
 use lexibus_codegen::output::{is_no_regular_file, write_if_changed, writing};
@@ -56,22 +56,23 @@ impl<'g> Target<'g> {
         &mut self,
         name: impl FnOnce() -> String,
         ending: &str,
-        text: &str,
+        content: impl AsRef<[u8]>,
         reporter: &mut Reporter,
     ) -> Result<(), Failure> {
+        let content = content.as_ref();
         let Some(out) = self.out else {
-            std::io::stdout().lock().write_all(text.as_bytes())?;
+            std::io::stdout().lock().write_all(content)?;
             return Ok(());
         };
         let path = if self.is_folder { self.file_in(out, &name(), ending) } else { out.to_owned() };
         if self.check {
-            check(&path, text, reporter);
-        } else if let Err(error) = write_if_changed(&path, text) {
+            check_bytes(&path, content, reporter);
+        } else if let Err(error) = write_if_changed(&path, content) {
             reporter.error(&format!("cannot write {}: {error}", path.display()));
         } else {
             self.files += 1;
             if self.is_one_file() && self.is_reported {
-                reporter.progress(&format!("wrote {}: {} lines", path.display(), text.lines().count()));
+                reporter.progress(&format!("wrote {}: {} lines", path.display(), content.lines().count()));
             }
         }
         Ok(())

@@ -87,6 +87,8 @@ pub(crate) enum ExportFormat {
     Dcf,
     /// EtherCAT slave information (ETG.2000). One file describes all devices of an input.
     Esi,
+    /// Content of the EEPROM of an EtherCAT slave (SII, ETG.2010): a binary file for each device.
+    Sii,
     /// PROFINET device description (GSDML). One file describes all devices of an input.
     Gsdml,
 }

@@ -1,8 +1,9 @@
 //! Creates all outputs of a compilation except Rust.
 
 use lexibus_codegen::compile::Compilation;
+use lexibus_codegen::ir::Device;
 use lexibus_export::esi::{Export, Refusal};
-use lexibus_export::{eds, esi, gsdml, json};
+use lexibus_export::{eds, esi, gsdml, json, sii};
 use lexibus_site::{Format, Page, Site};
 
 /// The outputs of all back ends except Rust.
@@ -36,8 +37,24 @@ pub fn others(compilation: &Compilation) -> Outputs {
         outputs.eds.extend(devices.filter_map(export));
     }
     outputs.esi = completed(|options| esi::export(catalog, options), esi::Options::set);
+    catalog.devices.iter().for_each(image);
     outputs.gsdml = completed(|options| gsdml::export(catalog, options), gsdml::Options::set);
     outputs
+}
+
+/// Checks the length of a device's EEPROM image.
+fn image(device: &Device) {
+    let mut options = sii::Options::default();
+    for (key, value) in [("vendor-id", "1"), ("product-code", "1"), ("config-data", "01"), ("eeprom-size", "524288")] {
+        options.set(key, value).expect("an option");
+    }
+    let eeprom = device.ethercat.as_ref().and_then(|settings| settings.eeprom.as_ref());
+    let declared = eeprom.map(|eeprom| eeprom.data.len()).filter(|length| *length > 0);
+    match sii::export(device, &options) {
+        Ok(image) => assert_eq!(image.bytes.len(), declared.unwrap_or(524_288)),
+        Err(Refusal::Nothing | Refusal::TooLong { .. }) => {}
+        Err(missing) => panic!("{missing}"),
+    }
 }
 
 fn site(format: Format, compilation: &Compilation) -> Vec<Page> {

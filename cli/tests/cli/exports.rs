@@ -92,6 +92,40 @@ fn export_writes_an_esi_and_asks_for_what_the_source_lacks() {
 }
 
 #[test]
+fn export_writes_an_image_per_slave() {
+    let folder = folder("export_sii");
+    let nothing = lexibus(&["export", "--format", "sii", DEMO]);
+    assert_eq!((code(&nothing), out(&nothing)), (1, String::new()));
+    assert!(err(&nothing).contains("the input describes no EtherCAT slave"), "{}", err(&nothing));
+    let path = folder.join("sv1.bin").to_string_lossy().into_owned();
+    let mut call = vec!["export", "--format", "sii", COUPLER, "--device", "SV-1", "-A", "warnings", "--out", &path];
+    assert_eq!(code(&lexibus(&call)), 0);
+    let image = std::fs::read(&path).expect("an image");
+    assert_eq!((image.len(), &image[..6]), (2048, &[0x08, 0x0C, 0x00, 0xCC, 0xE8, 0x03][..]));
+    assert_eq!(lexibus(&call[..8]).stdout, image, "standard output contains the same bytes");
+    call.push("--check");
+    assert_eq!(code(&lexibus(&call)), 0);
+    call.extend(["--set", "station-alias=12"]);
+    let stale = lexibus(&call);
+    assert_eq!(code(&stale), 1);
+    assert!(err(&stale).contains("is missing or stale"), "{}", err(&stale));
+    // The coupler has no ConfigData.
+    let into = format!("{}/", folder.join("all").to_string_lossy());
+    let missing = lexibus(&["export", "--format", "sii", COUPLER, "--out", &into, "-A", "warnings"]);
+    assert_eq!(code(&missing), 1);
+    assert!(err(&missing).contains("set `config-data`"), "{}", err(&missing));
+    let config = ["--set", "config-data=050603446400"];
+    let many = [&["export", "--format", "sii", COUPLER, "--out", &into, "-A", "warnings"], &config[..]].concat();
+    assert_eq!(code(&lexibus(&many)), 0);
+    let mut names: Vec<_> =
+        std::fs::read_dir(&into).expect("a folder").map(|entry| entry.expect("a file").file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["coupler.esi_CP-32.bin", "coupler.esi_SV-1.bin"]);
+    let small = lexibus(&[&call[..8], &["--set", "eeprom-size=128"]].concat());
+    assert!(err(&small).contains("but the EEPROM has only 128; set `eeprom-size`, with --set"), "{}", err(&small));
+}
+
+#[test]
 fn export_writes_a_gsdml_under_its_name() {
     let folder = folder("export_gsdml");
     const SOURCES: [&str; 3] = [

@@ -8,7 +8,7 @@ use lexibus_codegen::diagnostics::{codes, render, Diagnostic, Level};
 use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
 use lexibus_export::diagnostics::{json as report, sarif};
-use lexibus_export::{eds, esi, gsdml, json};
+use lexibus_export::{eds, esi, gsdml, json, sii};
 use lexibus_site::compare::compare;
 use lexibus_site::{Format, Site};
 
@@ -93,5 +93,6 @@ fn exported(catalog: &Catalog) {
     let _ = gsdml::export(catalog, &gsdml::Options::default());
     for device in catalog.devices.iter().take(2) {
         eds::export(catalog, device, eds::Flavor::Dcf);
+        let _ = sii::export(device, &sii::Options::default());
     }
 }

@@ -1,5 +1,5 @@
-//! Exports devices from any input format as EDS or DCF (CiA 306), ESI (ETG.2000) or GSDML. Also writes the IR as JSON,
-//! and diagnostics as JSON lines or SARIF.
+//! Exports devices from any input format as EDS or DCF (CiA 306), ESI (ETG.2000), EEPROM content of EtherCAT slaves
+//! (SII) or GSDML. Also writes the IR as JSON, and diagnostics as JSON lines or SARIF.
 //!
 //! Facts that the output format cannot express are left out. [`Export::notes`] lists the facts that were left out.
 //!
@@ -25,6 +25,7 @@ pub mod json;
 mod note;
 mod options;
 mod registers;
+pub mod sii;
 mod xml;
 
 pub use note::{Export, Note, NoteKind};

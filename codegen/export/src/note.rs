@@ -175,6 +175,26 @@ kinds! {
     NotInData = "not-in-data", "item outside of the cyclic data left out";
     /// A little-endian number in cyclic data.
     ByteOrder = "byte-order", "little-endian number written as octets: the bus is big-endian";
+    /// A character that ISO 8859-1 does not contain.
+    Character = "character", "text with characters outside of ISO 8859-1, which become question marks";
+    /// A text of more than 255 bytes.
+    LongText = "long-text", "text shortened to 255 bytes";
+    /// A text after the 255 texts that an image can contain.
+    TextCount = "text-count", "text left out: an image contains at most 255 texts";
+    /// A PDO entry whose length does not fit the length field.
+    SplitEntry = "split-entry", "PDO entry longer than 255 bits written as several entries";
+    /// A PDO with more than 255 entries.
+    PdoEntries = "pdo-entries", "PDO left out: it has more than 255 entries";
+    /// The names of PDO entries that do not fit the EEPROM.
+    EntryNames = "entry-names", "name of a PDO entry left out: the EEPROM is too small";
+    /// The PDOs that do not fit the EEPROM of a device with CoE.
+    PdosLeftOut = "pdos-left-out", "PDO left out: the EEPROM is too small, and a master can read the PDO with CoE";
+    /// The size of an EEPROM that the source does not state.
+    EepromSize = "eeprom-size", "EEPROM size missing or invalid; the next larger power of two is used";
+    /// Bytes of ConfigData or BootStrap without a field.
+    ConfigData = "config-data", "bytes after the configuration of the slave controller or mailbox left out";
+    /// A checksum of the source that is wrong.
+    Checksum = "checksum", "checksum of the configuration area in the description is wrong";
 }
 
 /// Collects the notes of an export.

@@ -22,6 +22,13 @@ pub enum Refusal {
     Nothing,
     /// Facts that the format requires are neither in the source nor in the options.
     Missing(Vec<MissingFact>),
+    /// The content is too long for the EEPROM.
+    TooLong {
+        /// Length of the content in bytes.
+        needed: usize,
+        /// Size of the EEPROM in bytes.
+        size: usize,
+    },
 }
 
 impl fmt::Display for Refusal {
@@ -34,6 +41,9 @@ impl fmt::Display for Refusal {
                     write!(f, "{comma}`{}` ({})", fact.key, fact.what.trim_end_matches('.'))?;
                 }
                 Ok(())
+            }
+            Refusal::TooLong { needed, size } => {
+                write!(f, "the content has {needed} bytes, but the EEPROM has only {size}; set `eeprom-size`")
             }
         }
     }
@@ -64,8 +74,13 @@ impl MissingFacts {
     }
 
     pub(super) fn finish(self, text: String, notes: Vec<Note>) -> Result<super::Export, Refusal> {
+        self.check().map(|()| super::Export { text, notes })
+    }
+
+    /// Returns a refusal if facts are missing.
+    pub(super) fn check(self) -> Result<(), Refusal> {
         if self.0.is_empty() {
-            Ok(super::Export { text, notes })
+            Ok(())
         } else {
             Err(Refusal::Missing(self.0))
         }

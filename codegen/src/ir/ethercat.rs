@@ -31,6 +31,22 @@ pub struct EtherCatSettings {
     pub eeprom: Option<Box<Eeprom>>,
     /// Names of the timeout elements (`PreopTimeout`, `RequestTimeout`, …) and their values in milliseconds.
     pub timeouts: Vec<(CompactString, u32)>,
+    /// Current in milliamperes that the device draws from the E-bus, if given; negative = the device supplies the E-bus
+    /// (`EBusCurrent`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub ebus_current: Option<i32>,
+    /// Address of the ESC register that contains the identification value, if given (`IdentificationAdo`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub identification_register: Option<u16>,
+    /// True if the device shows its identification value in the AL status code (`IdentificationReg134`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub identification_in_al_status: bool,
+    /// True if the device does not support LRW datagrams, so that a master uses LRD and LWR (`UseLrdLwr`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub without_lrw: bool,
+    /// True if the device changes to the state "SafeOp" before it is synchronized (`StartToSafeopNoSync`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
+    pub safe_op_without_sync: bool,
 }
 
 /// A fieldbus memory management unit (ETG.1000.4 6.6).

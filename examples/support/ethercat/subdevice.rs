@@ -56,6 +56,13 @@ impl SubDevice {
         }
     }
 
+    /// Returns the device with another content of its EEPROM.
+    #[allow(dead_code)]
+    pub fn with_eeprom(mut self, eeprom: Vec<u8>) -> Self {
+        self.controller = Controller::new(eeprom);
+        self
+    }
+
     /// Returns the device with a filter for its messages.
     #[allow(dead_code)]
     pub fn with_filter(self, filter: Filter) -> Self {

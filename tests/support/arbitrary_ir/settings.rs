@@ -96,6 +96,11 @@ pub fn ethercat(b: &mut Bytes<'_>) -> EtherCatSettings {
         registers: b.few(6, 2, |b| (b.any(), b.any())),
         eeprom: b.maybe(4, |b| Box::new(eeprom(b))),
         timeouts: b.few(6, 2, |b| (b.pick(&["RequestTimeout", "PreopTimeout"]).into(), b.any())),
+        ebus_current: b.maybe(4, Bytes::any),
+        identification_register: b.maybe(4, Bytes::any),
+        identification_in_al_status: b.one_in(4),
+        without_lrw: b.one_in(4),
+        safe_op_without_sync: b.one_in(4),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::text::hex;
 use super::Context;
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
@@ -9,13 +10,12 @@ use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Extension};
 
 /// Attributes of the Type element that the IR stores as extensions.
-const OF_TYPE: [&str; 9] = [
+const OF_TYPE: [&str; 8] = [
     "Type@CheckProductCode",
     "Type@CheckRevisionNo",
     "Type@CheckSerialNo",
     "Type@TcSmClass",
     "Type@TcCfgModeSafeOp",
-    "Type@UseLrdLwr",
     "Type@ModulePdoGroup",
     "Type@DownloadModuleList",
     "Type@ShowHideableSubDevices",
@@ -32,8 +32,7 @@ const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 /// Elements that follow the timeouts in Info.
 const CONTROLLER: [&str; 3] =
     ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
-const LAST: [&str; 3] = ["Info/StationAliasSupported", "Info/IdentificationAdo", "Info/IdentificationReg134"];
-const CURRENT: &str = "Electrical/EBusCurrent";
+const ALIAS: [&str; 1] = ["Info/StationAliasSupported"];
 const IMAGES: [&str; 2] = ["Image16x14", "ImageFile16x14"];
 const URL: &str = "Device/URL";
 const URL_LANGUAGE: &str = "Device/URL@LcId";
@@ -50,7 +49,7 @@ pub(super) fn lost(device: &Device) -> usize {
     let (mut seen, mut lost) = (HashSet::new(), 0);
     for extension in all {
         let key = extension.key.as_str();
-        let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
+        let is_known = OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || ALIAS.contains(&key);
         // The schema allows each known element and the picture at most once.
         let is_single = is_known || image.is_some_and(|image| *image == key);
         let is_written = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
@@ -59,8 +58,10 @@ pub(super) fn lost(device: &Device) -> usize {
     lost
 }
 
-/// Writes the attributes of Type that the IR stores as extensions.
+/// Writes the attributes of Type except the identity.
 pub(super) fn of_type(xml: &mut Xml, device: &Device) {
+    let without_lrw = device.ethercat.as_ref().is_some_and(|settings| settings.without_lrw);
+    xml.flag("UseLrdLwr", without_lrw, "true");
     for key in OF_TYPE {
         if let Some(extension) = find(&device.extensions, key) {
             xml.attribute(key.trim_start_matches("Type@"), &extension.value);
@@ -90,32 +91,56 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, se
     let list = device.extensions.as_slice();
     let states = times(context, settings, &STATE_TIMES);
     let mailbox = times(context, settings, &MAILBOX_TIMES);
-    let has_elements = CONTROLLER.iter().chain(&LAST).chain([&CURRENT]).any(|key| find(list, key).is_some());
-    if states.is_empty() && mailbox.is_empty() && !has_elements {
+    let has_elements = CONTROLLER.iter().chain(&ALIAS).any(|key| find(list, key).is_some());
+    let has_facts = settings.ebus_current.is_some()
+        || settings.identification_register.is_some()
+        || settings.identification_in_al_status
+        || settings.safe_op_without_sync;
+    if states.is_empty() && mailbox.is_empty() && !has_elements && !has_facts {
         return;
     }
     xml.open("Info");
-    if let Some(current) = find(list, CURRENT) {
+    if let Some(current) = settings.ebus_current {
         xml.open("Electrical");
-        xml.leaf("EBusCurrent", &current.value);
+        xml.leaf("EBusCurrent", current);
         xml.close();
     }
-    for (element, times) in [("StateMachine", states), ("Mailbox", mailbox)] {
-        if !times.is_empty() {
-            xml.open(element);
-            xml.open("Timeout");
-            times.into_iter().for_each(|(name, limit)| xml.leaf(name, limit));
-            xml.close();
-            xml.close();
-        }
+    if !states.is_empty() || settings.safe_op_without_sync {
+        xml.open("StateMachine");
+        timeouts(xml, states);
+        behavior(xml, settings);
+        xml.close();
+    }
+    if !mailbox.is_empty() {
+        xml.open("Mailbox");
+        timeouts(xml, mailbox);
+        xml.close();
     }
     if CONTROLLER.iter().any(|key| find(list, key).is_some()) {
         xml.open("EtherCATController");
         elements(xml, list, &CONTROLLER);
         xml.close();
     }
-    elements(xml, list, &LAST);
+    elements(xml, list, &ALIAS);
+    xml.optional_leaf("IdentificationAdo", settings.identification_register.map(|address| hex(address, 4)));
+    xml.optional_leaf("IdentificationReg134", settings.identification_in_al_status.then_some("true"));
     xml.close();
+}
+
+fn timeouts(xml: &mut Xml, times: Vec<(&'static str, u32)>) {
+    if !times.is_empty() {
+        xml.open("Timeout");
+        times.into_iter().for_each(|(name, limit)| xml.leaf(name, limit));
+        xml.close();
+    }
+}
+
+fn behavior(xml: &mut Xml, settings: &EtherCatSettings) {
+    if settings.safe_op_without_sync {
+        xml.open("Behavior");
+        xml.attribute("StartToSafeopNoSync", "true");
+        xml.close();
+    }
 }
 
 fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {

@@ -268,6 +268,7 @@ fn the_documentation_lists_every_note() {
 fn the_documentation_lists_every_option() {
     for (documentation, keys) in [
         (include_str!("../../../../docs/src/esi.md"), Options::KEYS),
+        (include_str!("../../../../docs/src/esi.md"), lexibus_export::sii::Options::KEYS),
         (include_str!("../../../../docs/src/gsdml.md"), lexibus_export::gsdml::Options::KEYS),
     ] {
         for (key, what) in keys {

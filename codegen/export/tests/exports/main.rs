@@ -13,3 +13,4 @@ mod esi;
 mod gsdml;
 mod hostile;
 mod info;
+mod sii;

@@ -28,6 +28,13 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
         }),
         eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
         timeouts: fact("timeouts in ms", Judgment::BEHAVIOR),
+        ebus_current: fact("E-bus current in mA", Judgment::BEHAVIOR),
+        identification_register: fact_as("identification register", Judgment::WIRE, |register: &Option<u16>| {
+            register.map(hex16).unwrap_or_default()
+        }),
+        identification_in_al_status: fact("identification in the AL status code", Judgment::WIRE),
+        without_lrw: fact("no LRW datagrams", Judgment::WIRE),
+        safe_op_without_sync: fact("SafeOp before synchronization", Judgment::BEHAVIOR),
     });
 }
 

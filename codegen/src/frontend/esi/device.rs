@@ -52,7 +52,7 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parts: &mut Parts<'a>) 
     match tag.name {
         "Type" => {
             parts.has_type = true;
-            device_type(reader, tag, device)?;
+            settings.without_lrw = device_type(reader, tag, device)?;
         }
         "HideType" => hide(reader, tag, settings)?,
         "Name" => reader.name(tag, &mut parts.names)?,
@@ -83,9 +83,11 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parts: &mut Parts<'a>) 
     Ok(())
 }
 
-fn device_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
-    let fields = reader.attributes(tag, ["ProductCode", "RevisionNo", "SerialNo"])?;
-    let [product, revision, serial] = &fields;
+/// Reads a `Type` element. Returns the flag `UseLrdLwr`.
+fn device_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<bool> {
+    let fields = reader.attributes(tag, ["ProductCode", "RevisionNo", "SerialNo", "UseLrdLwr"])?;
+    let [product, revision, serial, without_lrw] = &fields;
+    let without_lrw = reader.flag(without_lrw);
     let identity = &mut device.identity;
     identity.product_code = reader.int(product, "product code");
     identity.revision_number = reader.int(revision, "revision number");
@@ -97,7 +99,7 @@ fn device_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Devi
     let given = reader.content()?;
     identity.order_code = given.compact();
     device.id = given.compact();
-    Ok(())
+    Ok(without_lrw)
 }
 
 fn hide<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {

@@ -10,17 +10,42 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: 
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "StateMachine" | "Mailbox" => timeouts(reader, &tag, settings)?,
-            "Electrical"
-            | "EtherCATController"
-            | "Port"
-            | "ExecutionUnit"
-            | "StationAliasSupported"
-            | "IdentificationAdo"
-            | "IdentificationReg134"
-            | "DeviceFeature" => reader.keep(&tag)?,
+            "Electrical" => electrical(reader, &tag, settings)?,
+            "IdentificationAdo" => settings.identification_register = reader.number(&tag, "register address")?,
+            "IdentificationReg134" => {
+                let given = reader.text(&tag)?;
+                settings.identification_in_al_status = reader.flag(&given);
+            }
+            "EtherCATController" | "Port" | "ExecutionUnit" | "StationAliasSupported" | "DeviceFeature" => {
+                reader.keep(&tag)?;
+            }
             "VendorSpecific" => reader.vendor_specific(&tag)?,
             _ => reader.unknown(&tag)?,
         }
+    }
+    Ok(())
+}
+
+fn electrical<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
+        match tag.name {
+            "EBusCurrent" => settings.ebus_current = reader.number(&tag, "current in milliamperes")?,
+            _ => reader.keep(&tag)?,
+        }
+    }
+    Ok(())
+}
+
+/// Reads a `Behavior` element. Attributes that the IR has no field for become extensions.
+fn behavior<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {
+    const NAMES: [&str; 4] = ["StartToSafeopNoSync", "StartToInit", "StartToPreop", "StartToSafeop"];
+    let [without_sync, others @ ..] = reader.attributes(parent, NAMES)?;
+    settings.safe_op_without_sync = reader.flag(&without_sync);
+    for (name, given) in NAMES[1..].iter().zip(&others) {
+        reader.note(&format!("StateMachine/Behavior@{name}"), given);
+    }
+    while let Some(tag) = reader.child(parent)? {
+        reader.keep(&tag)?;
     }
     Ok(())
 }
@@ -34,7 +59,7 @@ fn timeouts<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: &mut Et
                     settings.timeouts.extend(limit.map(|limit| (inner.name.into(), limit)));
                 }
             }
-            "Behavior" => reader.keep(&tag)?,
+            "Behavior" => behavior(reader, &tag, settings)?,
             _ => reader.unknown(&tag)?,
         }
     }

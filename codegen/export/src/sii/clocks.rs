@@ -1,0 +1,49 @@
+//! The category "DC": the modes of operation of the distributed clocks (ETG.2010, table 15).
+
+use lexibus_codegen::ir::ClockMode;
+
+use super::Context;
+use crate::note::{NoteKind, Notes, Subject};
+
+/// Returns the content of the category, which is empty for a device without distributed clocks.
+pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
+    let modes = context.settings.clocks.iter().flat_map(|clocks| &clocks.modes);
+    let mut bytes = Vec::new();
+    for mode in modes {
+        let subject = Subject::Named(&mode.name);
+        bytes.extend(mode.cycle_sync0.nanoseconds.to_le_bytes());
+        bytes.extend(mode.shift_sync0.nanoseconds.to_le_bytes());
+        bytes.extend(mode.shift_sync1.nanoseconds.to_le_bytes());
+        bytes.extend(factor(mode.cycle_sync1.factor, &mut context.notes, subject).to_le_bytes());
+        bytes.extend(assign_activate(mode, &mut context.notes, subject).to_le_bytes());
+        bytes.extend(factor(mode.cycle_sync0.factor, &mut context.notes, subject).to_le_bytes());
+        bytes.push(context.texts.number(&mode.name, &mut context.notes));
+        bytes.push(context.texts.number(&mode.description, &mut context.notes));
+        bytes.extend([0; 4]);
+        context.notes.add_many(NoteKind::Setting, unsupported(mode), subject);
+    }
+    bytes
+}
+
+fn factor(factor: Option<i32>, notes: &mut Notes, subject: Subject<'_>) -> i16 {
+    i16::try_from(factor.unwrap_or(0)).unwrap_or_else(|_| {
+        notes.add(NoteKind::Value, subject);
+        0
+    })
+}
+
+fn assign_activate(mode: &ClockMode, notes: &mut Notes, subject: Subject<'_>) -> u16 {
+    u16::try_from(mode.assign_activate).unwrap_or_else(|_| {
+        notes.add(NoteKind::Value, subject);
+        0
+    })
+}
+
+/// Returns the number of settings of a mode for which the category has no field.
+fn unsupported(mode: &ClockMode) -> usize {
+    let times = [mode.cycle_sync0, mode.shift_sync0, mode.cycle_sync1, mode.shift_sync1];
+    times.iter().filter(|time| time.input).count()
+        + usize::from(mode.cycle_sync1.nanoseconds != 0)
+        + [mode.shift_sync0, mode.shift_sync1].iter().filter(|time| time.factor.is_some()).count()
+        + mode.sync_managers.len()
+}

@@ -1,0 +1,29 @@
+//! Exports the content of the EEPROM of an EtherCAT slave, its slave information interface (SII, ETG.1000.6 5.4,
+//! ETG.2010).
+//!
+//! The image consists of a configuration area, categories, and bytes 0xFF up to the size of the EEPROM. An ESI that contains
+//! the whole content of the EEPROM is exported as it is.
+//!
+//! | file | subject |
+//! |---|---|
+//! | `image` | the whole image, and its size |
+//! | `area` | the configuration area and its checksum |
+//! | `texts` | category "strings" |
+//! | `general` | category "general" |
+//! | `process_data` | categories "FMMU", "SyncM", "TxPDO" and "RxPDO" |
+//! | `clocks` | category "DC" |
+//! | `context`, `options` | data for all categories; facts that the caller gives |
+
+mod area;
+mod clocks;
+mod context;
+mod general;
+mod image;
+mod options;
+mod process_data;
+mod texts;
+
+pub use super::{MissingFact, Note, NoteKind, Refusal};
+use context::Context;
+pub use image::{export, Image};
+pub use options::{EepromSize, Octets, Options};
