@@ -85,7 +85,6 @@ fn a_drive_starts_with_its_image() {
         // The mailbox works, because its sync managers are right.
         let mut drive = servo::DemoServo::new(Sdo::new(maindevice, &subdevice));
         assert_eq!(drive.target_position().read_async().await, Ok(0));
-        drop(subdevice);
         let group = group.into_op(maindevice).await.expect("Operational");
         check_sync_managers(maindevice, &group, &servo::DEVICE, &[128, 128, 6, 7]).await;
     });

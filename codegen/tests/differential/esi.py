@@ -12,7 +12,7 @@ import sys
 from lxml import etree
 
 from esi_objects import objects
-from esi_types import basic, flag, name, names, nonzero, number
+from esi_types import basic, bit, flag, name, names, nonzero, number
 from reading import parse, text, nonempty, xpath
 
 
@@ -130,8 +130,9 @@ def device(found, owner, parent, vendor):
             "most": number(text(sm, "@MaxSize")),
             "control": nonzero(text(sm, "@ControlByte")),
             "enable": nonzero(text(sm, "@Enable")),
-            "OP only": flag(text(sm, "@OpOnly")),
-            "virtual": flag(text(sm, "@Virtual")),
+            # The bits 2 and 3 of Enable are the flags of the SII with the same meaning.
+            "OP only": flag(text(sm, "@OpOnly")) or bit(text(sm, "@Enable"), 3),
+            "virtual": flag(text(sm, "@Virtual")) or bit(text(sm, "@Enable"), 2),
         }
     types = objects(found, owner, xpath("Profile/Dictionary")(parent))
     pdos(found, owner, parent, types)

@@ -40,6 +40,12 @@ def flag(text):
     return {"": "", "0": "", "false": "", "1": "yes", "true": "yes"}.get(text, "?" + text)
 
 
+def bit(text, position):
+    """Returns whether a bit of a number is set."""
+    found = number(text)
+    return "yes" if found.isdigit() and int(found) >> position & 1 else ""
+
+
 def name(element, path="Name"):
     """Returns the English name. If there is none, returns the name without a language, otherwise the first name."""
     for found in (f"{path}[@LcId='1033'][normalize-space()]", f"{path}[not(@LcId)][normalize-space()]", path):

@@ -12,6 +12,7 @@ pub(super) const LENGTH: usize = 128;
 
 /// Number of bytes from the start of the area that the checksum covers. The checksum follows these bytes.
 const CHECKED: usize = 14;
+const CHECKED_WITH_SUM: usize = CHECKED + 2;
 
 /// Version of the format.
 const VERSION: u16 = 1;
@@ -66,7 +67,7 @@ impl Area {
             self.set_bytes(0x14, used);
             context.notes.add_many(NoteKind::ConfigData, !rest.is_empty(), Subject::Named("BootStrap"));
         }
-        // The mailboxes are written in reverse order, so that the first of several mailboxes wins.
+        // In reverse order, because the first of several mailboxes takes precedence.
         for manager in context.device.process_data.sync_managers.iter().rev() {
             let word = match manager.purpose {
                 SyncManagerPurpose::MailboxOut => 0x18,
@@ -91,10 +92,10 @@ fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8>
     let declared = declared.filter(|bytes| !bytes.is_empty());
     let given = context.options.config_data().map(|octets| octets.0);
     let mut bytes = missing.require(given.or(declared), "config-data", super::Options::KEYS);
-    // A description may contain the checksum and the bytes after it. The checksum is computed.
-    let is_more = bytes.get(CHECKED + 2..).is_some_and(|rest| !rest.is_empty());
+    // A description may contain the checksum after the bytes that it covers. The image contains a computed checksum.
+    let is_more = !matches!(bytes.len(), 0..=CHECKED | CHECKED_WITH_SUM);
     context.notes.add_many(NoteKind::ConfigData, is_more, Subject::Named("ConfigData"));
-    if let [.., low, high] = bytes.get(..CHECKED + 2).unwrap_or_default() {
+    if let [.., low, high] = bytes.get(..CHECKED_WITH_SUM).unwrap_or_default() {
         let is_wrong = [*low, *high] != [checksum(&bytes[..CHECKED]), 0];
         context.notes.add_many(NoteKind::Checksum, is_wrong, Subject::Named("ConfigData"));
     }
@@ -114,7 +115,7 @@ fn protocols(mailbox: &Mailbox) -> u16 {
 
 /// Returns whether the checksum of an image is right.
 pub(super) fn is_checked(image: &[u8]) -> bool {
-    image.get(..CHECKED + 2).is_some_and(|bytes| bytes[CHECKED..] == [checksum(&bytes[..CHECKED]), 0])
+    image.get(..CHECKED_WITH_SUM).is_some_and(|bytes| bytes[CHECKED..] == [checksum(&bytes[..CHECKED]), 0])
 }
 
 /// Returns the CRC-8 with the polynomial x⁸ + x² + x + 1 and the initial value 0xFF.

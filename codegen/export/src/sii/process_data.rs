@@ -128,7 +128,7 @@ fn type_code(context: &Context<'_>, ty: Type) -> u8 {
         Type::UnicodeString(_) => Type::UnicodeString(None),
         basic => basic,
     };
-    // Several numbers may stand for a type. The first of them is that of CiA 301.
+    // A type may have several numbers. The first of them is that of CiA 301.
     let is_type = |code: &u8| type_name::by_code((*code).into()) == Some(Basic::Type(without_length));
     (1..=u8::MAX).find(is_type).unwrap_or(0)
 }

@@ -1,4 +1,4 @@
-//! Tests the export of all files in the corpus as EDS, DCF, ESI or GSDML.
+//! Tests the export of all files in the corpus as EDS, DCF, ESI, SII or GSDML.
 
 #[path = "../../../tests/corpus_support/mod.rs"]
 mod corpus_support;

@@ -204,7 +204,7 @@ class Comparison:
             found = data[8 * at : 8 * at + 8]
             size = number(item.get("DefaultSize"), None)
             kind = MANAGERS.get((item.text or "").strip())
-            enable = number(item.get("Enable")) & 1 | flag(item.get("Virtual")) << 2 | flag(item.get("OpOnly")) << 3
+            enable = number(item.get("Enable")) & 0x0D | flag(item.get("Virtual")) << 2 | flag(item.get("OpOnly")) << 3
             self.equal(f"start of Sm {at}", word(found, 0), number(item.get("StartAddress")))
             self.equal(f"status of Sm {at}", found[5], 0)
             self.equal(f"control of Sm {at}", found[4], number(item.get("ControlByte")))

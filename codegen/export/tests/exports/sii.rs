@@ -168,6 +168,8 @@ fn config_data_may_contain_its_checksum() {
     let config = |data: &str| image(&with("0100000000000000050A", data), &[]);
     let right = config("0100000000000000050A000000008500");
     assert_eq!((right.bytes[14], notes(&right)), (0x85, vec![]));
+    let odd = config("0100000000000000050A0000000085");
+    assert_eq!((odd.bytes[14], notes(&odd)), (0x85, vec![(NoteKind::ConfigData, 1)]));
     let wrong = config("0100000000000000050A0000000086001122");
     assert_eq!(wrong.bytes[..18], right.bytes[..18]);
     assert_eq!(notes(&wrong), [(NoteKind::ConfigData, 1), (NoteKind::Checksum, 1)]);

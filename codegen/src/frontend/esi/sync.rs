@@ -52,6 +52,8 @@ pub(super) fn sync_manager<'a>(
         reader.report(&codes::ESI_VALUE, tag.span, "the device has more than 256 sync managers", "left out");
         return Ok(());
     }
+    // The bits of Enable are those of the SII (ETG.2010, table 11): 0 = enabled, 2 = virtual, 3 = enabled only in Op.
+    let enable = reader.int::<u32>(enable, "value of the enable register").unwrap_or(0);
     let manager = SyncManager {
         number,
         purpose: SyncManagerPurpose::Inputs,
@@ -60,10 +62,9 @@ pub(super) fn sync_manager<'a>(
         default_size: reader.int(size, "size in bytes"),
         size_range: (reader.int(min, "size in bytes"), reader.int(max, "size in bytes")),
         control: reader.int(control, "control byte").unwrap_or(0),
-        // Only bit 0 of the value enables the sync manager; the other bits have other meanings.
-        enable: reader.int::<u32>(enable, "value of the enable register").is_some_and(|value| value & 1 == 1),
-        op_only: reader.flag(op_only),
-        is_virtual: reader.flag(is_virtual),
+        enable: enable & 1 != 0,
+        op_only: reader.flag(op_only) || enable & 8 != 0,
+        is_virtual: reader.flag(is_virtual) || enable & 4 != 0,
         origin,
     };
     list.push((manager, given));
