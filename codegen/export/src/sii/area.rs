@@ -66,7 +66,7 @@ impl Area {
             self.set_bytes(0x14, used);
             context.notes.add_many(NoteKind::ConfigData, !rest.is_empty(), Subject::Named("BootStrap"));
         }
-        // The mailboxes are written in reverse order, so that the first of several mailboxes wins.
+        // The mailboxes are written in reverse order, so that the first of several mailboxes takes precedence.
         for manager in context.device.process_data.sync_managers.iter().rev() {
             let word = match manager.purpose {
                 SyncManagerPurpose::MailboxOut => 0x18,
@@ -78,7 +78,7 @@ impl Area {
         }
     }
 
-    /// Returns the bytes of the area.
+    /// Writes the size of the EEPROM and returns the bytes of the area.
     pub(super) fn with_size(mut self, size: EepromSize) -> [u8; LENGTH] {
         self.set_word(0x3E, size.word());
         self.0
@@ -91,7 +91,7 @@ fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8>
     let declared = declared.filter(|bytes| !bytes.is_empty());
     let given = context.options.config_data().map(|octets| octets.0);
     let mut bytes = missing.require(given.or(declared), "config-data", super::Options::KEYS);
-    // A description may contain the checksum and the bytes after it. The checksum is computed.
+    // A description may contain the checksum and the bytes after it. The export computes the checksum again.
     let is_more = bytes.get(CHECKED + 2..).is_some_and(|rest| !rest.is_empty());
     context.notes.add_many(NoteKind::ConfigData, is_more, Subject::Named("ConfigData"));
     if let [.., low, high] = bytes.get(..CHECKED + 2).unwrap_or_default() {
