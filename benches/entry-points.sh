@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Measures the compile time of generated code for different numbers of entries: benches/entry-points.sh [RUNS]
 #
-# Creates a crate for each entry point (`dictionary!` and `build.rs`) and builds it with an EDS of 36, 990 and 9,999 entries.
-# Prints the median time of RUNS runs of `cargo check` and `cargo build --release`. The times include generating the code, but
-# not compiling the dependencies. The first line is the time for an empty crate.
+# Creates a crate for each entry point (`dictionary!` and `build.rs`) and builds it with EDS files of 36, 990 and 9,999
+# entries. Prints the median time of RUNS runs of `cargo check` and `cargo build --release`. The times include generating the
+# code, but not compiling the dependencies. The first line is the time for an empty crate.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD

@@ -21,8 +21,7 @@ peak() {
 }
 
 # Writes the smallest description with the extension of $1 and prints its path. For XML files of all formats, writes an
-# ESI. The memory for compiling this description does not depend on the input: this memory contains, for example, the
-# profiles.
+# ESI. The memory for compiling this description, for example for the profiles, does not depend on the input.
 empty() {
     case $1 in
     *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;

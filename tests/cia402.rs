@@ -105,7 +105,7 @@ const ENTRIES: [Entry; 18] = [
     entry(0x6502, DataType::Unsigned32),
 ];
 
-/// An action on the drive at a certain time of a test.
+/// An action on the drive during a test.
 type Event = Box<dyn FnMut(&mut Rig)>;
 
 /// A client of a drive. Events can happen while the driver waits, and statuswords can differ from those of the drive.
@@ -590,7 +590,8 @@ fn an_old_bit_10_does_not_end_a_quick_stop() {
     assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(State::QuickStopActive));
     assert_eq!(rig.drive.device().get(VELOCITY), Ok(0));
     assert!(rig.time >= 95, "{}", rig.time);
-    // With a deadline of 50 ms, a quick stop fails even if the axis already stands still.
+    // If bit 10 is already 1, a quick stop waits for 100 ms. A deadline of 50 ms therefore passes even if the axis is at a
+    // standstill.
     assert!(matches!(rig.motion().quick_stop(ms(50)), Err(MotionError::Deadline { .. })));
 }
 

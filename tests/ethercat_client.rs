@@ -242,7 +242,8 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         let client = drive.client();
-        // The device rejects writes to entries unless the count is 0, writes to a fixed mapping, and unknown objects.
+        // The device rejects writes to entries unless the count is 0, writes to a fixed mapping, and mappings of
+        // unknown objects.
         let entry = 0x6064_0020_u32.to_le_bytes();
         assert_eq!(write(client, 0x1A02, 1, &entry).await, Err(Error::Abort(AbortCode(0x0601_0003))));
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));

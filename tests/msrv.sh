@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks that the runtime compiles with its minimum Rust versions, with each feature alone, and that the crate `generated` compiles with
-# the minimum version of the runtime. Skips a version with a message if its toolchain is not installed. Install a
+# Checks that the runtime compiles with its minimum Rust versions and each feature alone. Also checks that the crate `generated`
+# compiles with the minimum version of the runtime. Skips a version with a message if its toolchain is not installed. Install a
 # toolchain with `rustup toolchain install 1.81.0 --profile minimal`.
 #
 #     tests/msrv.sh

@@ -37,7 +37,7 @@ fn build() -> Option<PathBuf> {
     Some(target.join("release"))
 }
 
-/// The loaded sections of a program and the names of its functions.
+/// Sizes and content of a program's loaded sections, and the names of its symbols.
 struct Program {
     code: usize,
     data: usize,
@@ -132,7 +132,7 @@ fn both_programs_send_the_same_frames() {
     .concat();
     for name in ["generated", "by_hand"] {
         assert_eq!(run(&folder.join(name), &replies), (Some(0), frames.clone()), "{name}");
-        // The program must end after a refusal.
+        // After an SDO abort, the program must end with exit code 2 and send no further request.
         let refused = [0x80, 0x60, 0x60, 0, 0, 0, 2, 6];
         assert_eq!(run(&folder.join(name), &refused), (Some(2), frames[..8].to_vec()), "{name}");
     }

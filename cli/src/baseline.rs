@@ -125,7 +125,8 @@ impl Baseline {
         format!(" ({} in the baseline)", self.left_out)
     }
 
-    /// Returns a note about entries for which no diagnostic exists any more, or `None` if there are no such entries.
+    /// Returns a note about diagnostics of the baseline that the checked files no longer have, or `None` if there are
+    /// none.
     pub(super) fn obsolete(&self) -> Option<String> {
         let is_checked = |key: &Key| self.checked.contains(&key.file);
         let counts = self.counts.iter().filter(|(key, _)| is_checked(key));
@@ -192,7 +193,7 @@ mod tests {
     use lexibus_codegen::limits::MAX_SAME_DIAGNOSTICS;
     use lexibus_codegen::source::{FileId, Span};
 
-    /// A file with a diagnostic on each of its lines.
+    /// Returns a compilation of `lines` with a diagnostic on each line.
     fn compilation(name: &str, lines: &str) -> Compilation {
         let mut diagnostics = Diagnostics::default();
         let mut start = 0;

@@ -29,7 +29,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let networks = Networks::take(&mut files, &options.levels, &mut reporter)?;
     let names = Names::new(&files);
     // A single input needs no first pass, because the names of its folders in the site do not depend on other files.
-    // Several inputs are compiled twice, because keeping all of them in memory would cost more.
+    // Several inputs are compiled twice, because keeping all compilations in memory would cost more.
     if files.len() > 1 || !networks.is_empty() {
         inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
             compilation.usable().into_iter().for_each(|catalog| site.announce(names.of(input), catalog));

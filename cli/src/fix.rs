@@ -60,7 +60,7 @@ fn distinct(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
     files
 }
 
-/// A description after all fixes were applied.
+/// The compilation of a description after its fixes were applied, and the number of these fixes.
 struct Fixed {
     compilation: Compilation,
     /// Number of applied fixes.
@@ -68,12 +68,12 @@ struct Fixed {
 }
 
 impl Fixed {
-    /// Applies the fixes of a compilation, and those of the compilations that follow, until none is left. Fixes that
+    /// Applies the fixes of a compilation, compiles the changed file, and repeats this until no fix is left. Fixes that
     /// overlap are applied in several rounds.
     ///
     /// # Errors
     ///
-    /// Returns the reason why the fixes cannot be applied.
+    /// Returns a message if the fixes cannot be applied, cause an error, or are still left after [`MAX_ROUNDS`] rounds.
     fn of(compilation: Compilation, options: &Options) -> Result<Self, String> {
         let was_usable = compilation.is_usable();
         let mut fixed = Fixed { compilation, count: 0 };
@@ -191,7 +191,7 @@ fn copy(path: &Path, backup: &Path) -> io::Result<()> {
     copied.map(|_| ())
 }
 
-/// Numbers of fixes and remaining diagnostics of all inputs.
+/// Numbers of files, changed files, fixes, and remaining errors and warnings of all inputs.
 #[derive(Default)]
 struct Totals {
     files: usize,

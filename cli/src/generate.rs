@@ -40,8 +40,8 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Returns the name of the output file: the input's file name in snake case or, if it gives no valid name, the name of
-/// the first device. Without a device, the name is `device`.
+/// Returns the name of the output file: the input's file name in snake case. If the file name gives no valid name,
+/// returns the name of the first device, or `device` if there is no device.
 fn file_name(input: &Path, compilation: &Compilation) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let name = rust::file_name(&stem).or_else(|| {

@@ -78,8 +78,8 @@ impl<'g> Target<'g> {
         Ok(())
     }
 
-    /// Returns whether the output of a single input is written to files. In this case, commands print a message with
-    /// details about each file.
+    /// Returns whether the output of a single input is written to files. If so, commands print a message with details
+    /// about each file.
     pub(super) fn is_one_file(&self) -> bool {
         self.out.is_some() && !self.check && !self.many
     }
@@ -149,7 +149,7 @@ pub(super) fn check_bytes(path: &Path, content: &[u8], reporter: &mut Reporter) 
     }
 }
 
-/// Returns an error if the content of a file differs from `text`, or if the file cannot be compared.
+/// Returns a [`Difference`] if the content of a file differs from `text`, or if the file cannot be compared.
 pub(super) fn difference(path: &Path, text: &str) -> Option<Difference> {
     let found = |reason: &str, old| Some(Difference { message: format!("{} {reason}", path.display()), old });
     if is_no_regular_file(path) {

@@ -16,7 +16,7 @@ use lexibus_codegen::diagnostics::Severity;
 use lexibus_codegen::source::Source;
 use table_support::whole;
 
-/// Programs in the book that the test does not run, because they take too long or may not be installed.
+/// Programs in the book that the test does not run. Some of them take too long or may not be installed.
 const OTHERS: [&str; 5] = ["cargo", "cd", "cp", "mdbook", "xdg-open"];
 
 /// Returns the file names of the book's chapters.

@@ -127,7 +127,8 @@ impl Builder {
         self
     }
 
-    /// Sets the name of the generated device type. By default, the name is derived from the product name.
+    /// Sets the name of the generated device type. By default, the name is derived from the order code of an EtherCAT
+    /// device, the name of the device, or the file name.
     pub fn device_name(mut self, name: impl Into<String>) -> Self {
         self.options.rust.device_name = Some(name.into());
         self
@@ -182,8 +183,9 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails if the input or an overlay cannot be read, the input has errors, there is nothing to generate, a level is
-    /// set for an unknown code, a filter is invalid, `OUT_DIR` is missing, or the output cannot be written.
+    /// Fails if the input or an overlay cannot be read, the input has errors, or there is nothing to generate. Also
+    /// fails if a level is set for an unknown code, a filter is invalid, `OUT_DIR` is missing, or the output cannot be
+    /// written.
     pub fn compile(&self, input: impl AsRef<Path>) -> Result<(), BuildError> {
         self.compile_to(input, None)
     }
@@ -214,8 +216,8 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Fails if the input or an overlay cannot be read, the input has errors, there is nothing to generate, a level is
-    /// set for an unknown code, or a filter is invalid.
+    /// Fails if the input or an overlay cannot be read, the input has errors, or there is nothing to generate. Also
+    /// fails if a level is set for an unknown code, or a filter is invalid.
     pub fn generate(&self, input: impl AsRef<Path>) -> Result<String, BuildError> {
         let input = input.as_ref();
         self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
@@ -295,7 +297,8 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input has errors, and the text contains the rendered diagnostics; or there is nothing to generate.
+    /// The input has errors, or there is nothing to generate. The text contains the rendered errors, or states that
+    /// there is nothing to generate.
     Input(String),
     /// A level is set for an unknown code.
     UnknownCode(UnknownCode),

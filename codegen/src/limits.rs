@@ -8,13 +8,13 @@ pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 /// Maximum number of diagnostics with the same code in one file. Further diagnostics are only counted.
 pub const MAX_SAME_DIAGNOSTICS: usize = 10_000;
 
-/// Maximum number of items that one row of a register table describes.
+/// Maximum number of items that one row of a register table can describe.
 pub const MAX_REPEAT: u32 = 0x1_0000;
 
 /// Maximum number of derived items in a file. A derived item has no separate line in the file.
 ///
-/// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register
-/// table. The limit includes copies of named values that types of GSDML need.
+/// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. For
+/// GSDML, the limit applies to the values that are copied if a value list is used with several types.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512 PDOs in each direction.

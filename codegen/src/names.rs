@@ -1,12 +1,11 @@
 //! The namer: gives every element a Rust identifier that is valid, stable, and unique in its scope.
 //!
-//! An item has one name in generated code. The item's constant, accessor, entry in `mappable` and the PDO field that maps it
-//! share the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not contain the
-//! object.
+//! An item has one name in generated code. Its constant, its accessor, its entry in `mappable`, and each PDO field that maps it
+//! have the name of the object in the dictionary. The name in the PDO is used only if the dictionary does not contain the object.
 //!
 //! Identifiers are the names of the description, converted to the case that Rust uses. If several elements have the same name, each
 //! gets a suffix: its address, or its position if it has no address. With addresses, the order of elements does not affect
-//! identifiers, and a new element does not change the identifiers of others unless it shares their name.
+//! identifiers. A new element then changes only the identifiers of elements with the same name.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -28,7 +27,7 @@ pub enum Case {
 pub struct NameRequest<'a> {
     /// Name of the element in the description.
     pub name: &'a str,
-    /// Name to use if the description has no usable name, such as `object 6040`.
+    /// Name such as `object 6040`, which is used if the name in the description has no words.
     pub fallback: String,
     /// Suffix that distinguishes the element from others with the same name, such as `6040`. No other element in the scope has
     /// the same suffix.
@@ -48,8 +47,8 @@ pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec
     names.into_iter().enumerate().map(|(position, name)| NameRequest::new(name, kind, position)).collect()
 }
 
-/// Returns the identifiers for `name_requests`, in the same order. None of the identifiers is in `reserved`. Names with more than
-/// [`MAX_IDENTIFIER`] characters are cut, if possible at the end of a word.
+/// Returns unique identifiers for `name_requests`, in the same order. None of the identifiers is in `reserved`. Names with more
+/// than [`MAX_IDENTIFIER`] characters are cut, if possible at the end of a word.
 pub fn unique(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case) -> Vec<String> {
     unique_up_to(name_requests, reserved, case, MAX_IDENTIFIER)
 }
@@ -123,7 +122,7 @@ pub fn distinct<'s>(
 
 fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     let words = words(name_request.name);
-    // Parts of an address are not split into words. Only elements that need no name have a fallback name without words.
+    // Parts of an address are not split into words. Only an element that needs no name may have an empty fallback name.
     let parts = name_request.fallback.split(' ').filter(|part| !part.is_empty());
     let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
@@ -131,7 +130,7 @@ fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     name
 }
 
-/// Cuts a name to `length` characters. If a word ends in the second half of this length, the name is cut there.
+/// Cuts a name to at most `length` characters. If a word ends in the second half of this length, the name is cut there.
 fn cut(name: &mut String, length: usize) {
     if name.len() > length {
         let end = name[..length].rfind('_').filter(|&end| end > length / 2).unwrap_or(length);
@@ -139,8 +138,8 @@ fn cut(name: &mut String, length: usize) {
     }
 }
 
-/// Returns an address as a part of an identifier: the unchanged address if it is valid, otherwise its words. The result is never
-/// empty.
+/// Returns an address as a part of an identifier: the unchanged address if it is valid, otherwise its words, or `other` if it has
+/// no words. The result is never empty.
 fn address(text: &str) -> Cow<'_, str> {
     let is_plain = text.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
     if is_plain && text.contains(|letter: char| letter != '_') {
@@ -199,8 +198,8 @@ fn write(words: &[String], case: Case) -> String {
 }
 
 /// Returns the words of a name in lower-case ASCII. A word ends at each character that is neither letter nor digit, and before a
-/// capital that follows a lower-case letter or a digit. The last capital of an abbreviation starts a new word if a lower-case letter
-/// follows, except for a plural `s`: `PDOMapping` has two words, and `RxPDOs` too.
+/// capital that follows a lower-case letter or a digit. The last capital of an abbreviation starts a new word if a lower-case
+/// letter other than a plural `s` follows. For example, `PDOMapping` and `RxPDOs` have two words each.
 fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();

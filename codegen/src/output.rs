@@ -89,7 +89,7 @@ fn fill(mut file: File, path: &Path, content: &[u8]) -> Result<()> {
     }
 }
 
-/// Returns the hidden path of a temporary file or folder next to `path`. Each call returns another path.
+/// Returns the hidden path of a temporary file or folder next to `path`. Each call returns a different path.
 ///
 /// # Errors
 ///

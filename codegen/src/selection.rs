@@ -15,7 +15,7 @@ use crate::resolve::removal;
 use crate::source::{FileId, Span};
 use crate::text::{edit_distance, glob};
 
-/// The selected parts of a description. An empty list selects all elements.
+/// Filters that select devices, modules, submodules and objects of a description. An empty list selects all elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
     /// Filters that select devices.

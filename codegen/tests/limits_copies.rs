@@ -28,7 +28,8 @@ fn is_bounded_by(compilation: &Compilation, items: usize) {
     assert!(made < most, "{made} bytes from {given}");
 }
 
-/// Returns an ESI with one device, which has the data types `types` and the objects `objects`.
+/// Returns an ESI with the vendor name `vendor` and one device, which has the data types `types` and the objects
+/// `objects`.
 fn esi(vendor: &str, types: &str, objects: &str) -> String {
     format!(
         "<EtherCATInfo><Vendor><Id>1</Id><Name>{vendor}</Name></Vendor><Descriptions><Devices><Device Physics='YY'>\

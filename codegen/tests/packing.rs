@@ -50,8 +50,8 @@ struct Bindings {
 }
 
 impl Bindings {
-    /// Returns the bindings of a catalog. Returns `None` if there is nothing to generate, or if `seen` contains the same
-    /// bindings with the same checks.
+    /// Returns the bindings of a catalog, and the number of types of each kind. Returns `None` if there is nothing to generate, or
+    /// if `seen` contains the same bindings with the same checks.
     fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
         let text = emit_catalog(catalog, &options().rust)?;
         let (checks, counts) = found::checks(name, &text, catalog);

@@ -47,7 +47,7 @@ enum Fault {
     EndlessNoise,
 }
 
-/// The values of the SubDevice, and the current fault.
+/// The simulated SubDevice: its values, the current fault, and the messages that this fault delays.
 struct World {
     count: u32,
     setpoint: u32,

@@ -102,7 +102,8 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
             Err(LssError::Inconclusive | LssError::Timeout | LssError::SeveralAnswers) => inconclusive += 1,
             other => panic!("{other:?}"),
         }
-        // Wait for the answers of the scan that are still on the way.
+        // In the state Waiting, the slave does not answer the next request. Late answers of the scan arrive during the
+        // timeout of this request.
         set(master.port(), None);
         assert_eq!(master.switch_global(LssState::Waiting), Ok(()));
         assert_eq!(master.configure_node_id(id(5)), Err(LssError::Timeout));

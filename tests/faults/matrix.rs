@@ -69,7 +69,7 @@ fn book_result(row: &Row) -> Option<&'static str> {
     None
 }
 
-/// Checks that the book contains the result of a row.
+/// Returns whether the tables of the book contain a result for the row. Panics if this result differs from that of the row.
 fn check_book(row: &Row) -> bool {
     let is_right = book_result(row).map(|cell| match (cell, row.result) {
         // "ignored" in the book means that the client waits for the right reply, which may be missing.

@@ -1,4 +1,4 @@
-//! Tests the SYNC producer over many cycles, with a program and an interface that are late.
+//! Tests the SYNC producer over many cycles, with a program that is late and a bus that can be busy.
 
 use std::convert::Infallible;
 use std::time::Duration;
@@ -49,7 +49,7 @@ fn messages_keep_their_grid_and_count_without_a_gap() {
     let mut producer = SyncProducer::new(PERIOD).with_overflow(OVERFLOW).expect("a valid value");
     let (mut random, mut busy) = (Random::new(6), 0);
     for _ in 0..100_000 {
-        // The program calls the producer late by up to 3 ms, and sometimes by more than a period.
+        // The program calls the producer up to 3 ms late, and sometimes more than a period late.
         let late = if random.below(100) == 0 { random.below(40_000) } else { random.below(3000) };
         let remaining = producer.remaining(node.port().now);
         node.port().now += remaining + Duration::from_micros(late);
@@ -67,7 +67,7 @@ fn messages_keep_their_grid_and_count_without_a_gap() {
     let mut last = None;
     for (at, (time, frame)) in sent.iter().enumerate() {
         assert_eq!((frame.id(), frame.data()), (SYNC, &[(at % usize::from(OVERFLOW)) as u8 + 1][..]));
-        // Exactly one message in each period, at its start unless the program is late.
+        // A period contains at most one message, at its start unless the program is late.
         let period = (*time - first).as_nanos() / PERIOD.as_nanos();
         assert!(last < Some(period), "message {at}");
         last = Some(period);

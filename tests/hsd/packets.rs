@@ -295,7 +295,8 @@ fn the_longest_packets() {
     let reply = CmdGetSampReply { status: done(), entries: List::from(&entries) };
     let refused = reply.write(&request, &mut Writer::new(&mut [0; 2 * MAX_DATA]));
     assert_eq!(refused, Err(too_many));
-    // If all bytes are escaped, the frame contains twice the data and the checksum, plus start and end.
+    // If all data bytes are escaped, the frame contains two bytes for each data byte, and one byte each for start,
+    // checksum and end.
     assert_eq!(framed(&[0x1B; MAX_DATA]).len(), 1 + 2 * MAX_DATA + 1 + 1);
     assert_eq!(framed(&[[0x1B; MAX_DATA - 1].as_slice(), &[0xFF]].concat()).len(), 139);
 }

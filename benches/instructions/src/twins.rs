@@ -9,11 +9,11 @@ pub struct Twins {
     pub case: &'static str,
     /// Name of the operation.
     pub action: &'static str,
-    /// Calls both functions with the content of a frame. Panics if the results differ.
+    /// Calls both functions with arguments that are created from a frame. Panics if the results differ.
     pub call: fn(&Frame),
 }
 
-/// Returns a number that is calculated from a name (FNV-1a hash).
+/// Returns the FNV-1a hash of a name.
 pub const fn number(name: &str) -> u32 {
     let (bytes, mut at, mut hash) = (name.as_bytes(), 0, 0x811C_9DC5_u32);
     while at < bytes.len() {
@@ -72,7 +72,7 @@ macro_rules! pair {
     };
 }
 
-/// Declares a list of the pairs in several modules.
+/// Declares `ALL`, the list of the pairs in the given modules.
 macro_rules! list {
     ($($case:ident: $($action:ident),*;)*) => {
         /// All pairs of these modules.

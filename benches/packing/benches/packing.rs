@@ -65,7 +65,7 @@ fn deku_bytes(value: &impl DekuContainerWrite) -> Frame {
     frame
 }
 
-/// Returns the content of a frame as a single word.
+/// Returns the bytes of a frame as one little-endian number.
 fn word(frame: &Frame) -> u48 {
     u48::from_le_bytes(*frame)
 }

@@ -62,8 +62,8 @@ impl Input {
     }
 }
 
-/// Returns a small, a typical and a very large input for each format except register tables: about 36 entries, 1,000
-/// entries, and 15 MB (EDS) or 30 MB (ESI and GSDML).
+/// Returns three inputs for each format except register tables. The small input has about 36 entries, and the typical
+/// input has about 1,000. The very large input has 15 MB (EDS) or 30 MB (ESI and GSDML).
 pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     let eds = |title: &str, records| Input::new(folder, title, InputFormat::Eds, eds::eds(records).into_bytes());
     let esi = |title: &str, devices, shape| {

@@ -9,7 +9,7 @@ pub struct Span {
     pub end: u32,
 }
 
-/// A section. Its last entry is the one before the first entry of the next section.
+/// A section. The entries of a section end before the first entry of the next section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Section {
     pub name: Span,

@@ -1,4 +1,4 @@
-//! Runs the Python readers. A single process reads files on demand and measures the time.
+//! Runs the Python readers in a single process, which reads a file for each request and measures the time.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;

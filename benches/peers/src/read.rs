@@ -56,7 +56,7 @@ fn lexibus(input: &Input) -> Contestant<'_> {
     Contestant::new("Lexibus, checked IR", copy, |(name, bytes)| Ok(check(name, bytes)))
 }
 
-/// Creates a reader that needs text. The measured time includes checking that the bytes are valid text.
+/// Creates a program whose reader requires text. The measured time includes checking that the bytes are valid UTF-8.
 fn text<'a, T: 'a>(name: &str, bytes: &'a [u8], read: impl Fn(&'a str) -> Result<T, String> + 'a) -> Contestant<'a> {
     let run = move |bytes: &'a [u8]| read(from_utf8(bytes).map_err(|error| error.to_string())?);
     Contestant::new(name, move || bytes, run)

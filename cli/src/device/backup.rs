@@ -62,8 +62,8 @@ pub(super) fn compare(arguments: &Compare) -> Result<bool, Failure> {
     Ok(differences.is_empty())
 }
 
-/// Reads the description for CANopen. If this fails, or if the backups are TOML files without object addresses, reads
-/// the description for Modbus.
+/// Reads the description for CANopen. Reads it for Modbus instead if reading for CANopen fails, or if both backups are
+/// TOML files and the old one does not contain addresses of objects.
 fn either(arguments: &Compare) -> Result<Description, Failure> {
     let Described { file, options } = &arguments.described;
     let of_objects = files::description(file, options, Network::CanOpen);
@@ -71,7 +71,7 @@ fn either(arguments: &Compare) -> Result<Description, Failure> {
         [&arguments.old, &arguments.new].iter().all(|path| path.extension().is_some_and(|end| end == "toml"));
     match of_objects {
         Ok(description) if !has_toml => Ok(description),
-        // A device can have both registers and objects, so the addresses in the backup determine the bus.
+        // A device can have both registers and objects, so the addresses in the old backup determine the bus.
         Ok(description) if files::backup(&arguments.old, &description).is_ok() => Ok(description),
         Ok(_) | Err(_) => files::description(file, options, Network::Modbus),
     }

@@ -35,7 +35,7 @@ pub(super) fn source(path: &Path) -> Result<Source, Failure> {
     Source::read(path).map_err(|error| Failure::Device(format!("cannot read {}: {error}", path.display())))
 }
 
-/// Reads a backup: TOML, or a description with configured values.
+/// Reads a backup: TOML, or a description with configured values. The description must be of the same product.
 pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, Failure> {
     let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     if is_toml {

@@ -40,8 +40,8 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// Returns an error if the path begins with one of [`OWN_NAMES`], or if another file of the crate has the same
-    /// path. The comparison ignores case, because some file systems do.
+    /// Returns an error if the path begins with one of [`OWN_NAMES`], or if a copy of another file has the same path.
+    /// The comparison of paths ignores case, because some file systems do.
     pub(super) fn copy(&mut self, path: String, bytes: Vec<u8>) -> Result<(), Failure> {
         let lower = path.to_lowercase();
         let first = lower.split('/').next().unwrap_or_default();

@@ -127,8 +127,8 @@ pub(super) fn render(template: &impl Template) -> Result<String, Failure> {
     template.render().map_err(|error| Failure::Usage(format!("cannot write a file of the crate: {error}")))
 }
 
-/// Returns an error unless the crate name begins with an ASCII letter, consists of letters, digits, `-` and `_`, and is
-/// neither one of [`RESERVED`] nor a Rust keyword.
+/// Returns an error if the crate name is invalid. A valid name begins with an ASCII letter, and consists of ASCII
+/// letters, digits, `-` and `_`. It is neither one of [`RESERVED`] nor a Rust keyword.
 fn check_name(name: &str) -> Result<(), Failure> {
     let is_word = name.starts_with(|first: char| first.is_ascii_alphabetic())
         && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-' || letter == '_');

@@ -9,7 +9,7 @@ use super::package::{render, Package};
 use super::text::doc;
 use crate::Failure;
 
-/// Minimum number of submodules that a slot plan can hold, so that a user can plug further modules.
+/// Minimum capacity of a slot plan in submodules, which leaves space for modules that a user adds.
 const MIN_PLACES: usize = 8;
 
 #[derive(Template)]

@@ -29,7 +29,7 @@ fn a_site_of_documentation() {
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(std::fs::read_dir(&coupler[0]).expect("a folder").count(), 1, "only the notes");
     assert_eq!(code(&call(&["--check"])), 0);
-    // A missing output folder and an output that cannot be written are errors.
+    // A missing option `--out` and an output that cannot be written are errors.
     let file = file(&folder, "occupied", "");
     assert_eq!(code(&lexibus(&["docs", DEMO, "--out", &file])), 1);
     assert_eq!(code(&lexibus(&["docs", DEMO])), 2);

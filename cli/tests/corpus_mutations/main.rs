@@ -1,8 +1,8 @@
 //! Tests that the compiler does not panic on damaged corpus files, on random combinations of EDS and XML words, or on
 //! random text.
 //!
-//! Each input is read, checked, rendered, summarized and compiled to Rust. A fixed seed makes all runs test the same inputs.
-//! `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select other inputs:
+//! Each input is compiled to Rust, exported and summarized, and its diagnostics are rendered. A fixed seed makes all runs
+//! test the same inputs. `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select other inputs:
 //!
 //! ```text
 //! PROPTEST_CASES=100000 PROPTEST_RNG_SEED=7 cargo test --release -p lexibus-cli --test corpus_mutations

@@ -53,7 +53,7 @@ fn documented(compilation: &Compilation) {
     }
 }
 
-/// Renders a diagnostic in all formats.
+/// Checks the span of a diagnostic, and renders the diagnostic for a terminal, as JSON and as one line of text.
 fn rendered(compilation: &Compilation, found: &Diagnostic) {
     let (start, end) = (found.span.start as usize, found.span.end as usize);
     let source = compilation.sources.get(found.span.file.0 as usize);

@@ -24,7 +24,7 @@ pub struct Settings {
     /// One sentence that states the rule that the case tests.
     pub about: String,
     /// Files to compile in this order. By default, these are all files of the folder, except settings, overlays and
-    /// expected files. For `diff`, these are the old and the new file.
+    /// expected files. For `diff`, the inputs are the old and the new file.
     inputs: Vec<String>,
     strict: bool,
     allow: Vec<String>,

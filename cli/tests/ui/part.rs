@@ -3,7 +3,7 @@
 //! The settings name a part by a text in one of its lines. The extent of the part depends on the form of the output:
 //!
 //! - Rust, XML and JSON: the line with the text, all lines that are indented below it, and the closing line. In Rust, the part
-//!   includes the documentation and attributes above the item, and the text must be one or more whole words in the item's first
+//!   includes the documentation and attributes above the item. The text must be one or more whole words in the item's first
 //!   line (`SPEED`, `fn speed`, `struct RxPdo1`). A `^` at the end of the text selects the enclosing element, and `^^` the next
 //!   outer element.
 //! - EDS, Markdown and plain text: the paragraph that contains the text, up to the next empty line. In a Markdown table, the

@@ -102,8 +102,8 @@ kinds! {
     Behavior = "behavior", "storage, conditions or side effects left out";
     /// The models, versions or options in which an item exists.
     Availability = "availability", "models, versions or options of an item left out";
-    /// A reference from an item to another item that contains the same value or a part of it, or the fact that an item
-    /// is reserved or optional.
+    /// A reference to an item with the same value or a part of the value, or the fact that an item is reserved or
+    /// optional.
     Relation = "relation", "relation to other items, or property reserved or optional, left out";
     /// A description of an element.
     Documentation = "documentation", "description left out";
@@ -135,7 +135,8 @@ kinds! {
     OtherBus = "other-bus", "settings of another bus left out";
     /// An additional axis, whose objects are derived from the objects of the first axis.
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
-    /// A message, code table, state machine, procedure, variant or PROFINET submodule.
+    /// An element that the format cannot describe, such as a message, code table, state machine, procedure, variant or
+    /// PROFINET submodule.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
     /// A setting of the device or of one of its objects for which the format has no field.
     Setting = "setting", "setting left out: the format has no field for it";
@@ -189,9 +190,9 @@ kinds! {
     EntryNames = "entry-names", "name of a PDO entry left out: the EEPROM is too small";
     /// The PDOs that do not fit the EEPROM of a device with CoE.
     PdosLeftOut = "pdos-left-out", "PDO left out: the EEPROM is too small, and a master can read the PDO with CoE";
-    /// The size of an EEPROM that the source does not state.
+    /// The size of an EEPROM, if the source does not state it or states an invalid size.
     EepromSize = "eeprom-size", "EEPROM size missing or invalid; the next larger power of two is used";
-    /// Bytes of ConfigData or BootStrap without a field.
+    /// Bytes of ConfigData or BootStrap for which the EEPROM has no field.
     ConfigData = "config-data", "bytes after the configuration of the slave controller or mailbox left out";
     /// A checksum of the source that is wrong.
     Checksum = "checksum", "checksum of the configuration area in the description is wrong";

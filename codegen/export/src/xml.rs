@@ -49,7 +49,8 @@ impl Xml {
         self.open.push(Open { name, content: Content::Tag });
     }
 
-    /// Writes an attribute of the last opened element.
+    /// Writes an attribute of the last opened element. Omits and counts an attribute whose name is invalid or already
+    /// used.
     pub(super) fn attribute(&mut self, name: &str, value: impl Display) {
         if !is_name(name) || self.given.iter().any(|given| given == name) {
             self.unnamed += 1;

@@ -26,7 +26,7 @@ fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_
     }
 }
 
-/// Checks that a decoded request and the decoded reply to it encode to the bytes from which they were decoded.
+/// Decodes a request and the reply to it, and checks that encoding both gives the original bytes again.
 fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
     let _ = M::Refusal::read(data, &mut Reader::new(answer));
     let reply = M::Reply::read(data, &mut Reader::new(answer));

@@ -5,7 +5,8 @@ mod exercise;
 
 use lexibus_codegen::source::Source;
 
-/// Reads, checks, renders, exports and compiles `bytes` as a file with this name. None of these steps may panic.
+/// Compiles `bytes` as a file with this name, exports the result and renders the diagnostics. None of these steps may
+/// panic.
 pub fn everything(name: &str, bytes: &[u8]) {
     exercise::exercise(name, bytes);
 }

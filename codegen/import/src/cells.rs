@@ -31,8 +31,8 @@ pub(super) fn is_blank(text: &str) -> bool {
     NOTHING.contains(&text.trim().to_lowercase().as_str())
 }
 
-/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F` or `$1F`. Digits without a prefix are also accepted if
-/// `is_hex` is set.
+/// Parses a hexadecimal integer: `0x1F`, `1Fh`, `#x1F`, `16#1F`, `&H1F` or `$1F`. Digits without a prefix are also
+/// accepted if `is_hex` is set.
 pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
     let text = text.trim();
     let marked = ["0x", "0X", "#x", "16#", "$", "&H", "&h"].into_iter().find_map(|mark| text.strip_prefix(mark));

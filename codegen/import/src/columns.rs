@@ -151,7 +151,7 @@ fields! {
         "bits" "bit field" "bitfield" "bit description" "bit meaning" "bit definition" "flags" "bit description meaning"
         "significato bit"
     ]
-    /// Chapter to which the row belongs.
+    /// Chapter that contains the row.
     Chapter "chapter" [
         "chapter" "group" "category" "section" "block" "module" "menu" "function group" "class" "subsystem" "gruppe"
         "kategorie" "kapitel" "bereich gruppe" "gruppo" "categoria" "sezione" "capitolo"

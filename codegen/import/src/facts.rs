@@ -155,7 +155,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns a reference to the row that contains the scale factor, if the cell contains the name of such a row.
+    /// Returns a reference to the row that contains the scale factor. If the cell does not contain the name of a row,
+    /// reports the cell and returns `None`.
     fn other(&mut self, cell: &Cell, is_exponent: bool) -> Option<Reference> {
         let name = tidy(&cell.text);
         if !self.names.contains(&name) {

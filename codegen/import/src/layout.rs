@@ -49,7 +49,7 @@ pub(super) struct Listing {
     pub no_access: bool,
 }
 
-/// Assigns a Modbus table, a unique name and a chapter to each row.
+/// Assigns a Modbus table to each register, and a unique name and a chapter to each row.
 pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
     let Rows { mut rows, definitions, no_access, from_one } = list;
     within_budget(&mut rows, diagnostics);
@@ -164,8 +164,8 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     };
     let mut bases =
         numbers().map(|number| Table::of_number(number).filter(|(found, _)| *found == table).map(|(_, base)| base));
-    // Ignore base 1: by convention, it belongs to coils, but lists also count the addresses of other Modbus tables from
-    // 1.
+    // Ignore base 1: by convention, coils have this base, but lists also count the addresses of other Modbus tables
+    // from 1.
     let base = bases.next().flatten().filter(|&base| base > 1 && bases.all(|other| other == Some(base)));
     let first = wire(in_table(), diagnostics).or(base.map(i64::from)).or(from_one.then_some(1));
     // Set `low_first` or `swap` for the whole Modbus table only if all rows state it. A row that states no order has the

@@ -44,7 +44,7 @@ fn key(text: &str) -> String {
     }
 }
 
-/// Formats an integer in decimal or hexadecimal digits.
+/// Formats an integer in decimal digits, or in hexadecimal digits if `is_hex` is set and the integer is not negative.
 pub(super) fn digits(value: i128, is_hex: bool) -> String {
     match value {
         0.. if is_hex => format!("0x{value:X}"),
@@ -52,7 +52,7 @@ pub(super) fn digits(value: i128, is_hex: bool) -> String {
     }
 }
 
-/// Formats an integer for TOML. Integers of more than 64 bits become strings.
+/// Formats an integer for TOML. Integers outside of the range of `i64` become strings.
 pub(super) fn int(value: i128, is_hex: bool) -> String {
     let text = digits(value, is_hex);
     if i64::try_from(value).is_ok() {

@@ -117,15 +117,15 @@ impl<'p> Filler<'p> {
         Filler { types, known, names, shown, fill: Fill::new(PAGE), size, pages }
     }
 
-    /// Adds a section with these items, which are all on the same page.
+    /// Adds a section with these items. All items of a section are on the same page.
     fn add(&mut self, group: &Group, items: &[(ItemId, &Item)]) {
         let (mut section, mut size) = self.section(group, items);
         if !self.fill.fits(items.len(), size) {
             let pages = std::mem::take(&mut self.pages);
             *self = Filler { pages, ..Filler::new(self.types, self.known, self.size) };
             self.pages.push(Vec::new());
-            // Create the section again for the new page, because the first row with a type on a page shows the bits or
-            // values of the type.
+            // Create the section again for the new page, because the first row with a type on each page shows the bits
+            // or values of this type.
             (section, size) = self.section(group, items);
         }
         self.fill.add(items.len(), size);

@@ -81,8 +81,8 @@ impl Label {
     }
 }
 
-/// Returns the drawing of a type's bits and the list of its named values. Their anchors begin with `owner`, the anchor
-/// of the element with this type.
+/// Returns the drawing of a type's bits and the list of its named values. The anchors of the bits and values begin with
+/// `owner`, the anchor of the element with this type.
 pub(super) fn of_type(types: &[TypeDef], ty: Type, owner: &str) -> (Option<Bits>, Vec<Label>) {
     match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {
@@ -144,7 +144,7 @@ fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     Some(Cell::new(left, width, &field.name))
 }
 
-/// Returns a bit field without its anchor and values.
+/// Returns the row of a bit field in the bit list, without anchor and named values.
 fn field(entry: &BitFieldEntry) -> Field {
     let (first, last) = (u32::from(entry.offset), u32::from(entry.offset) + u32::from(entry.bits).max(1) - 1);
     let mut facts = Vec::new();

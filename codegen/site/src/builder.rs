@@ -13,7 +13,7 @@ use lexibus_codegen::ir::{
 /// Maximum length of a PDO on CANopen in bits.
 const MAX_BITS: u32 = 64;
 
-/// Index of the assignment of PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
+/// Index of the object that assigns PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
 const ASSIGNMENT: u16 = 0x1C10;
 
 /// Returns the data as JSON, or `None` if no mapping can be changed or no object can be mapped.
@@ -26,8 +26,7 @@ pub(super) fn data(device: &Device, usage: &Usage) -> Option<String> {
     (!pdos.is_empty() && !objects.is_empty()).then(|| data.to_string())
 }
 
-/// Returns the data of a PDO with a changeable mapping: the data that PDOs on both buses have, and the data that only
-/// PDOs on its bus have.
+/// Returns the data of a PDO, or `None` if its mapping cannot be changed. Some data depend on the bus of the PDO.
 fn pdo(device: &Device, pdo: &Pdo, usage: &Usage) -> Option<Json> {
     let of_bus = match pdo.communication {
         Some(_) => on_canopen(device, pdo),
@@ -88,9 +87,9 @@ fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
     }))
 }
 
-/// Returns the data of an object that can be mapped: index, sub-index, length in bits, address and name as one text,
-/// two flags (mappable into RPDOs, mappable into TPDOs), path in Rust, and the letters of its buses (`c` for CANopen,
-/// `e` for EtherCAT). Returns `None` if no PDO can map the object.
+/// Returns the data of an object, or `None` if no PDO can map the object. The data are: index, sub-index, length in
+/// bits, address and name as one text, two flags (mappable into RPDOs, mappable into TPDOs), path in Rust, and letters
+/// for the buses (`c` for CANopen, `e` for EtherCAT).
 fn object(
     device: &Device,
     id: ItemId,

@@ -1,5 +1,5 @@
-//! Links between codes and the elements that report them: items that have a code as a named value, and items, messages
-//! and states that a code table mentions.
+//! Links between codes and the elements that report the codes. These elements are items that have a code as a named
+//! value, and items, messages and states that a code table mentions.
 
 use std::collections::{HashMap, HashSet};
 
@@ -14,7 +14,7 @@ use lexibus_codegen::ir::{CodeRow, Device, ItemId};
 /// First number, last number and name of a code or named value.
 type CodeKey<'d> = (i128, Option<i128>, &'d str);
 
-/// For each number and name of a code, the items that have a named value with this number and name, and the position of
+/// For each number and name of a code, the items that have this number and name as a named value, and the position of
 /// the value.
 struct Values<'d>(HashMap<CodeKey<'d>, Vec<(ItemId, Part)>>);
 
@@ -46,8 +46,8 @@ pub(super) struct CodesOfItems {
 }
 
 impl CodesOfItems {
-    /// Returns the links of an item to the code tables that mention it or contain codes that it reports, and to the
-    /// codes whose descriptions mention it.
+    /// Returns the links of an item to the code tables that mention the item or contain codes that the item reports.
+    /// Also returns the links to the codes whose descriptions mention the item.
     pub fn of(&self, id: ItemId) -> Option<Relation> {
         Relation::new("Codes", self.links.get(&id).into_iter().flatten())
     }
@@ -78,7 +78,8 @@ fn items(mentions: &[Mention]) -> impl Iterator<Item = ItemId> + '_ {
     })
 }
 
-/// Returns the link to a named value. Its title is that of the item, because the code has the name of the value.
+/// Returns the link to a named value. The title of the link is that of the item, because the code and the value have
+/// the same name.
 fn to_value(targets: &Targets<'_>, id: ItemId, part: Part) -> Option<Link> {
     let (item, value) = (targets.item(Some(id))?, targets.part(id, part)?);
     Some(Link { title: item.title.clone(), target: value.target.clone() })

@@ -98,8 +98,8 @@ struct Plan<'m> {
     box_height: u32,
 }
 
-/// Returns the diagram of a state machine, or `None` if there is no transition between states. `patterns` contains the bits of each
-/// state.
+/// Returns the diagram of a state machine, or `None` if there is no transition between states. `patterns` contains the bit pattern
+/// of each state.
 pub(super) fn diagram(machine: &StateMachine, patterns: &[String]) -> Option<Diagram> {
     let plan = Plan::new(machine, patterns)?;
     let gaps = (GAP..MOST_GAP).step_by(GAP_STEP as usize);

@@ -108,7 +108,7 @@ impl Row {
         (!parts.is_empty()).then(|| parts.join(" "))
     }
 
-    /// Returns whether there are facts or requests to show below the row.
+    /// Returns whether the page shows anything below the row, such as facts, ambiguities, Rust code or requests.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
             || !self.translations.is_empty()
@@ -221,7 +221,8 @@ impl Rows<'_> {
         }
     }
 
-    /// Returns the facts below a row. `description` contains the lines of the description; the row shows the first one.
+    /// Returns the facts that the page shows below a row. `description` contains the lines of the description; the row shows
+    /// the first one.
     fn facts(&self, item: &Item, description: &[String], definition: Option<&TypeDef>) -> Vec<String> {
         let of_type = PLAIN.description(definition.and_then(|definition| definition.documentation.as_deref()));
         let of_type = of_type.into_iter().filter(|fact| !description.contains(fact));

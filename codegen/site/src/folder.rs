@@ -57,7 +57,7 @@ pub(super) struct Folder<'a> {
 
 /// Links that all pages of a folder have.
 struct Common<'m> {
-    /// The modules of all devices, and the relative path to their folder.
+    /// The modules of all devices, and the relative path to the folder of the module pages.
     modules: &'m Modules,
     path: String,
     /// Relative path and title of the list of devices, if there are several.
@@ -149,7 +149,7 @@ impl<'a> Folder<'a> {
         self.last.moved(|(file, title)| (format!("{ROOT}/{}/{file}", self.open), title.clone()))
     }
 
-    /// Returns what the pages of a device or description have in common.
+    /// Returns the links and languages that the pages of a device or description have in common.
     fn frame(&self, title: String, device_pages: Rc<Links>, common: &Common<'_>, languages: Vec<String>) -> Frameset {
         let (list, shared) = (common.list.clone(), common.shared.clone());
         Frameset { title, list, device_pages, shared, languages, root: ROOT, index: format!("{}/", self.home) }

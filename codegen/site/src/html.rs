@@ -123,7 +123,8 @@ fn size(template: &impl Template) -> usize {
     counter.0
 }
 
-/// Returns the size of a section in bytes, without the links to related elements, which are added later.
+/// Returns the size in bytes of a section. The links to related elements are not included, because they are added
+/// later.
 pub(super) fn size_of_section(section: &Section) -> usize {
     size(&SectionPart { section })
 }
@@ -133,7 +134,7 @@ pub(super) fn size_of_module(module: &ModuleModel) -> usize {
     size(&ModulePart { module })
 }
 
-/// Returns the size of a device's row in the list of all devices in bytes.
+/// Returns the size in bytes of a device's row in the list of all devices.
 pub(super) fn size_of_device(device: &Listed, columns: &[Column]) -> usize {
     size(&DevicePart { device, columns, root: "." })
 }

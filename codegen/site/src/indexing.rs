@@ -37,8 +37,8 @@ pub(super) fn rows(index: &mut Index, rows: &[Row]) {
     }
 }
 
-/// Adds the bit fields, their named values, and the named values of a row. Their numbers, such as `bit 4`, are relative
-/// to the row, whose entry precedes them.
+/// Adds the bit fields, their named values, and the named values of a row. The numbers of these entries, such as `bit
+/// 4`, are relative to the row, whose entry precedes them.
 fn parts(index: &mut Index, row: &Row) {
     let mut part = |number: &str, anchor: &str, name: &str, names: &[(String, String)]| {
         let anchor = anchor.strip_prefix(&row.anchor).map_or(anchor, |part| part.trim_start_matches('.'));

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use lexibus_codegen::ir::{Catalog, Device, Documentation, Group, Texts};
 
-/// Returns the languages of names and descriptions in these devices and in the modules. All devices share the module
-/// pages.
+/// Returns the languages of names and descriptions in these devices and in the modules. `modules` contains the
+/// languages of the module pages, which all devices share.
 pub(super) fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
     let mut all = Languages(modules.clone());
     for device in devices {

@@ -137,7 +137,7 @@ impl Site {
     /// revision before it writes the first page. Therefore, neither links nor folders depend on the order of the
     /// catalogs.
     ///
-    /// Each catalog has its own name. Add every catalog that is announced.
+    /// Use a different name for each catalog, and add every catalog that is announced.
     pub fn announce(&mut self, name: &str, catalog: &Catalog) {
         if !self.addresses.has(name) {
             self.addresses.add(name, catalog);

@@ -1,5 +1,5 @@
-//! The links between pages. If there are very many pages, each page links only to a few of them. Otherwise the size of
-//! the site would grow quadratically.
+//! The links between pages. If there are very many pages, each page links only to a few of them, because the size of
+//! the site would otherwise grow quadratically.
 
 use std::collections::HashMap;
 use std::ops::Range;

@@ -39,7 +39,7 @@ pub(super) struct ModuleModel {
 }
 
 impl ModuleModel {
-    /// Returns the numbers by which the search finds the module: ident number and order code.
+    /// Returns the ident number and the order code, by which the search finds the module. Leaves out empty texts.
     pub fn lookups(&self) -> impl Iterator<Item = &str> {
         [self.number.as_str(), self.order_code.as_str()].into_iter().filter(|number| !number.is_empty())
     }
@@ -137,7 +137,7 @@ fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel>
     all
 }
 
-/// What the items of a module or submodule have in common.
+/// Data that all items of a module or submodule have in common.
 #[derive(Clone, Copy)]
 struct Items<'m> {
     types: &'m [TypeDef],

@@ -1,4 +1,5 @@
-//! The page of a CANopen network: its nodes, who sends what to whom, the bus load, and the configured values.
+//! The page of a CANopen network: its nodes, its frames with their senders and receivers, the bus load, and the
+//! configured values.
 
 use super::addresses::folder_name;
 use super::indexing;
@@ -34,7 +35,7 @@ pub struct Node {
     pub name: String,
     /// Node-ID.
     pub id: u8,
-    /// Name of the catalog with the node's device, under which it was added to the site.
+    /// Name under which the catalog with the node's device was added to the site.
     pub catalog: String,
     /// Facts about the boot and the error control of the node, as sentences.
     pub facts: Vec<String>,
@@ -62,7 +63,7 @@ pub struct Frame {
     pub can_id: u32,
     /// The sender.
     pub sender: Party,
-    /// The receivers. May be empty for other frames than PDOs.
+    /// The receivers. May be empty for frames other than PDOs.
     pub receivers: Vec<Party>,
     /// When the frame is sent, such as `every 10 ms`.
     pub timing: String,
@@ -70,7 +71,7 @@ pub struct Frame {
     pub bytes: u32,
     /// Maximum length on the bus in bits, including stuff bits.
     pub bits: u32,
-    /// Maximum number of frames per second, or `None` if it has no bound.
+    /// Maximum number of frames per second, or `None` if the rate is unbounded.
     pub rate: Option<f64>,
     /// Names of the mapped objects, in their order.
     pub objects: Vec<String>,
@@ -82,8 +83,8 @@ pub enum Party {
     /// The master.
     #[default]
     Master,
-    /// A node, by its position in [`Network::nodes`], and the index of the mapping object of its PDO, such as 0x1A00; 0 for frames
-    /// other than PDOs.
+    /// A node: its position in [`Network::nodes`], and the index of the mapping object of its PDO, such as 0x1A00. The index is 0
+    /// for frames other than PDOs.
     Node(usize, u16),
     /// A sender that is not part of the network.
     Unknown,
@@ -132,8 +133,8 @@ pub(super) struct ShownParty {
 }
 
 impl Site {
-    /// Returns the page of a network, with links to the pages of its nodes. Add the catalogs of the nodes to the site before. The
-    /// list of devices links to this page.
+    /// Returns the page of a network, with links to the pages of its nodes. Before calling this function, add the catalogs of the
+    /// nodes to the site. The list of devices links to this page.
     pub fn network(&mut self, network: &Network) -> Page {
         let format = self.format.pages();
         let devices: Vec<Option<&Listed>> = network.nodes.iter().map(|node| self.device_of(&node.catalog)).collect();
@@ -171,7 +172,7 @@ impl Shown {
         }
     }
 
-    /// Returns whether the master writes values to a node.
+    /// Returns whether the master writes values to at least one node.
     pub fn has_parameters(&self) -> bool {
         self.nodes.iter().any(|node| !node.parameters.is_empty())
     }
@@ -196,7 +197,7 @@ impl ShownNode {
 }
 
 impl Frame {
-    /// Returns the number of bits per second, or `None` if it has no bound.
+    /// Returns the bus load of the frame in bits per second, or `None` if the rate is unbounded.
     fn load(&self) -> Option<f64> {
         Some(self.rate? * f64::from(self.bits))
     }

@@ -10,7 +10,7 @@ use lexibus_codegen::ir::{
     Catalog, Device, DistributedClocks, EtherCatSettings, Manual, ModbusTable, ProfinetSettings, RegisterSpace,
 };
 
-/// The content of a device's first page.
+/// The data that a device's first page shows.
 #[derive(Debug)]
 pub(super) struct Overview {
     pub facts: Vec<String>,

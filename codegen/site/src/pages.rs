@@ -28,7 +28,7 @@ type PageLink = (String, String);
 /// The file name of a folder's first page, without extension.
 pub(super) const FIRST: &str = "index";
 
-/// The title, links and languages that all pages of a device or catalog share.
+/// The title, links, languages and paths that all pages of a device or catalog share.
 #[derive(Debug, Default)]
 pub(super) struct Frameset {
     /// Title of the device or catalog.
@@ -88,7 +88,7 @@ impl Frameset {
     }
 }
 
-/// The pages of a catalog that a table of contents lists.
+/// The pages of a catalog, as a table of contents lists them.
 #[derive(Debug, Default)]
 pub(super) struct ListedCatalog {
     pub title: String,
@@ -110,7 +110,8 @@ pub(super) struct Listed {
     /// Product code and revision number, as hexadecimal numbers.
     pub product_code: String,
     pub revision: String,
-    /// Text that distinguishes the device from others with the same texts, or the number of identical descriptions.
+    /// Text that distinguishes the device from others with the same texts, and the number of identical descriptions.
+    /// Empty if no other device has the same texts.
     pub note: String,
     revision_number: u32,
     /// Key of the product, which is equal for all its revisions.
@@ -162,13 +163,13 @@ impl Listed {
         texts.into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" – ")
     }
 
-    /// Returns a key that sorts newer revisions first, and several descriptions of a revision by name.
+    /// Returns a key that sorts newer revisions first, and descriptions of the same revision by file name.
     pub fn age(&self) -> (Reverse<u32>, &str) {
         (Reverse(self.revision_number), &self.file)
     }
 
-    /// Returns the text that distinguishes the device from others with the same title: the revision (or the file if there is no
-    /// revision), followed by the note.
+    /// Returns the text that distinguishes the device from others with the same title. The text consists of the revision, or the
+    /// file if there is no revision, and the note.
     pub fn distinction(&self) -> String {
         let name = if self.revision.is_empty() { &self.file } else { &self.revision };
         let texts = [name.as_str(), &self.note].into_iter().filter(|text| !text.is_empty());

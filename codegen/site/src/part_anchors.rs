@@ -1,4 +1,4 @@
-//! Anchors of bit fields and named values. They are parts of an element, such as an item.
+//! Anchors of the parts of an element, such as the bits and named values of an item.
 
 use std::collections::HashMap;
 

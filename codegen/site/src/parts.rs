@@ -1,4 +1,4 @@
-//! The contents of a device's pages.
+//! The data that the pages of a device show.
 
 use super::area::Area;
 use super::assumptions::{AmbiguitySources, Ranked};
@@ -13,7 +13,7 @@ use super::slots::Slots;
 use lexibus_codegen::facts::referrers::Referrers;
 use lexibus_codegen::ir::Device;
 
-/// The contents of a device's pages, and the file names of these pages.
+/// The data that the pages of a device show, with the file names of the pages.
 pub(super) struct Parts {
     pub overview: Overview,
     pub areas: Vec<Area>,

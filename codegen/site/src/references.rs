@@ -31,7 +31,7 @@ pub(super) struct Targets<'d> {
     messages: Vec<Link>,
 }
 
-/// Parts of a device, with the file names of their pages.
+/// The areas, process data, state machines, procedures and messages of a device, with the file names of their pages.
 pub(super) struct Pages<'p> {
     pub areas: &'p [Area],
     pub frames: (Option<&'p str>, &'p [Frame]),
@@ -98,8 +98,8 @@ impl<'d> Targets<'d> {
         self.items.get(&id?)
     }
 
-    /// Returns the link to a bit or value of an item. If the row of the item does not show the bit or value, because it
-    /// refers to another row with the same type, returns the link to the item.
+    /// Returns the link to a bit or value of an item. A row can refer to another row with the same type instead of
+    /// showing the bits and values. In this case, returns the link to the item.
     pub fn part(&self, id: ItemId, part: Part) -> Option<&Link> {
         self.parts.get(&(id, part)).or_else(|| self.item(Some(id)))
     }
@@ -186,7 +186,7 @@ fn parts_of(row: &Row) -> impl Iterator<Item = (Part, &str, String)> {
     fields.chain(labels)
 }
 
-/// Links to the elements that refer to an item.
+/// Links between an item and other elements, by kind of relation.
 #[derive(Default)]
 struct Related {
     mapped: Vec<Link>,

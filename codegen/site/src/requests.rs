@@ -28,7 +28,7 @@ pub(super) fn is_of_record((title, _): &Request) -> bool {
 }
 
 /// Returns the requests of an item. The node-ID or the Modbus unit identifier is 1. Write requests contain the default
-/// value. If the item has no default value, the bytes of the value are shown as `xx`.
+/// value. If the item has no valid default value, the bytes of the value are shown as `xx`.
 ///
 /// `of_records` is the address of the submodule that has the records of the item.
 pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> Vec<Request> {

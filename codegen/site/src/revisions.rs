@@ -11,7 +11,7 @@ use super::Page;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
 
-/// The previous revision of a device.
+/// The previous revision of a device, and the numbers of both revisions.
 #[derive(Debug)]
 pub(super) struct Previous {
     key: DeviceKey,

@@ -40,7 +40,7 @@ struct Device {
     title: String,
     /// Further searchable words: vendor, order code, identity.
     words: String,
-    /// The revision or file, which the search shows if several devices have the same title.
+    /// The revision or file, followed by the note. The search shows this text if several devices have the same title.
     distinction: String,
     /// Folder of the pages, relative to the site's folder.
     folder: String,
@@ -137,8 +137,8 @@ impl Index {
         }));
     }
 
-    /// Returns the first part of the index: all devices, and for each first character of a name or number up to
-    /// [`FIRST`] entries, namely those that occur on the most pages. Each entry is listed only on the first of its
+    /// Returns the first part of the index: all devices, and up to [`FIRST`] entries for each first character of a name
+    /// or number. These are the entries that occur on the most pages. Each entry is listed only on the first of its
     /// pages.
     fn first(&self) -> Index {
         let mut chosen = self.chosen();

@@ -15,7 +15,7 @@ pub(super) struct SharedDoubt {
 }
 
 impl SharedDoubt {
-    /// Returns the entries to which the ambiguity belongs. `rows` are the rows of the section.
+    /// Returns the entries that have the ambiguity. `rows` are the rows of the section.
     pub fn rows<'r>(&self, rows: &'r [Row]) -> Vec<&'r Row> {
         self.entries.iter().filter_map(|at| rows.get(*at)).collect()
     }

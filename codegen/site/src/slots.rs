@@ -46,7 +46,7 @@ pub(super) struct RecordRow {
     pub number: String,
     pub name: String,
     pub length: String,
-    /// The submodule that has the record. Blocks of the connect request belong to no submodule.
+    /// The submodule that has the record. `None` for a block of the connect request.
     pub submodule: Option<Link>,
 }
 
@@ -91,11 +91,11 @@ impl Assignment {
     }
 }
 
-/// Groups of modules that have the same slots and the same assignment. Slots are stored as the ranges of [`Numbers`].
+/// Groups of modules that have the same slots and the same assignment. The key contains the slots as ranges, as in
+/// [`Numbers`]. The value contains the positions of the modules.
 type Assigned = BTreeMap<(Vec<(u16, u16)>, Assignment), Vec<usize>>;
 
-/// Adds the module that has the position `at` in the list of all modules. A module without stated slots is possible in
-/// any slot.
+/// Adds the module at position `at` in the list of all modules. A module without stated slots is possible in any slot.
 fn assign(assigned: &mut Assigned, at: usize, places: &SlotNumbers) {
     let is_anywhere = places.allowed.is_empty() && places.fixed.is_empty() && places.used.is_empty();
     let all = [
@@ -134,7 +134,7 @@ fn rows(assigned: &Assigned, named: &Named<'_>, links: ModuleLinks<'_>, left: &m
     rows
 }
 
-/// Returns the names of slots without repetitions, but at most [`MOST_NAMES`] names.
+/// Returns the names of slots without repetitions. An ellipsis replaces the names after the first [`MOST_NAMES`].
 fn names_of(numbers: &Numbers, names: &BTreeMap<u16, &str>) -> String {
     let mut shown: Vec<&str> = Vec::new();
     for &(first, last) in numbers.0.iter().filter(|(first, last)| first <= last) {
@@ -193,7 +193,7 @@ fn preset(catalog: &Catalog, device: &Device, assigned: &mut Assigned) {
     }
 }
 
-/// Returns the slots without known modules.
+/// Returns one row for each slot to which no known module is assigned.
 fn empty(device: &Device, assigned: &Assigned) -> Vec<SlotRow> {
     let mut is_assigned = vec![assigned.keys().any(|(slots, _)| slots.is_empty()); usize::from(u16::MAX) + 1];
     for &(first, last) in assigned.keys().flat_map(|(slots, _)| slots).filter(|(first, last)| first <= last) {

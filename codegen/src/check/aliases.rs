@@ -82,7 +82,7 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     found
 }
 
-/// Returns the differences between the units and scale factors of two items.
+/// Returns the differences between the units and scales of two items.
 fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
     let mut found = Vec::new();
     if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {

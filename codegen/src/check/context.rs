@@ -3,7 +3,7 @@
 use crate::ir::owner::Owner;
 use crate::ir::{Device, Format, Item, Module, PdoEntry, ProcessData};
 
-/// A device, and the contents of its catalog that lints need.
+/// A device, with the modules, file format, items and types that lints need.
 pub(super) struct Context<'a> {
     pub device: &'a Device,
     /// All modules of the catalog.

@@ -92,8 +92,8 @@ impl Check<'_, '_> {
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
-            // A limit just outside of the named values is probably wrong. A limit far outside of the named values
-            // allows for further values.
+            // A limit just outside the named values is probably wrong. A limit far outside them probably leaves room for
+            // values without names.
             let named = || values.iter().filter(|label| label.is_named());
             let is_slip = match is_upper {
                 true => named().any(|label| label.range().1 + 1 == value) && !named().any(|label| label.value > value),
@@ -221,8 +221,8 @@ fn listed(values: &[EnumValue]) -> String {
     }
 }
 
-/// Returns whether a limit only bounds the raw number, instead of naming the allowed bits. In such a limit, at most one
-/// bit is 1, or all bits up to the end of the type or up to the last named bit are 1.
+/// Returns whether a limit only bounds the raw number, instead of naming the allowed bits. Such a limit has at most one
+/// bit that is 1, or all its bits up to a certain bit are 1. This is the last bit of the type or the last named bit.
 fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();

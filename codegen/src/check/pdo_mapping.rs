@@ -75,7 +75,7 @@ impl Mapping<'_, '_> {
         self.report(&codes::HALF_A_PDO, present.origin.span, message);
     }
 
-    /// Checks the entries of a mapping object, and returns their length in bits.
+    /// Checks the entries of a mapping object, and returns their total length in bits.
     fn values(&mut self, mapping: &Group, index: u16) -> u32 {
         let (mut gap, mut bits, mut found) = (None, 0u32, 0);
         for value in mapping_values(mapping) {

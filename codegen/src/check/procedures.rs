@@ -1,4 +1,4 @@
-//! Procedures: steps that contradict the facts of their items, PDO assignments, and COB-IDs that belong to other PDOs.
+//! Procedures: steps that contradict the facts of their items, PDO assignments, and COB-IDs of other PDOs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ use crate::text::brief;
 const ASSIGNMENTS: [u16; 2] = [0x1C12, 0x1C13];
 
 /// Reports steps that contradict the facts of their items, wrong PDO assignments, and COB-IDs that a procedure writes
-/// although they belong to another PDO.
+/// although another PDO has them by default.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let Context { device, owner, .. } = context;
     for procedure in &device.procedures {

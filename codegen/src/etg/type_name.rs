@@ -86,7 +86,7 @@ pub fn name_of(ty: Type) -> String {
     NAMES.into_iter().find(|name| standard(name) == Some(ty)).map_or_else(|| ty.to_string(), str::to_owned)
 }
 
-/// Reads names that contain a number: BITn, BITARRn, INT24, STRING(n), ARRAY [l..u] OF T.
+/// Reads names that contain a number, such as BITn, BITARRn, INT24, STRING(n) and ARRAY [l..u] OF T.
 fn with_parameter(name: &str) -> Option<Basic> {
     if let Some(bits) = name.strip_prefix("BITARR") {
         return width(bits).map(Basic::Bits);

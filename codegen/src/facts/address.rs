@@ -8,8 +8,8 @@ use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, Regist
 /// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Address {
-    /// Bus or buses on which the item has this address. For an address that belongs to no single bus, the kind of address, such
-    /// as `Window`.
+    /// Bus or buses on which the item has this address. For an address that is not specific to a bus, the kind of address, such as
+    /// `Window`.
     pub bus: &'static str,
     /// Short form of the address, as the source prints it.
     pub number: String,
@@ -85,7 +85,7 @@ pub fn object(index: u16, sub_index: u8) -> String {
     format!("{}:{sub_index:02X}", hex16(index))
 }
 
-/// Returns the bus or buses of an address. For an address that belongs to no single bus, returns the kind of address.
+/// Returns the bus or buses of an address. For an address that is not specific to a bus, returns the kind of address.
 pub fn bus(binding: &Binding) -> &'static str {
     match binding {
         Binding::Object { buses, .. } => object_bus(*buses),

@@ -2,8 +2,7 @@
 
 use crate::ir::{Group, GroupKind};
 
-/// Returns the title of the area to which a group belongs: its chapter, its process image, its record or its range of
-/// objects.
+/// Returns the title of a group's area: its chapter, process image, record or range of objects.
 pub fn title(group: &Group) -> String {
     match &group.kind {
         GroupKind::Object { index, .. } => objects(*index).to_owned(),

@@ -10,7 +10,7 @@ const BIT_30: u32 = 1 << 30;
 /// Flag of a COB-ID with a 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
-/// The kind of object that a COB-ID belongs to. The kind of object determines the meaning of the flags.
+/// The kind of communication object that uses a COB-ID. The kind determines the meaning of the flags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CobId {
     /// COB-ID of an RPDO, in the objects 0x1400 to 0x15FF.

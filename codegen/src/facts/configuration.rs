@@ -13,7 +13,8 @@ const DISABLED: i128 = 1 << 31;
 /// Maximum number of entries of a PDO mapping. Greater values of sub-index 0 select a multiplexed PDO (CiA 301 7.5.2.36).
 const MAX_ENTRIES: u8 = 64;
 
-/// The values that configure a device. The fields are in the order of the writes.
+/// The values that configure a device, and the objects that are left out. The fields with values are in the order of
+/// the writes.
 #[derive(Debug, Default)]
 pub struct Configuration {
     /// COB-IDs that disable the PDOs whose communication parameters or mappings are configured.
@@ -28,7 +29,7 @@ pub struct Configuration {
     pub pdo_parameters: Vec<Setting>,
     /// COB-IDs that enable PDOs.
     pub enable_pdos: Vec<Setting>,
-    /// Configured objects that are not written.
+    /// Configured objects that are not written, each with the reason.
     pub left_out: Vec<((u16, u8), LeftOut)>,
 }
 
@@ -193,8 +194,8 @@ fn configured(
     settings
 }
 
-/// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings first clear the mapping
-/// and then write all entries, because some devices lose entries that are not written again.
+/// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings first clear the mapping and
+/// then write all entries. Some devices lose entries that are not written again.
 fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), LeftOut)>) -> Vec<Setting> {
     let mut settings = configured(group, types, None, left_out);
     let count = group.sub(0).filter(|item| reason(group, item).is_none());

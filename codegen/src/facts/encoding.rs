@@ -2,8 +2,8 @@
 
 use crate::ir::{Type, Value};
 
-/// Returns the bytes of a value of a basic type. Returns `None` for a formula, for a text that could not be converted to the
-/// type, and for a number if the length of the type is unknown.
+/// Returns the bytes of a value of a basic type. Returns `None` for a formula, and for a text that could not be converted to the
+/// type. Also returns `None` for a number if the length of the type is unknown.
 pub fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     match (value, ty) {
         (Value::Bytes(bytes), _) => Some(bytes.clone()),

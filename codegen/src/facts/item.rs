@@ -11,8 +11,8 @@ use crate::ir::{
 };
 
 /// Returns the name of an item. Many files state no name, or only a placeholder such as `SubIndex 001`. In this case, sub-index 0
-/// is called `Number of entries` (CiA 301), and other sub-indices are called by object and sub-index: `RxPDO 1 mapping, sub-index
-/// 1`. The value of an object without sub-indices then has the name of the object.
+/// is called `Number of entries` (CiA 301). Other sub-indices are called by object and sub-index: `RxPDO 1 mapping, sub-index 1`.
+/// The value of an object without sub-indices has the name of the object.
 pub fn entry_name(item: &Item, group: &Group) -> String {
     let has_subs = group.object_code().is_some_and(ObjectCode::has_subs);
     match item.object() {
@@ -41,9 +41,9 @@ pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
     PLAIN.of_item(item, value, &|value| raw(item, value, basic))
 }
 
-/// Returns the meaning of a value: the name of an enumeration value, or the active flags and the fields of a bit field,
-/// separated by commas. The name of a field is followed by its number or by the name of its value: `Mode 3`, `Mode:
-/// Homing`. Returns `None` if the type has no such names.
+/// Returns the meaning of a value: the name of an enumeration value, or the active flags and the fields of a bit field.
+/// Commas separate the flags and fields. The name of a field is followed by its number or by the name of its value:
+/// `Mode 3`, `Mode: Homing`. Returns `None` if the type names neither the value nor an active flag or field.
 pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     let number = value.as_int()?;
     match &Owner::of_types(types).definition(ty)?.shape {
@@ -60,8 +60,8 @@ pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     }
 }
 
-/// Returns the name of a field with its number or with the name of its value. Returns `None` if the flag is not active
-/// or the number is 0.
+/// Returns the name of a field with its number or with the name of its value. Returns `None` for a reserved field, an
+/// inactive flag or the number 0.
 fn bits(field: &BitFieldEntry, number: i128, types: &[TypeDef]) -> Option<String> {
     let bits = number.checked_shr(field.offset.into()).unwrap_or(0) & ((1 << field.bits.min(64)) - 1);
     match field.meaning {

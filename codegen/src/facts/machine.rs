@@ -2,9 +2,9 @@
 
 use crate::ir::{StateMachine, StateRef, Transition};
 
-/// Returns the fault states. An automatic transition from any state is a reaction to a fault, so its target and the
-/// states that follow the target automatically are fault states. The states that the source lists as fault states are added
-/// without their successors, because a device can leave a fault state automatically.
+/// Returns the fault states. An automatic transition from any state is a reaction to a fault. Its target and the states that follow
+/// the target automatically are therefore fault states. The states that the source lists as fault states are added without their
+/// successors, because a device can leave a fault state automatically.
 pub fn fault_states(machine: &StateMachine) -> Vec<&StateRef> {
     let mut faults: Vec<&StateRef> = Vec::new();
     loop {

@@ -57,9 +57,9 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Returns the raw value of a physical value: 1550 for `15.5` with scale factor 0.01. The raw value of an integer type is rounded to
-    /// the nearest integer. Returns `None` if `text` is not a number, if the raw value is not finite, or if the scale depends on another
-    /// item or on the model.
+    /// Returns the raw value of a physical value: 1550 for `15.5` with scale factor 0.01. The raw value of an integer type is
+    /// rounded to the nearest integer. Returns `None` if `text` is not a number, or if the raw value is not finite. Also returns
+    /// `None` if the scale depends on another item or on the model.
     pub fn raw(&self, text: &str, ty: Type) -> Option<Value> {
         let number = text.parse::<f64>().ok().filter(|number| number.is_finite())?;
         let exact = |factor, offset| Ratio::of_raw(text, factor, offset);
@@ -164,7 +164,8 @@ pub fn depends_on_node(limits: &Limits) -> bool {
 }
 
 /// Returns the physical value with as many decimals as factor and offset have: raw value 250 with scale factor 0.1 is `25.0`. The
-/// result is exact if neither factor nor offset has more than nine decimals.
+/// result is exact if the raw value is an integer, and neither factor nor offset has more than nine decimals. Otherwise, the result
+/// is rounded as described at [`short`].
 fn linear(raw: &Value, factor: f64, offset: f64) -> Option<String> {
     let exact = || {
         let (factor, offset) = (Decimal::of(factor)?, Decimal::of(offset)?);

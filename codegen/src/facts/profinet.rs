@@ -37,7 +37,7 @@ fn times(units: &Numbers) -> String {
     format!("{} ms", ranges(units, milliseconds))
 }
 
-/// Returns the first interface of an access point.
+/// Returns the first interface submodule of an access point.
 fn interface<'c>(catalog: &'c Catalog, device: &Device) -> Option<&'c Submodule> {
     let submodules = device.submodules.iter().filter_map(|used| catalog.submodules.get(used.submodule.0 as usize));
     submodules.into_iter().find(|submodule| submodule.kind == SubmoduleKind::Interface)
@@ -147,7 +147,7 @@ pub fn subslot(subslot: u16) -> String {
     }
 }
 
-/// Address of the records of a submodule that the description does not contain.
+/// Text in place of the address of a submodule's records, if the description does not contain the submodule.
 pub const ANY_SUBMODULE: &str = "API, slot and subslot of the submodule";
 
 /// Returns the address of the records of a submodule: API, slot and subslot. If only the configuration determines the
@@ -188,8 +188,8 @@ impl Places {
         }
     }
 
-    /// Returns the only possible slot or subslot. Otherwise, returns a text that lists the possible numbers: `of the
-    /// module (1 to 4)`.
+    /// Returns the number if only one slot or subslot is possible. Otherwise, returns a text that lists the possible
+    /// numbers, such as `of the module (1 to 4)`.
     fn text(mut self, element: &str, number: fn(u16) -> String) -> String {
         self.0.sort_unstable();
         self.0.dedup();

@@ -33,7 +33,7 @@ pub enum Referrer {
 /// A part of an item, by its position in the item's type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// A bit field.
+    /// A field of a bit field.
     Bit(usize),
     /// A named value.
     Value(usize),
@@ -72,7 +72,7 @@ impl Referrers {
         referrers
     }
 
-    /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages, types and other items.
+    /// Returns the elements that refer to an item: PDOs, state machines, procedures, messages and other items.
     pub fn of(&self, item: ItemId) -> &[Referrer] {
         self.0.get(&item).map_or(&[], Vec::as_slice)
     }
@@ -101,8 +101,8 @@ impl Referrers {
     }
 }
 
-/// Returns the conditions on which the meanings of a type's bits and values depend. A condition of a named value of a
-/// bit field counts as a condition of this bit field.
+/// Returns the conditions on which the meanings of a type's bits and values depend. If a field of a bit field has named
+/// values, their conditions count as conditions of this field.
 pub fn conditions<'d>(types: Owner<'d>, ty: Type) -> Vec<(Part, &'d Condition)> {
     let of_values = |values: &'d [EnumValue]| {
         values.iter().enumerate().filter_map(|(at, value)| Some((at, value.when.as_deref()?)))

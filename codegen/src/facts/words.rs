@@ -219,8 +219,9 @@ impl Words<'_> {
             .then(|| format!("The access rights ({assumed}) are an assumption, because the manual states none."))
     }
 
-    /// Returns sentences about the behavior of a value: storage, access rights of the slave application, time at which
-    /// changes take effect, conditions and values for writing, SRDO mapping, and side effects.
+    /// Returns sentences about the behavior of a value. They state its storage, the access rights of the slave
+    /// application, and the time at which changes take effect. They also state restrictions on writing, automatic
+    /// reset, SRDO mapping, and side effects.
     pub fn behavior(&self, behavior: &Behavior) -> Vec<String> {
         let mut sentences = Vec::new();
         sentences.extend(self.storage(&behavior.storage).map(|storage| sentence(&capital(&storage))));
@@ -337,8 +338,9 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value of an item: a COB-ID with its flags, a special value with its meaning, a reference to an object
-    /// in hexadecimal, a physical value with the raw value, or otherwise the result of `raw`.
+    /// Formats a value of an item. A COB-ID is followed by its flags. A special value is shown as its meaning, and a
+    /// physical value as a decimal number, both with the raw value. A reference to an object is hexadecimal. `raw`
+    /// formats all other values.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
         match (cob_id, Physical::of(item.quantity.as_deref())) {
@@ -453,7 +455,8 @@ impl Words<'_> {
         sentences.join(" ")
     }
 
-    /// Returns an ambiguity with the assumption: `Note for …: …. Assumed: … (reason). Manual: ….`
+    /// Returns an ambiguity with the assumption: `Note for …: …. Assumed: … (reason). Manual: ….` For a hazard, the
+    /// text begins with `Hazard`.
     pub fn doubt(&self, manual: &Manual, doubt: &Doubt) -> String {
         let part = |text: &str| self.escaped(text.trim_end_matches('.'));
         let why = if doubt.why.is_empty() { String::new() } else { format!(" ({})", part(&doubt.why)) };
@@ -465,7 +468,8 @@ impl Words<'_> {
         format!("{hazard}{element}: {}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
     }
 
-    /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12)`, or without a known section `Manual, line 2178`.
+    /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12)`, or `Manual, line 2178` if the sections of the manual are
+    /// not known.
     pub fn citation(&self, manual: &Manual, row: &str, cite: &str) -> String {
         let separator = if manual.sections.is_empty() { "," } else { ":" };
         format!("Manual{separator} {}", self.escaped(&citation(manual, row, cite)))
@@ -599,8 +603,8 @@ impl Words<'_> {
     }
 
     /// Returns the origins of those facts of an item that do not come from its description: `Unit from CiA 402,
-    /// 17.3.7.` Assumed access rights, reserved entries, and the bits, values and descriptions of a standard are left
-    /// out, because other methods return sentences about them.
+    /// 17.3.7.` Assumed access rights and reserved entries are left out, and so are the bits, values and descriptions
+    /// of a standard. Other methods return sentences about them.
     pub fn origins(&self, item: &Item) -> Vec<String> {
         self.sentences_about(&item.origins)
     }

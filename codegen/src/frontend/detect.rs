@@ -7,7 +7,7 @@ use crate::ir::Format;
 use crate::source::{FileId, Source, Span};
 use crate::syntax::ini::{Document, Section};
 
-/// Number of bytes, from the start of an XML file, in which the root element and its profile are searched.
+/// Number of bytes at the start of an XML file in which the compiler searches for the root element and its profile.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
 /// Recognizes a register table by its file name or its first key.

@@ -1,4 +1,4 @@
-//! Front ends: each format has a folder with a reader that converts its syntax to IR.
+//! Front ends: each format has a folder with a reader that converts files of the format to IR.
 
 #[cfg(any(feature = "eds", feature = "xdd"))]
 pub mod canopen;

@@ -37,7 +37,7 @@ type Read = fn(&mut Input<'_>, &mut Diagnostics) -> Option<Catalog>;
 
 /// Front end of a format: its cargo feature and its functions.
 struct FrontEnd {
-    /// Returns the format of a source that belongs to this front end.
+    /// Returns the format of a source, or `None` if the front end cannot read the source.
     recognize: fn(&Source) -> Option<Format>,
     /// Cargo feature that enables the front end.
     feature: &'static str,

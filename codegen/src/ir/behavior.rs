@@ -282,7 +282,7 @@ pub struct ParameterBinding {
     pub code: u32,
 }
 
-/// Indirect access through a window: a client writes the number of the parameter to one item, and reads or writes the parameter's
+/// Indirect access through a window. A client writes the number of the parameter to one item, and reads or writes the parameter's
 /// value through another item.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -321,7 +321,7 @@ pub struct WindowSide {
     pub procedure: Option<ProcedureRef>,
 }
 
-/// Unit and scale factor of an item.
+/// Unit, scale, special raw values and step of an item, with its machine unit and example conversions.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quantity {
@@ -396,7 +396,8 @@ pub struct GivenNumber {
     pub origin: Origin,
 }
 
-/// Storage of a value, side effects of writing the value, and conditions for writing it.
+/// Storage of a value, side effects of writing it, and conditions for reading and writing it. Also contains the role of
+/// the item in backup, functional safety and engineering tools.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Behavior {
@@ -458,7 +459,8 @@ pub enum Storage {
     OnCommand(ElementRef),
 }
 
-/// Models, firmware versions, hardware options and buses on which an element exists.
+/// Models, firmware versions, hardware options and buses on which an element exists, and the replacement for the
+/// element.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Availability {

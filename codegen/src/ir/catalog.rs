@@ -8,7 +8,7 @@ use super::{
 };
 use crate::source::{Digest, Encoding, Origin, Span};
 
-/// The devices of one vendor, read from one or more files.
+/// The devices, modules and submodules of one vendor, read from one or more files.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Catalog {

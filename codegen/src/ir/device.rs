@@ -1,4 +1,4 @@
-//! Devices: identity, file header, bus settings and content.
+//! Devices: identity, file header, bus settings, models and axes.
 
 use super::{
     CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, FactOrigin, Framing,

@@ -85,13 +85,14 @@ impl Format {
         (self == Format::Esi).then(forms)
     }
 
-    /// Returns whether one element of the format can describe several items: a row of a register table, a data type of an ESI, or a
-    /// parameter of an XDD.
+    /// Returns whether one element of the format can describe several items. Such elements are rows of register tables, data types
+    /// of an ESI, and parameters of an XDD.
     pub fn has_shared_descriptions(self) -> bool {
         matches!(self, Format::Table | Format::Esi | Format::Xdd)
     }
 
-    /// Returns whether files of the format describe devices on PROFINET. The values of such devices belong to slots.
+    /// Returns whether files of the format describe devices on PROFINET. The items of such devices belong to submodules
+    /// in slots.
     pub fn is_of_profinet(self) -> bool {
         self == Format::Gsdml
     }

@@ -34,7 +34,7 @@ pub struct Item {
     pub variants: ThinVec<ItemVariant>,
     /// Settings of the item in a configuration file (DCF, XDC).
     pub configured: Option<Box<Configured>>,
-    /// Unit and scale factor of the item.
+    /// Unit, scale, special raw values and step of the item.
     pub quantity: Option<Box<Quantity>>,
     /// Storage of the value, side effects of writing it, and conditions for writing it.
     pub behavior: Option<Box<Behavior>>,

@@ -72,7 +72,7 @@ impl<'a> ItemNames<'a> {
         ItemNames { groups, names: OnceCell::new(), paths: OnceCell::new() }
     }
 
-    /// Returns the item with this name.
+    /// Returns the first item with this name.
     pub fn by_name(&self, name: &str) -> Option<&'a Item> {
         let names = self.names.get_or_init(|| {
             let mut names = HashMap::new();

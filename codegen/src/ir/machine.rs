@@ -19,13 +19,14 @@ pub struct StateMachine {
     /// Enumeration of the states, if the source has one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub state_type: Option<TypeRef>,
-    /// States as bit patterns of the status item. If the machine has a `state_type`, each value of that type is a state.
+    /// States as bit patterns of the status item. If the machine has a `state_type`, the states are the single values of that type
+    /// that are neither reserved nor vendor-specific.
     pub states: SharedList<Pattern>,
     /// State after power-on.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub initial: Option<StateRef>,
-    /// Fault states that the source lists. The list can omit states that always count as fault states: the target of an automatic
-    /// transition that starts in any state, and the states that automatically follow this target.
+    /// Fault states that the source lists. The list can omit states that always count as fault states. These are the target of an
+    /// automatic transition that starts in any state, and the states that automatically follow this target.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub faults: Vec<StateRef>,
     /// Commands as bit patterns of the control item.

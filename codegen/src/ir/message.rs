@@ -199,8 +199,7 @@ pub struct ParameterSpace {
     pub write: Option<MessageRef>,
     /// Message that writes a parameter to non-volatile memory.
     pub store: Option<MessageRef>,
-    /// Byte order of values with several bytes on the wire as a list of byte numbers, in which 0 is the most significant byte;
-    /// empty = big-endian.
+    /// Byte order of values on the wire as a list of byte numbers, in which 0 is the most significant byte; empty = big-endian.
     pub byte_order: Vec<u8>,
     /// Description of the parameter space from the source.
     pub documentation: Option<Box<Documentation>>,

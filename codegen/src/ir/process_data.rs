@@ -392,7 +392,7 @@ pub struct ProcessImage {
     pub direction: Direction,
     /// Length of the user data in bytes.
     pub length: u32,
-    /// Number of bytes that are not user data (PROFIsafe message trailer, status bytes).
+    /// Number of bytes after the user data, which contain the trailer of a PROFIsafe message.
     pub overhead: u32,
     /// True if numbers are big-endian.
     pub big_endian: bool,

@@ -148,7 +148,7 @@ pub enum SubmoduleKind {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoData {
-    /// Layout of the data; `overhead` counts the bytes of an F message trailer.
+    /// Layout of the data. `overhead` is the length of the trailer of a PROFIsafe message.
     pub image: ProcessImage,
     /// True if all data items are transferred as one consistent block.
     pub consistent: bool,
@@ -159,7 +159,8 @@ pub struct IoData {
     pub channels: Vec<IoChannel>,
 }
 
-/// A data item with several fields in the image (bits, a value with its status), or none (an F message trailer).
+/// A data item with several fields in the image (bits, a value with its status), or none (the trailer of a PROFIsafe
+/// message).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoItem {

@@ -23,7 +23,7 @@ pub(crate) fn types(types: &[TypeDef]) -> impl Iterator<Item = (TypeId, &TypeDef
     all.filter(|(_, definition)| !is_of_profile(definition.stated_by.as_deref()))
 }
 
-/// Returns the type of an item. If a profile names the bits or values of the item, this is the basic type.
+/// Returns the type of an item, or the basic type if a profile names the bits or values of the item.
 pub(crate) fn ty(owner: Owner<'_>, item: &Item) -> Type {
     match is_of_profile(item.origins.get(Fact::Meaning)) {
         true => owner.basic(item.ty),

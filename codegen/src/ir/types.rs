@@ -5,7 +5,7 @@ use std::fmt;
 use super::{Access, Availability, CompactString, Documentation, FactOrigin, ItemRef, Mark, Texts, Value};
 use crate::source::Origin;
 
-/// The type of an item: a basic type, or a reference to a [`TypeDef`] of the item's device.
+/// The type of an item: a basic type, or a reference to a [`TypeDef`] of the item's device, module or catalog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -236,7 +236,7 @@ impl TypeDef {
     }
 }
 
-/// The kind and content of a type definition.
+/// The definition of a type: an alias, an array, a record, a bit field, an enumeration or a scaled integer.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -268,7 +268,7 @@ pub enum Shape {
         /// True if the list is complete: a device never has another value.
         closed: bool,
     },
-    /// An integer with a scale factor.
+    /// An integer with a conversion to a physical value.
     Scaled {
         /// The underlying integer type.
         base: Type,

@@ -1,4 +1,4 @@
-//! Values: defaults, limits, configured values, labels of enumerations.
+//! Values, limits of values, and reasons why limits exclude a value.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -32,8 +32,8 @@ pub enum Value {
         /// Days since 1984-01-01, or days of the difference.
         days: u16,
     },
-    /// A text that was not converted to the type of the item: a value of a DOMAIN or of an unknown type, or an unreadable value. A
-    /// diagnostic reports values of a DOMAIN and unreadable values.
+    /// A text that was not converted to the type of the item. The text is a value of a DOMAIN or of an unknown type, or an
+    /// unreadable value. A diagnostic reports values of a DOMAIN and unreadable values.
     Raw(CompactString),
 }
 

@@ -23,7 +23,7 @@ pub struct ItemVariant {
     pub default: Option<Value>,
     /// Minimum and maximum on these models and buses.
     pub limits: Limits,
-    /// Rounding step of the device in raw units.
+    /// Rounding step of the device on these models and buses, in raw units.
     pub step: Option<Value>,
     /// Conversion between raw value and physical value.
     pub scale: Option<Scale>,

@@ -80,7 +80,7 @@ pub(crate) struct MappableItems<'a> {
     entries: Entries<'a>,
     /// Items of the fixed objects of modules.
     of_modules: HashMap<(u16, u8), &'a Item>,
-    /// Objects whose number of sub-indices depends on the connected modules.
+    /// Indices of objects whose number of sub-indices depends on the connected modules.
     extended: HashSet<u16>,
 }
 

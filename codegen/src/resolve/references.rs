@@ -31,7 +31,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of devices to families. A reference to a family without a name has no id.
+/// Resolves the references of devices to families. References to families without a name get no id.
 pub(super) fn families(catalog: &mut Catalog) {
     let named = (0..).zip(&catalog.families).filter(|(_, family)| !family.name.is_empty());
     let positions = Positions::of(named.map(|(position, family)| (position, &family.id)));
@@ -145,7 +145,7 @@ fn machines(device: &mut Device) {
     }
 }
 
-/// Resolves the states and commands of a state machine that belongs to no device.
+/// Resolves the states and commands in the state machine of a profile.
 pub(super) fn machine_of_profile(definition: &mut StateMachine) {
     machine(definition, &Positions::new([].into_iter()));
 }
@@ -231,8 +231,7 @@ fn spaces_of_fields(fields: &mut [MessageField], positions: &Positions) {
     }
 }
 
-/// Resolves the references from machine constants to models, and from machine units and example conversions to machine constants
-/// and models.
+/// Resolves the references to models and machine constants in machine constants, machine units and example conversions.
 fn models_and_given_numbers(device: &mut Device) {
     let models = Positions::new(device.variants.iter().map(|model| &model.name));
     let given = Positions::new(device.given.iter().map(|number| &number.name));

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use super::{device_names, module_names, number, DeviceFilter};
 use crate::ir::{Device, Module};
 
-/// Returns, for each device, an argument of `--device` that selects only this device: the order code, name, identifier or product
-/// code, followed by the revision if several devices match the text before it. `None` if there is no such argument.
+/// Returns, for each device, an argument of `--device` that selects only this device, or `None` if there is no such argument. An
+/// argument is the order code, name, identifier or product code. The revision follows if several devices match the text before it.
 pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
     let index = Index::new(devices.iter().map(|device| (device.identity.product_code, device_names(device).to_vec())));
     let revision = |at: &usize| devices[*at].identity.revision_number;
@@ -26,7 +26,7 @@ pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
 }
 
 /// Returns, for each module, an argument of `--module` that selects only this module: the identifier, name, order code or ident
-/// number. `None` if there is no such argument.
+/// number. Returns `None` if there is no such argument.
 pub fn of_modules(modules: &[Module]) -> Vec<Option<String>> {
     let index = Index::new(modules.iter().map(|module| (Some(module.number), module_names(module).to_vec())));
     let argument = |(at, module): (usize, &Module)| {
@@ -37,8 +37,8 @@ pub fn of_modules(modules: &[Module]) -> Vec<Option<String>> {
     modules.iter().enumerate().map(argument).collect()
 }
 
-/// Returns whether a filter with this text matches only elements with exactly this name or number, and the command line reads the
-/// text as a filter.
+/// Returns whether a filter with this text matches only elements with this name or number. The command line must also read the text
+/// as a filter.
 fn is_plain(text: &str) -> bool {
     let has_revision = text.parse::<DeviceFilter>().map_or(true, |filter| filter.revision.is_some());
     // The command line would read a text that starts with `-` as an option.

@@ -7,7 +7,7 @@ use encoding_rs::{CoderResult, Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, W
 /// The byte order mark of UTF-8.
 pub(super) const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Number of free bytes that are enough for any character.
+/// Number of free bytes in the decoded text that is sufficient for any character.
 const ROOM: usize = 16;
 
 /// The encoding from which a file's bytes were decoded.

@@ -7,7 +7,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::decode::Decoded;
 
-/// Content that a source and its digest share.
+/// The decoded file and its SHA-256, which a source and its digest share.
 #[derive(Debug)]
 pub(super) struct Content {
     pub decoded: Decoded,

@@ -5,7 +5,8 @@ use std::path::{Component, Path, PathBuf};
 
 use super::{FileId, Source};
 
-/// Files that were read because a description refers to them. Only files in the folder of the description or below it are read.
+/// Files to which a description refers: the files that were read, and the paths of files that do not exist. Only files in the
+/// folder of the description or below it are read.
 #[derive(Debug)]
 pub struct References<'a> {
     main: &'a Source,

@@ -16,8 +16,8 @@ impl Source {
     ///
     /// The ranges are byte offsets into [`Source::text`]. They must be in ascending order and must not overlap.
     ///
-    /// Returns `None` if the ranges violate this rule or do not start and end at character boundaries, or if the encoding of the
-    /// file lacks a character of a replacement. Also returns `None` if a reader would not decode the new bytes to the new text.
+    /// Returns `None` if the ranges violate these rules, or do not start and end at character boundaries. Also returns `None` if
+    /// the encoding of the file lacks a character of a replacement, or if a reader would not decode the new bytes to the new text.
     pub fn replaced(&self, replacements: &[(Range<usize>, &str)]) -> Option<Source> {
         let bytes = self.bytes();
         let form = Form::of(self, &bytes)?;
@@ -49,7 +49,7 @@ enum Form {
     Windows1252 { mark: usize },
     /// Units of two bytes after a byte order mark of `mark` bytes.
     Utf16 { mark: usize, is_big_endian: bool },
-    /// The encoding of the XML declaration.
+    /// The encoding that the XML declaration names.
     Declared(&'static Charset),
 }
 

@@ -32,7 +32,8 @@ struct Counts {
 /// Number of bytes between two entries of the list of counts.
 const STRIDE: usize = 1024;
 
-/// Maximum size of an input in bytes. The size is limited because spans contain 32-bit offsets.
+/// Maximum size of an input in bytes. The size is limited because spans contain 32-bit offsets into the decoded text, which can be
+/// longer than the input.
 pub const MAX_INPUT_BYTES: usize = u32::MAX as usize / 4;
 
 fn too_large() -> std::io::Error {
@@ -43,9 +44,9 @@ fn too_large() -> std::io::Error {
 impl Source {
     /// Decodes `bytes`; `name` is the file name in diagnostics.
     ///
-    /// Decoding never fails. A file that is neither UTF-8 nor UTF-16 is read in the encoding that its XML declaration
-    /// names, or otherwise as Windows-1252, in which every byte is a character. [`Source::encoding`] returns the
-    /// encoding that was used.
+    /// Decoding never fails. A file that is neither UTF-8 nor UTF-16 is read in the encoding that its XML declaration names.
+    /// Without such an encoding, the file is read as Windows-1252, in which every byte is a character. [`Source::encoding`] returns
+    /// the encoding that was used.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
         Source {
             name: name.into(),

@@ -1,16 +1,16 @@
 //! The lexer for EDS and DCF files.
 //!
-//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the grammar.
-//! All parts of the document are spans of the text. The lines of a section are split on request, without an allocation
-//! per line. Each violation of the grammar is recorded as an [`Oddity`]. A line with a violation is still read if its
-//! meaning is clear. The front end handles case, numbers and meaning.
+//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the grammar. All parts of
+//! the document are spans of the text. The lines of a section are split on request, without an allocation per line. Each violation
+//! of the grammar is recorded as an [`Oddity`]. A line with a violation is still read if its meaning is clear. The front end
+//! interprets the keys and values.
 
 use std::cell::{Cell, RefCell};
 
 use super::words;
 use crate::source::{FileId, Span};
 
-/// The sections of a file.
+/// A file: its sections, the comments above the first section, and the violations of the grammar.
 #[derive(Debug)]
 pub struct Document<'a> {
     text: &'a str,
@@ -315,8 +315,7 @@ fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
             let signs = words::equal(word, b'=');
             equals = (signs != 0).then(|| at + words::first(signs));
         }
-        // Control characters other than line ends are rare, so this comparison usually shows that the word contains no
-        // line end.
+        // Most words contain no control character, so this comparison usually shows that the word contains no line end.
         if words::less(word, b' ') != 0 {
             let ends = words::equal(word, b'\n') | words::equal(word, b'\r');
             if ends != 0 {

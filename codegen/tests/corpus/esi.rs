@@ -104,7 +104,7 @@ fn same_text(oracle: &Value, value: &Value) -> bool {
     oracle.trim().chars().count() == value.chars().count() && oracle.trim().chars().zip(value.chars()).all(same)
 }
 
-/// The script's counts for an element of a file.
+/// The script's counts for an element of a file, and all mismatches with the compiler.
 struct Counts<'c> {
     oracle: &'c Value,
     /// Descriptions of all mismatches, which are reported together.
@@ -171,8 +171,8 @@ impl Counts<'_> {
     }
 }
 
-/// Number of objects that a file declares a second time, and the number of their sub-items. The compiler keeps the first element
-/// and reports the second one; the script counts both.
+/// Number of objects that a file declares a second time, and the number of their sub-items. The compiler keeps the first object and
+/// reports the second one; the script counts both.
 #[derive(Clone, Copy, Default)]
 struct Twice {
     objects: usize,

@@ -81,7 +81,7 @@ struct Target<'a> {
     again: bool,
 }
 
-/// A file as read by the compiler and by this test.
+/// A file as read by the compiler and by this test, with the results of comparing both.
 struct Comparison<'a> {
     device: &'a Device,
     reading: &'a Reading,
@@ -274,7 +274,8 @@ fn items_of(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     }
 }
 
-/// Returns the type in a section (CiA 301, table of data types).
+/// Returns the type in a section (CiA 301, table of data types). Without DataType, returns DOMAIN if ObjectType is 2, and otherwise
+/// `None`.
 fn type_of(section: &Section) -> Option<Type> {
     if section.text("datatype").is_none() {
         return (section.number("objecttype") == Some(2)).then_some(Type::Domain);

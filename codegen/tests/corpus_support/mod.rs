@@ -2,7 +2,7 @@
 //! `tests/corpus-sample.txt` lists.
 //!
 //! The corpus is not part of the repository. If the corpus is missing, the tests print a message and pass. The readers in this file
-//! and in the modules `number` and `reading` use only the standard library, so that the code under test does not affect the
+//! and in the modules `number` and `reading` use only the standard library. The code under test therefore cannot affect the
 //! expected values.
 
 // Each test is a separate program that uses only a part of this module.

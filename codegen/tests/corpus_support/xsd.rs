@@ -34,7 +34,7 @@ pub struct Schema {
 }
 
 impl Schema {
-    /// Creates a validator for the schema at `path` in the folder of schemas. If the schema or the validator is missing, prints a
+    /// Creates a validator for the schema at `path` in the folder of schemas. If the schema, Python or `lxml` is missing, prints a
     /// message and returns `None`.
     pub fn new(path: &str) -> Option<Self> {
         let path = root().join("../shared/schemas").join(path);

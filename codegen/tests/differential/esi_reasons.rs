@@ -227,7 +227,8 @@ fn bits(ty: &str) -> Option<u32> {
     ty.strip_prefix(['i', 'u', 'f'])?.parse().ok()
 }
 
-/// Returns the reason why the length of an array differs: Lexibus uses the lengths of its elements and not its BitSize.
+/// Returns the reason why the length of an array differs: Lexibus multiplies the length of an element by the number of elements,
+/// and ignores BitSize.
 fn of_array(array: &str, ours: &str) -> Option<&'static str> {
     let (element, count) = array.strip_suffix(']')?.split_once('[')?;
     let count: u32 = count.parse().ok()?;

@@ -62,8 +62,8 @@ impl Tally {
         }
     }
 
-    /// Prints the counts. Panics if a difference is unexplained, if a reason is unused or not listed, if the table of quirks lacks
-    /// a reason, or if too few facts were compared.
+    /// Prints the counts. Panics if a difference is unexplained, or if too few facts were compared. Also panics if a reason is
+    /// unused or not listed, or if the table of quirks lacks it.
     pub fn finish(self, least_facts: usize) {
         eprintln!(
             "{}: {} files, {} rejected by the peer at least once; {} facts, {} agree; explained: {:?}",

@@ -244,7 +244,7 @@ fn frames_on_the_wire() {
     assert_eq!(wire("Poll position", false, &[("node", 1)]), "02 01 08 00 F6 03");
     let real = [("node", 1), ("status", 2), ("real position", 0x09C1_10AB)];
     assert_eq!(wire("Poll position", true, &real), "02 01 1B FD 10 AB 09 C1 8F 03");
-    // The reply contains bytes 3 to 5 of the CmdJogN request above.
+    // The reply CmdNACK contains bytes 3 to 5 of the CmdJogN request above.
     let nack = [("node", 1), ("status", 2), ("byte 3", 0x00), ("byte 4", 0xFD), ("byte 5", 0xBE)];
     assert_eq!(wire("CmdNACK", true, &nack), "02 01 1B FD B0 00 FD BE 0F 03");
 }

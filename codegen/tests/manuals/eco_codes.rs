@@ -176,8 +176,8 @@ fn inputs_and_outputs_are_the_printed_ones() {
     }
 }
 
-/// Compares the functions of the miniECO's inputs, the values of parameter c8 that select them, and their bits (section
-/// "digital_inputs su MiniECO standard o miniECO PLUS").
+/// Compares the functions of the miniECO's inputs, the bits of these functions, and the values of parameter c8 that
+/// select them. The section is "digital_inputs su MiniECO standard o miniECO PLUS".
 #[test]
 fn inputs_of_the_mini_eco_are_the_printed_ones() {
     let Some(manual) = manual() else { return };

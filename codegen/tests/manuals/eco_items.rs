@@ -10,8 +10,8 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// Each item of section 4, with the first words of its `doubt` entries, and the numbers in the text of the item that are not line
-/// numbers.
+/// Each item of section 4, with the first words of its `doubt` entries. The numbers are those in the text of the item that are not
+/// line numbers.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["On 104 pages,"], &[104]),
@@ -21,8 +21,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A5", &["Limits are printed"], &[]),
     ("A6", &["In the register table, the"], &[]),
     ("A7", &["In the register table, the"], &[]),
-    // The numbers of the next item that are not line numbers are a byte of a frame (38), the end of a range (255) and a misprinted
-    // value (1312).
+    // In the next item, 38 is a byte of a frame, 255 is the end of a range, and 1312 is a misprinted value.
     ("A8", &["Some text is", "The manual prints 1312", "The name of d1", "The name of P1", "The name of P2"], &[38, 255, 1312]),
     ("A9", &["Rotated labels next to"], &[]),
     ("A10", &["References lead to"], &[]),
@@ -136,8 +135,8 @@ fn every_contradiction_has_its_doubts() {
     assert_eq!((left, ITEMS.len()), (Vec::<String>::new(), 85));
 }
 
-/// Returns the line numbers and line ranges in a text: numbers from 30 to 6462, and ranges of at most 200 lines that start at such a
-/// number.
+/// Returns the line numbers and line ranges in a text. Numbers from 30 to 6462 are line numbers. Ranges have at most 200 lines, and
+/// start at such a number.
 fn ranges(text: &str) -> Vec<RangeInclusive<u32>> {
     let mut found = Vec::new();
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_' || c == '.';

@@ -230,8 +230,8 @@ struct Slot {
     pdos: Vec<(u16, Vec<Mapped>)>,
 }
 
-/// Compares the printed slots of the ESI: the mode of operation, one PDO in each direction, and the entries of these PDOs (section
-/// "PDO" of "Parametrizzazione EtherCAT per drive").
+/// Compares the printed slots of the ESI: the mode of operation, one PDO in each direction, and the entries of these PDOs. The
+/// slots are printed in section "PDO" of "Parametrizzazione EtherCAT per drive".
 #[test]
 fn slots_of_ethercat_are_the_printed_ones() {
     let Some(manual) = manual() else { return };

@@ -50,7 +50,8 @@ const ITEMS: &[(&str, How)] = &[
     // Two sentences describe the same bits differently.
     ("15", Doubt(&[(727, "bit 29 e 30"), (815, "bit 29 e 30"), (808, "Non significativo")])),
     ("16", Finding("items-14-16-symbols-twice-in-one-object", &["EDS049"])),
-    // PDOs can both read and write a value with the access rights `rw`.
+    // The manual describes a write to an object for reading by PDO. The access rights of this object are `rw`, but it can only be
+    // mapped to TPDOs.
     ("16", Doubt(&[(3273, "scrivere il valore nel sub-index 06"), (3284, "Read/Write"), (3285, "Read")])),
     ("17", Finding("item-17-index-of-five-digits", &["TAB004"])),
     // Section 4.2: register numbers, indices, duplicates.

@@ -26,7 +26,7 @@ struct Found<'t> {
     kind: TypeKind,
 }
 
-/// Number of types of each kind.
+/// Number of types of each kind, and number of their fields.
 #[derive(Debug, Default)]
 pub struct Counts {
     pub process_data: usize,

@@ -34,14 +34,14 @@ impl Random {
         bytes.iter_mut().for_each(|byte| *byte = (self.next() >> 32) as u8);
     }
 
-    /// Returns a random number. Small and large numbers are equally likely, and so are positive and negative numbers.
+    /// Returns a random number. Numbers of all lengths in bits are equally likely, and so are positive and negative numbers.
     fn number(&mut self) -> i64 {
         let (number, shift) = (self.next() as i64, self.next() & 63);
         number >> shift
     }
 
-    /// Returns a parameter with a value of 1, 2, 4 or 8 bytes. The parameter of a reply is copied from a random
-    /// position in the request, unless the request ends before this position.
+    /// Returns a parameter with a value of 1, 2, 4 or 8 bytes. In a reply, the parameter number is copied from a random position in
+    /// the request, unless the request ends before this position.
     fn setting(&mut self, request: &[u8]) -> Setting {
         let named =
             request.windows(2).nth(self.next() as usize % 8).map(|two| i64::from(two[0]) << 8 | i64::from(two[1]));
@@ -173,7 +173,7 @@ fn process_data(layout: &Layout, change: Change<'_>) {
     }
 }
 
-/// Access to the fields of a view, or to the PDOs in the view of an image.
+/// Reads the fields of a view, or the PDOs in the view of an image.
 trait Getters<T> {
     /// Returns a struct with the values of all fields.
     fn fields(&self) -> T;
@@ -377,7 +377,8 @@ fn is_same<T: PartialEq + Debug>(one: &T, other: &T) -> bool {
     one == other || format!("{one:?}") == format!("{other:?}")
 }
 
-/// Returns the data of a request, after checking that they decode to an equal request.
+/// Returns the data of a request, after checking that they decode to an equal request. Returns `None` if the request cannot be
+/// encoded.
 macro_rules! sent {
     ($random:ident, $message:ty, $none:ident, $has_node:literal, $value:expr) => {{
         #[allow(unused)]

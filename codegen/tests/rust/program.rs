@@ -125,8 +125,8 @@ fn a_simulated_device_changes_its_state_like_the_real_one() {
     assert_eq!(moves("Alarm"), ["Reset Warm"]);
 }
 
-/// Returns the name and sample value of the item that a program reads, and the name and value of the item that it
-/// writes, for a device with these rows.
+/// Chooses the items of a program for a device with these rows. Returns the item that the program reads, with its
+/// sample value, and the item that it writes, with its value.
 fn samples(rows: &[&str]) -> [Option<(String, i128)>; 2] {
     let rows = rows.join("\n");
     let table = format!(

@@ -184,7 +184,7 @@ fn no_text_breaks_out_of_its_cell() {
 /// Time limit for running rustdoc on corpus files.
 const TIME: Duration = Duration::from_secs(25);
 
-/// Maximum number of devices per file to run rustdoc on.
+/// Maximum number of devices per file for which rustdoc runs.
 const DEVICES: usize = 2;
 
 #[test]

@@ -105,7 +105,7 @@ fn floating_point_and_times() -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns a text of `length` letters.
+/// Returns a text of `length` printable ASCII characters.
 fn letters(length: usize) -> String {
     ('!'..='~').cycle().take(length).collect()
 }

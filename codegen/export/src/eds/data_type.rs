@@ -77,7 +77,7 @@ fn resolved(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     (ty, note)
 }
 
-/// Returns the number of a basic type in CiA 301.
+/// Returns the CiA 301 number of a basic type, or `None` for other types.
 fn code(ty: Type) -> Option<u32> {
     Some(match ty {
         Type::Boolean => 0x01,

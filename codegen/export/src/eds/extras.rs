@@ -9,7 +9,7 @@ use super::writer::Writer;
 use super::{Context, Flavor};
 use lexibus_codegen::ir::Extension;
 
-/// The sections of the header and the object lists.
+/// The header sections and the object lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Header {
     FileInfo,

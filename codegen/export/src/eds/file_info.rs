@@ -73,7 +73,7 @@ fn convert(given: &ir::Header, context: &Context<'_>, out: &mut Section<'_>) -> 
     header
 }
 
-/// Converts `yyyy-mm-dd`, with an optional time zone, to `mm-dd-yyyy`.
+/// Converts `yyyy-mm-dd`, with an optional time zone, to `mm-dd-yyyy`. Returns `None` for any other text.
 fn date(text: &str) -> Option<String> {
     let mut parts = text.get(..10)?.split('-');
     let [year, month, day] = [parts.next()?, parts.next()?, parts.next()?];
@@ -81,7 +81,8 @@ fn date(text: &str) -> Option<String> {
     (is_number(year, 4) && is_number(month, 2) && is_number(day, 2)).then(|| format!("{month}-{day}-{year}"))
 }
 
-/// Converts `hh:mm:ss`, with optional fractions and time zone, to `hh:mm` with AM or PM.
+/// Converts `hh:mm:ss`, with optional fractions and time zone, to `hh:mm` with AM or PM. Returns `None` for an invalid
+/// time.
 fn time(text: &str) -> Option<String> {
     let (hours, rest) = text.split_once(':')?;
     let hours: u8 = hours.parse().ok().filter(|hours| *hours < 24)?;

@@ -63,14 +63,15 @@ fn pdos(device: &Device, notes: &mut Notes) {
     }
 }
 
-/// Adds notes for facts of a module, except its objects, that CiA 306 cannot express.
+/// Adds notes for the facts of a module that CiA 306 cannot express, except those of its objects.
 pub(super) fn of_module(module: &Module, notes: &mut Notes) {
     let subject = Subject::Named(&module.name);
     notes.add_many(NoteKind::Language, module.names.len(), subject);
     notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);
 }
 
-/// Adds notes for facts of an object, except its entries, that CiA 306 cannot express.
+/// Adds notes for the facts of an object that CiA 306 cannot express, except those of its entries. Adds a note for each
+/// item without an object address.
 pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes) {
     let subject = Subject::object(group);
     notes.add_many(NoteKind::Language, group.names.len(), subject);
@@ -84,7 +85,7 @@ pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes)
     }
 }
 
-/// Adds notes for facts of an entry, except its value, that CiA 306 cannot express.
+/// Adds notes for the facts of an entry that CiA 306 cannot express, except its value.
 pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     let subject = Subject::item(item);
     let is_other = |binding: &Binding| match binding {

@@ -16,7 +16,7 @@ pub(super) fn objects(device: &Device) -> Vec<Group> {
 
 /// Returns whether `pdo` needs a mapping object and a mapping object can express it. PDOs that CompactPDO implies, and
 /// PDOs without entries, need no mapping object. The index must be that of a mapping object for the direction of the
-/// PDO, the mapping must be known and fit into the sub-indices, and each entry must have at most 255 bits.
+/// PDO. The mapping must be known and fit into the sub-indices. Each entry must have at most 255 bits.
 pub(super) fn is_expressible(pdo: &Pdo) -> bool {
     let in_range = match pdo.direction {
         Direction::Receive => (0x1600..0x1800).contains(&pdo.mapping_index),

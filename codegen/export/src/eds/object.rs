@@ -72,8 +72,8 @@ impl<'a> Object<'a> {
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
-        // If an object other than a VAR has flags or a name that differs, the source has a separate section for
-        // sub-index 0.
+        // If an object other than a VAR has flags, or if its name differs from that of its value, the source has a
+        // separate section for sub-index 0.
         let is_the_object = item.name == self.group.name && self.group.flags == 0;
         (is_alone && (is_the_object || self.code == ObjectCode::Var)).then_some(item)
     }

@@ -95,7 +95,7 @@ fn real(value: &Value, ty: Type) -> Written {
 }
 
 /// Returns the IEEE 754 bit pattern of a value in hexadecimal: 8 digits for a REAL32, 16 digits for a REAL64. Values
-/// without a finite number are formatted as in decimal notation, if possible.
+/// that are not finite numbers are formatted as in decimal notation, if possible.
 fn pattern(value: &Value, ty: Type) -> Written {
     match (value.as_real().filter(|value| value.is_finite()), ty) {
         (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),

@@ -97,7 +97,8 @@ impl Writer {
         self.numbered(key, value);
     }
 
-    /// Replaces line breaks, end-of-file characters and NULs in `text` with spaces, and adds a note if there are any.
+    /// Returns `text` on one line. If `text` contains line breaks, end-of-file characters or NULs, trims the text,
+    /// replaces these characters with spaces, and adds a note.
     pub(super) fn one_line<'t>(&mut self, text: &'t str, subject: Subject<'_>) -> Cow<'t, str> {
         const BREAKS: [char; 4] = ['\r', '\n', '\u{1a}', '\0'];
         if !text.contains(BREAKS) {

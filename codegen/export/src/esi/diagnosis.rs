@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{CodeRow, CodeTable, Value};
 /// Names of the flags of a diagnosis message, in the order of the columns of the code table.
 const FLAGS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"];
 
-/// Returns whether a code table belongs to the content of the DiagMessages element.
+/// Returns whether the DiagMessages element contains the rows of a code table.
 pub(super) fn is_list(table: &CodeTable) -> bool {
     table.name == "DiagMessages" || FLAGS.iter().skip(1).any(|name| table.name == *name)
 }

@@ -212,7 +212,8 @@ pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
     context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
-/// Writes the version of a file that contains only diagnosis messages.
+/// Writes the version of a file that contains only diagnosis messages. Adds a note for the other extensions and for the
+/// names of the vendor.
 pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
     const VERSION: &str = "EtherCATDiag@Version";
     let all = context.catalog.extensions.as_slice();

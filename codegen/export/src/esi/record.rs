@@ -21,7 +21,7 @@ pub(super) struct Entry {
     pub(super) element: Option<u32>,
 }
 
-/// The properties of a field that the record type contains, so that they are the same for all items of the type.
+/// The properties that a record type states for a field. All items of this type have the same properties.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FieldFacts {
     pub(super) access: Access,
@@ -72,8 +72,9 @@ pub(super) struct Plan {
 }
 
 /// Returns the entries of an object whose record type has these fields, sorted by sub-index. An array field gives one
-/// entry per element (ETG.2000, DataType). The field gives a single entry if its elements would reach the sub-index of
-/// the next field or exceed sub-index 255, or if the name of its type begins with `ARRAY`.
+/// entry per element (ETG.2000, DataType). An array field gives a single entry if its elements would reach the
+/// sub-index of the next field or exceed sub-index 255. An array field whose type name begins with `ARRAY` also gives a
+/// single entry.
 pub(super) fn expansion(types: &Types<'_>, fields: &[Field]) -> Vec<Entry> {
     let (mut entries, mut next) = (Vec::new(), 0u32);
     for (position, field) in fields.iter().enumerate() {
@@ -107,8 +108,8 @@ fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> 
     (first, count, element)
 }
 
-/// Returns the type of an object: the type of its only value or, for an object with sub-indices, a declared type that
-/// describes exactly the object's entries, or a new one.
+/// Returns the type of an object. For an object without sub-indices, this is the type of the value. For an object with
+/// sub-indices, it is a declared type that describes exactly the object's entries, or a new type.
 pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
     if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
         let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));
@@ -132,8 +133,7 @@ pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], 
 /// Returns a plan with the declared record type at `at` if the properties of its fields fit these items.
 fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]) -> Option<Plan> {
     let entries = types.entries(at);
-    // The type of an ARRAY object must contain an array field, and the type of a RECORD object must not consist of
-    // sub-index 0 and arrays only.
+    // The type of an ARRAY object must consist of sub-index 0 and arrays. The type of a RECORD object must not.
     let is_array = match entries.split_first() {
         Some((first, rest)) => {
             first.sub_index == 0 && !rest.is_empty() && rest.iter().all(|rest| rest.element.is_some())

@@ -86,7 +86,8 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
     xml.close();
 }
 
-/// Writes references to the modules that fit a slot: by ident, or by class if there are no idents.
+/// Writes references to the modules that fit a slot: by ident, or by class if there are no idents. Adds a note for each
+/// other reference.
 fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
     let by_ident = slot.fits.iter().any(|fit| matches!(fit, Fit::Ident(_)));
     for fit in &slot.fits {

@@ -7,8 +7,8 @@ use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Device, EtherCatSettings, Fmmu, SyncManager, SyncManagerPurpose};
 use lexibus_codegen::source::Origin;
 
-/// Writes FMMUs, sync managers and sync units. If the source has no sync managers, they are derived from the memory
-/// areas in the options, and so are the FMMUs if the source has none.
+/// Writes FMMUs, sync managers and sync units. If the source has no sync managers, the export derives them from the
+/// memory areas in the options. If the source also has no FMMUs, the export derives them from these sync managers.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let declared = &device.process_data.sync_managers;
     let given = if declared.is_empty() { given(context) } else { Vec::new() };

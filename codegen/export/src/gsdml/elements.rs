@@ -117,7 +117,7 @@ pub(super) fn attributes_of(xml: &mut Xml, element: &str, attributes: &Attribute
     }
 }
 
-/// Writes the attributes that the IR stores unchanged and that belong to no child element.
+/// Writes the attributes that the IR stores unchanged, except those of child elements.
 pub(super) fn kept(xml: &mut Xml, attributes: &Attributes) {
     for (key, value) in attributes.iter().filter(|(key, _)| !is_of_element(key) && !is_of_info(key)) {
         xml.attribute(key, value);
@@ -143,7 +143,7 @@ pub(super) fn is_of_element(key: &str) -> bool {
 /// Attributes of ModuleInfo.
 pub(super) const OF_INFO: [&str; 2] = ["CategoryRef", "SubCategory1Ref"];
 
-/// Returns whether an attribute belongs to ModuleInfo.
+/// Returns whether the IR stores a fact of the ModuleInfo element under this key.
 fn is_of_info(key: &str) -> bool {
     OF_INFO.contains(&key) || matches!(key, "HardwareRelease" | "SoftwareRelease")
 }

@@ -183,7 +183,7 @@ impl Maker<'_> {
         submodule
     }
 
-    /// Adds the interface and its ports if the options contain the interface's ident number.
+    /// Adds the interface and its ports if the options contain the interface's ident number. Otherwise, adds a note.
     fn interface(&mut self, device: &mut Device) {
         let options = self.options;
         let Some(ident) = options.interface_ident() else {
@@ -265,7 +265,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     IoData { image, consistent: false, items, channels: Vec::new() }
 }
 
-/// Adds a data item for bytes that belong to no field.
+/// Adds a data item for bytes that no field occupies.
 fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
     if from < to {
         let octets = Type::OctetString(Some((to - from) / 8));
@@ -299,8 +299,8 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
     PdoEntry { ty, ..field.clone() }
 }
 
-/// Returns the basic type of a defined type, and a note if the data item loses names of bits, named values, a scaling
-/// or a structure.
+/// Returns the basic type of a defined type. Also returns a note if the data item loses names of bits, named values, a
+/// scaling or a structure.
 fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     let mut note = None;
     for _ in 0..8 {

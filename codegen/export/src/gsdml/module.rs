@@ -7,7 +7,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, SlotNumbers, SubslotName, Texts};
 
-/// The content of a ModuleInfo element.
+/// The texts and attributes of a ModuleInfo element.
 pub(super) struct Info<'i> {
     pub(super) name: &'i str,
     pub(super) names: &'i Texts,

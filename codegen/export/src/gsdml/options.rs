@@ -5,7 +5,8 @@ use lexibus_codegen::ir::Numbers;
 
 options! {
     /// Facts that override the facts of the source or supply missing ones. The options for the device access point, its
-    /// submodules and the interface are used only if the export creates a device access point from process images.
+    /// submodules and the interface have an effect only if the export creates the device access point from process
+    /// images.
     pub struct Options, TrackedOptions {
         /// Vendor ID assigned by PROFIBUS & PROFINET International (VendorID).
         vendor_id: u16 = "vendor-id",

@@ -41,7 +41,8 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
 struct Menus<'m> {
     /// Menus that no record has used so far.
     left: Vec<Option<&'m Menu>>,
-    /// Positions of menus, by the identifier of the menu and by the parameters and menus that it contains.
+    /// Positions of menus, keyed by the identifier of the menu and by the identifiers of the parameters and menus in
+    /// it.
     by_name: HashMap<&'m str, Vec<usize>>,
 }
 

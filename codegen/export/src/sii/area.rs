@@ -67,7 +67,7 @@ impl Area {
             self.set_bytes(0x14, used);
             context.notes.add_many(NoteKind::ConfigData, !rest.is_empty(), Subject::Named("BootStrap"));
         }
-        // In reverse order, because the first of several mailboxes takes precedence.
+        // The mailboxes are written in reverse order, so that the first of several mailboxes takes precedence.
         for manager in context.device.process_data.sync_managers.iter().rev() {
             let word = match manager.purpose {
                 SyncManagerPurpose::MailboxOut => 0x18,
@@ -79,7 +79,7 @@ impl Area {
         }
     }
 
-    /// Returns the bytes of the area.
+    /// Writes the size of the EEPROM and returns the bytes of the area.
     pub(super) fn with_size(mut self, size: EepromSize) -> [u8; LENGTH] {
         self.set_word(0x3E, size.word());
         self.0

@@ -12,8 +12,8 @@ use crate::options::MissingFacts;
 /// Default size of an EEPROM in bytes.
 const DEFAULT_SIZE: usize = 2048;
 
-/// Maximum length of the content in bytes. The length of a category has 16 bits and counts words, and so do the addresses
-/// that masters use.
+/// Maximum length of the content in bytes. Masters use 16-bit word addresses, and the length of a category is a 16-bit
+/// number of words.
 const MAX_CONTENT: usize = 0x2_0000;
 
 /// Category number that follows the last category, and the content of unused bytes.
@@ -44,7 +44,7 @@ enum Detail {
 ///
 /// # Errors
 ///
-/// Returns an error for a device without EtherCAT settings, if a required fact is missing, and if the content is too long
+/// Returns an error if the device has no EtherCAT settings, if a required fact is missing, or if the content is too long
 /// for the EEPROM.
 pub fn export(device: &Device, options: &Options) -> Result<Image, Refusal> {
     let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only).ok_or(Refusal::Nothing)?;
@@ -55,7 +55,7 @@ pub fn export(device: &Device, options: &Options) -> Result<Image, Refusal> {
     }
 }
 
-/// Returns the content that the description contains.
+/// Returns the EEPROM content of the description unchanged.
 fn declared(eeprom: &Eeprom, options: &TrackedOptions<'_>) -> Image {
     let mut notes = Notes::default();
     notes.add_many(NoteKind::Checksum, !area::is_checked(&eeprom.data), Subject::Named("Data"));
@@ -63,7 +63,7 @@ fn declared(eeprom: &Eeprom, options: &TrackedOptions<'_>) -> Image {
     Image { bytes: eeprom.data.clone(), notes: notes.finish() }
 }
 
-/// Returns the content for the most detail that fits.
+/// Returns the content with the most detail that fits the EEPROM.
 fn composed(device: &Device, settings: &EtherCatSettings, options: &TrackedOptions<'_>) -> Result<Image, Refusal> {
     let complete = with_detail(device, settings, options, Detail::Complete);
     let Err(Refusal::TooLong { .. }) = complete else { return complete };
@@ -148,7 +148,7 @@ fn note_left_out(context: &mut Context<'_>, detail: Detail) {
     context.notes.add_many(kind, count, first);
 }
 
-/// Appends a category. Its length is a number of words.
+/// Appends a category: its number, its length in words, and its content, padded with zeros to whole words.
 fn category(bytes: &mut Vec<u8>, number: u16, content: &[u8]) {
     let words = content.len().div_ceil(2);
     bytes.extend(number.to_le_bytes());

@@ -1,8 +1,8 @@
 //! Exports the content of the EEPROM of an EtherCAT slave, its slave information interface (SII, ETG.1000.6 5.4,
 //! ETG.2010).
 //!
-//! The image consists of a configuration area, categories, and bytes 0xFF up to the size of the EEPROM. An ESI that contains
-//! the whole content of the EEPROM is exported as it is.
+//! The image consists of a configuration area, categories, and bytes 0xFF up to the size of the EEPROM. If an ESI contains
+//! the whole content of the EEPROM, the export returns this content unchanged.
 //!
 //! | file | subject |
 //! |---|---|

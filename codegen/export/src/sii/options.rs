@@ -46,7 +46,7 @@ impl EepromSize {
     /// Unit of the size word in the configuration area.
     pub(super) const STEP: u32 = 128;
 
-    /// Returns the size if an EEPROM can have it.
+    /// Returns the size, or `None` if it is 0, above 4 Mibit or not a multiple of 128 bytes.
     pub fn new(bytes: u32) -> Option<Self> {
         ((1..=0x8_0000).contains(&bytes) && bytes.is_multiple_of(Self::STEP)).then_some(EepromSize(bytes))
     }

@@ -57,8 +57,8 @@ pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
     bytes
 }
 
-/// Returns the length of a sync manager in bytes. Without a default length, the default length is that of the PDOs that
-/// are assigned by default.
+/// Returns the length of a sync manager in bytes. If the description declares no default length, returns the total
+/// length of the PDOs that are assigned by default.
 fn length(context: &Context<'_>, manager: &SyncManager) -> u16 {
     manager.default_size.unwrap_or_else(|| {
         let assigned = context.device.process_data.assigned_by_default();
@@ -128,7 +128,7 @@ fn type_code(context: &Context<'_>, ty: Type) -> u8 {
         Type::UnicodeString(_) => Type::UnicodeString(None),
         basic => basic,
     };
-    // A type may have several numbers. The first of them is that of CiA 301.
+    // A type can have several numbers. The lowest is the number of CiA 301.
     let is_type = |code: &u8| type_name::by_code((*code).into()) == Some(Basic::Type(without_length));
     (1..=u8::MAX).find(is_type).unwrap_or(0)
 }

@@ -241,8 +241,8 @@ fn dictionaries_load() {
     }
 }
 
-/// Returns the addresses of the entries that the library must load: those with a data type, except in objects that
-/// define types, which the library skips.
+/// Returns the addresses of the entries that the library must load: those with a data type. The library skips objects
+/// that define types.
 fn addresses(device: &Device) -> Vec<(u16, u8)> {
     let objects = device.groups.iter().filter(|group| group.index().is_some_and(|index| index >= 0x1000));
     let typed = objects.flat_map(|group| &group.items).filter(|item| item.ty != Type::Opaque(None));

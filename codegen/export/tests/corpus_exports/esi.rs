@@ -19,7 +19,7 @@ fn comparable(before: &mut Value, after: &mut Value) {
     for value in [&mut *before, &mut *after] {
         each_object(value, &mut |fields| {
             // `described` counts the items that are described in the object and not in its data type. An export may
-            // move a description from one to the other.
+            // move a description between the object and its data type.
             fields.remove("described");
             // The exported file stores a REAL as 32 bits, but its text in the original can have more digits.
             if let Some(real) = fields.get_mut("real").filter(|real| real.is_f64()) {
@@ -27,8 +27,8 @@ fn comparable(before: &mut Value, after: &mut Value) {
             }
         });
     }
-    // The schema requires a definition of each type that is used, and a record type for each object with sub-indices,
-    // so an export can add types.
+    // An export can add types, because the schema requires a definition of each used type and a record type for each
+    // object with sub-indices.
     for list in ["devices", "modules"] {
         let (Some(before), Some(after)) = (before[list].as_array_mut(), after[list].as_array_mut()) else { continue };
         for (one, other) in before.iter_mut().zip(after) {

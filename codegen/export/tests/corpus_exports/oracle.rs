@@ -1,5 +1,5 @@
-//! Compares the compiler's results with two lists of the corpus: `oracle.json`, which contains the counts of a simple
-//! script, and `MANIFEST.tsv`, which contains the class of each file.
+//! Compares the compiler's results with two lists of the corpus: `oracle.json` and `MANIFEST.tsv`. `oracle.json`
+//! contains the counts of a simple script, and `MANIFEST.tsv` contains the class of each file.
 
 use std::collections::BTreeMap;
 
@@ -67,9 +67,8 @@ fn is_sub(declaration: &str) -> bool {
 }
 
 /// Compares all counts with the oracle. The oracle and the compiler count these special cases in the same way: E24
-/// (capitalization of `sub`), E27 (repeated sections), E33 (sub-indices without an object), E41 (leading zeros), E43
-/// (entries without sections, which CompactSubObj implies) and E70 (entries without sections, which CompactPDO
-/// implies).
+/// (capitalization of `sub`), E27 (repeated sections), E33 (sub-indices without an object) and E41 (leading zeros).
+/// This also applies to entries without sections that CompactSubObj (E43) or CompactPDO (E70) implies.
 #[test]
 fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     let Some(cases) = cases() else { return };

@@ -25,7 +25,7 @@ struct Exported {
     notes: Vec<&'static str>,
 }
 
-/// Exports a device. Sets the facts that the device lacks in `options`.
+/// Exports a device. Adds the facts that the device lacks to `options`.
 fn image(device: &Device, options: &mut Options) -> Result<Image, Refusal> {
     let mut result = export(device, options);
     if let Err(Refusal::Missing(facts)) = &result {
@@ -107,6 +107,6 @@ fn images_contain_the_facts_of_their_esi() {
     }
     eprintln!("{} images, {unread} of files that Python cannot read; devices with notes: {notes:?}", all.len());
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong[..wrong.len().min(60)].join("\n"));
-    // Two files with 11 devices are not well-formed.
+    // Two files, which describe 11 devices in total, are not well-formed.
     assert!(all.len() > lane::at_least(360) && unread <= 11, "only {} images, {unread} unread", all.len());
 }

@@ -113,7 +113,7 @@ fn structure(catalog: &Catalog) -> Vec<String> {
     lines
 }
 
-/// Returns the structure of a catalog after it was renamed, exported and read again.
+/// Renames the elements of a catalog, exports the catalog and reads the export. Returns the structure of the result.
 fn again(path: &str, name: &str, write: &dyn Fn(&Catalog) -> String, names: impl Fn(usize) -> String) -> Vec<String> {
     let mut renamed = catalog(path);
     rename(&mut renamed, names);

@@ -12,8 +12,8 @@ use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, S
 /// Compares two versions of a device description.
 ///
 /// The result begins with changes that break Rust code or the communication. Changes that break the behavior follow,
-/// then compatible changes, then changes without an effect. The changes in each of these groups have the order of the
-/// old description, with added elements last.
+/// then compatible changes, then changes without an effect. In each of these groups, the changes have the order of the
+/// old description, and added elements follow at the end of their list.
 pub fn compare(old: &Catalog, new: &Catalog) -> Vec<Change> {
     let mut comparison = Comparison::new(old, new);
     all_devices(&old.devices, &new.devices, &mut comparison);

@@ -22,7 +22,7 @@ pub enum Effect {
 /// The effects of a change on the three aspects: Rust code, communication and behavior.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 pub struct Judgment {
-    /// Effect on Rust code for the old version: whether the code still compiles and has the same meaning.
+    /// Effect on Rust code that uses the old description: whether the code still compiles and has the same meaning.
     pub api: Effect,
     /// Effect on the bytes on the bus: addresses, layouts, encodings and frames.
     pub wire: Effect,
@@ -80,7 +80,7 @@ impl Judgment {
 }
 
 impl fmt::Display for Judgment {
-    /// Writes `breaks api, wire`, `compatible` or `no effect`.
+    /// Writes a text such as `breaks api, wire`, `compatible` or `no effect`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.class() {
             Class::Breaking | Class::Behavior => write!(f, "breaks {}", self.aspects(Effect::Breaking)),
@@ -197,7 +197,8 @@ impl Summary {
 }
 
 impl fmt::Display for Summary {
-    /// Writes `3 changes; breaking: api 1, wire 2, behavior 0; compatible: 1; no effect: 0`.
+    /// Writes a text such as `3 changes; breaking: api 1, wire 2, behavior 0; compatible: 1; no effect: 0`, or `no
+    /// changes`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Summary { changes, api, wire, behavior, compatible, none } = self;
         let count = match changes {

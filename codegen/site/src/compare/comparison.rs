@@ -300,7 +300,7 @@ impl<T> Elements<T> {
         Elements { name, ..self }
     }
 
-    /// Sets the effects of all additions and of all removals.
+    /// Sets the functions that return the effects of an addition and of a removal.
     pub fn judged(self, added: fn(&T) -> Judgment, removed: fn(&T) -> Judgment) -> Self {
         Elements { added, removed, ..self }
     }

@@ -141,7 +141,7 @@ fn dynamic_channel(channel: &DynamicChannel) -> String {
     format!("type {data_type:#X} {direction} {range} at {offset} {further}").trim_end().to_owned()
 }
 
-/// Compares which requests the Modbus tables accept.
+/// Compares the requests that the Modbus tables accept.
 fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comparison<'_>) {
     let missing = |table: &ModbusTable| ModbusTable {
         space: table.space,

@@ -126,7 +126,7 @@ impl Entry<'_> {
     }
 }
 
-/// Returns the second key that pairs groups: their address.
+/// Returns the second key that pairs groups: the index of an object or record, or the kind of any other group.
 fn position(group: &Group) -> String {
     match &group.kind {
         GroupKind::Object { index, .. } => hex16(*index),

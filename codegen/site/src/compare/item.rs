@@ -116,8 +116,8 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
     }
 }
 
-/// Returns the effects of changed limits. A change is breaking if a value that could be written becomes invalid or, for
-/// an item that cannot be written, if a value can be outside of the old limits.
+/// Returns the effects of changed limits. For a writable item, the change is breaking if a value that could be written
+/// becomes invalid. For any other item, the change is breaking if a value can be outside of the old limits.
 fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgment {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
     if is_broken {

@@ -96,8 +96,8 @@ fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>
     });
 }
 
-/// Returns the effects of a changed layout. The fields become fields of a Rust struct with the same names. The types of values
-/// are compared with the values.
+/// Returns the effects of a changed layout. The fields become fields of a Rust struct with the same names. The types of the
+/// values are compared separately, together with the values.
 fn frame_effects(old: &[MessageField], new: &[MessageField]) -> Judgment {
     let names = |fields| values(fields).iter().map(|value| identifier(&value.item.name)).collect::<Vec<_>>();
     let effect = |breaks: bool| if breaks { Effect::Breaking } else { Effect::Unaffected };

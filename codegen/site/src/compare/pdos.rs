@@ -148,8 +148,8 @@ impl Layout<'_> {
         Judgment { api, wire: self.wire_effect_of(new), ..Judgment::NONE }
     }
 
-    /// Returns the effect on the communication. The communication breaks if an entry has another position or length, or
-    /// if the type at a position changes in a way that affects the bytes.
+    /// Returns the effect on the communication. The change is breaking if an entry has another position or length, or
+    /// if the new type at a position has another encoding.
     fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
         let positions =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();

@@ -12,7 +12,7 @@ pub(super) struct Use {
     pub slots: SlotNumbers,
 }
 
-/// Compares which modules or submodules fit, and into which slots or subslots.
+/// Compares the modules or submodules that fit, and the slots or subslots into which they fit.
 pub(super) fn compare_slots(old: &[Use], new: &[Use], comparison: &mut Comparison<'_>) {
     let elements = Elements {
         name: |plugged: &Use| plugged.key.clone(),

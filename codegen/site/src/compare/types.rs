@@ -94,7 +94,7 @@ pub(super) fn name(types: &[TypeDef], ty: Type) -> String {
     }
 }
 
-/// Returns the basic type of a definition. Returns `None` for arrays and records.
+/// Returns the basic type of a type. Returns `None` for arrays, records and unknown types.
 fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
     Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
 }

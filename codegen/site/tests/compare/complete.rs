@@ -44,8 +44,8 @@ const UNREPORTED: [(&str, &str); 12] = [
     ("/manual/sections/*/start", "a position in the manual"),
 ];
 
-/// Returns the reason why changes to a leaf are not reported. The list can name the leaf itself or an element that
-/// contains the leaf.
+/// Returns the key in [`UNREPORTED`] that matches a leaf or an element that contains the leaf. Returns `None` if
+/// changes to the leaf must be reported.
 fn unreported(pattern: &str) -> Option<&'static str> {
     let is_part = |end: &str| format!("{pattern}/").contains(&format!("{end}/"));
     UNREPORTED.iter().map(|(end, _)| *end).find(|end| is_part(end))
@@ -75,8 +75,8 @@ fn is_default(value: &Value) -> bool {
     }
 }
 
-/// Names of enumeration variants without content, in types whose other variants have content. The test can change other
-/// variants to these variants, but not the reverse.
+/// Ends of the paths of variant names without content, in enumerations whose other variants have content. The test can
+/// change other variants to these variants, but not the reverse.
 const ALONE: [&str; 5] =
     ["/axes/rules/*/step", "/groups/*/kind", "/shape/bit_field/fields/*/meaning", "/request/*", "/reply/*"];
 
@@ -90,7 +90,7 @@ struct Description {
 
 impl Description {
     /// Creates a description from a catalog that was converted to JSON and back. Returns `None` if JSON cannot express
-    /// one of its numbers.
+    /// a number of the catalog.
     fn of(name: String, length: usize, catalog: &Catalog) -> Option<Self> {
         let json = serde_json::to_value(catalog).ok()?;
         let catalog = Catalog::deserialize(&json).ok()?;
@@ -149,7 +149,7 @@ struct Tally {
     paths: BTreeMap<String, usize>,
     changes: usize,
     reported: usize,
-    /// Entries of [`UNREPORTED`] that apply to a changed leaf.
+    /// Keys in [`UNREPORTED`] that match a changed leaf.
     listed: BTreeSet<&'static str>,
     /// For each path without a reported change, an example of a change.
     missed: BTreeMap<String, String>,

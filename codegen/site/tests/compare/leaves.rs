@@ -16,8 +16,8 @@ enum Key {
 }
 
 impl Leaf {
-    /// Returns all values within `root`: numbers, texts and truth values. The result includes lists and objects, because they
-    /// can also be missing.
+    /// Returns all numbers, texts, truth values, lists and objects within `root`. Lists and objects are included, because they can
+    /// also be missing.
     pub fn all(root: &Value) -> Vec<Leaf> {
         let mut leaves = Vec::new();
         collect(root, &mut Vec::new(), &mut leaves);
@@ -60,7 +60,8 @@ impl Leaf {
 
 fn collect(value: &Value, path: &mut Vec<Key>, leaves: &mut Vec<Leaf>) {
     match value {
-        // A missing value is not a leaf. The test covers the addition of a value by its reverse: it removes values that exist.
+        // A missing value is not a leaf. The test does not add values, but it makes the reverse change: it removes values that
+        // exist.
         Value::Null => return,
         Value::Array(list) => {
             for (position, part) in list.iter().enumerate() {

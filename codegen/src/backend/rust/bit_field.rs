@@ -47,7 +47,7 @@ impl BitFieldModel {
         std::iter::once(&self.name).chain(self.views.iter().map(|view| &view.name)).map(String::as_str).collect()
     }
 
-    /// Returns the Rust types of all fields.
+    /// Returns the Rust types of all fields, including those of the views.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().chain(self.views.iter().flat_map(|view| &view.fields)).map(|field| field.ty.as_str())
     }
@@ -273,8 +273,8 @@ fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     (zeros & !used, ones & !used)
 }
 
-/// Returns the mask of all flags. Returns `None` if the bit field has views, or if an entry is not a flag or is active
-/// low. Operators on the raw bits would then not have the same effect on the flags.
+/// Returns the mask of all flags. Returns `None` if the bit field has views or no entries, or if an entry is not a flag
+/// or is active low. Operators on the raw bits would then not have the same effect on the flags.
 fn flags(entries: &[&BitFieldEntry], has_no_views: bool) -> Option<String> {
     let is_flag = |entry: &&BitFieldEntry| {
         entry.bits == 1 && matches!(entry.meaning, BitMeaning::Flag { inverted: false }) && entry.when.is_none()

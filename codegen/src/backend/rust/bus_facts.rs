@@ -27,7 +27,7 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
 }
 
 /// For each Modbus table: its field in `rt::modbus::Limits`, the constant with its standard limits, and the maximum
-/// numbers of values in a read request and in a write request.
+/// numbers of values per read request and per write request.
 const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
     (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
     (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),
@@ -81,8 +81,8 @@ fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     for (item, register) in all.filter(|(_, register)| register.space == space && register.count <= longest) {
         let word_count = is_read_along(item).then_some(register.words_per_address);
         for address in register.address..=register.last() {
-            // An address can be read together with others only if all items at the address allow it and have the same
-            // number of words per address.
+            // An address can be read together with others only if all items at the address allow it. These items must
+            // also have the same number of words per address.
             let known = addresses.entry(address).or_insert(word_count);
             *known = known.filter(|_| *known == word_count);
         }
@@ -109,8 +109,8 @@ fn span(span: (u16, u16, u8)) -> Doc {
 }
 
 /// Returns whether an item can be read without an explicit request by the program. The item must exist on all models
-/// and firmware versions and with all options, it must be readable in all states, reading must have no side effect, and
-/// its flags must not exclude it from scans.
+/// and firmware versions and with all options. It must be readable in all states and have no side effects. Its flags
+/// must not exclude it from scans.
 fn is_read_along(item: &Item) -> bool {
     /// Flag in ObjFlags (CiA 306): do not read the object during a scan.
     const REFUSES_SCAN: u32 = 2;

@@ -12,7 +12,7 @@ use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that the Rust module of a device must not have, because the content of the module uses these names.
+/// Names that the Rust module of a device must not have, because the code in the module uses these names.
 const RESERVED: [&str; 18] = [
     "self",
     "super",

@@ -6,7 +6,7 @@ use super::method_names::{unused_name, RESERVED};
 use super::walk::WalkModel;
 use crate::facts::words::enumerated;
 
-/// The objects of CiA 402, ready to be printed.
+/// The method that returns the CiA 402 operations, and the traits that the operations need, ready to be printed.
 pub(super) struct Cia402Model {
     /// Name of the method that returns the CiA 402 operations.
     pub method: String,
@@ -67,8 +67,8 @@ const CAPABILITIES: [(&str, Role, &str); 3] = [
 type Played<'r, 'c> = (&'r Role, Constant<'c>);
 
 impl Cia402Model {
-    /// Returns the model of a device. Returns `None` unless the device has the CiA 402 state machine and the objects
-    /// 0x6060 and 0x6061 (mode of operation), with the access rights that the operations need.
+    /// Returns the model of a device. The device must have the CiA 402 state machine and the objects 0x6060 and 0x6061
+    /// (mode of operation). Their access rights must allow the operations. Otherwise, returns `None`.
     pub(super) fn new(constants: &Constants<'_, '_>, walks: &[WalkModel]) -> Option<Self> {
         let find = |role: &Role| {
             let (reads, writes) = role.access;

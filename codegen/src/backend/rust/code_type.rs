@@ -98,8 +98,8 @@ fn span(row: &CodeRow) -> Option<Span> {
     (first <= last).then_some((first, last))
 }
 
-/// Returns for each span the parts that no narrower span covers, in ascending order. An overlap of spans with the same
-/// length belongs to the first of these spans.
+/// Returns for each span the parts that no narrower span covers, in ascending order. If spans of the same length
+/// overlap, the first of these spans gets the overlap.
 fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));

@@ -13,7 +13,7 @@ use super::objects::ObjectModel;
 use super::print;
 use super::reexport::{Reexport, Section};
 
-/// The definitions of all devices that were processed so far.
+/// The definitions of all devices and modules that were processed so far.
 pub(super) struct Definitions {
     runtime: String,
     /// Number of each definition, keyed by its code and by the numbers of the definitions to which the code refers. The

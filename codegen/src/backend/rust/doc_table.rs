@@ -3,7 +3,7 @@
 use super::docs;
 use crate::ir::Documentation;
 
-/// Maximum number of rows in a table. A longer table would hide the content below it. Rustdoc also lists all fields and
+/// Maximum number of rows in a table. A longer table would hide the text below it. Rustdoc also lists all fields and
 /// variants with their documentation.
 pub(super) const MAX_ROWS: usize = 64;
 
@@ -21,8 +21,8 @@ pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Ve
     }
 }
 
-/// Returns the lines of a table of any length. The function is used for content that is documented only in the table.
-/// Columns without text are omitted.
+/// Returns the lines of a table of any length, or no lines if there are no rows. Use this function for facts that only
+/// the table documents. Columns without text are omitted.
 pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
     if rows.is_empty() {
         return Vec::new();

@@ -30,9 +30,9 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item's constant. The first paragraph contains the name, the unit, the limits, the
-/// default value, the addresses, the type and the access rights, and links to related elements. Lists of constants show
-/// only this paragraph. The description of the item and its other facts follow. Links are relative to `doc_module`.
+/// Returns the documentation of an item's constant. The first paragraph contains the name, unit, limits, default value,
+/// addresses, type and access rights, and links to related elements. Lists of constants show only this paragraph. The
+/// description of the item and its other facts follow. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
@@ -177,8 +177,8 @@ pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str,
     }
 }
 
-/// Returns the first lines of the documentation of the type at `position`: its name, its description and origin,
-/// ambiguities, and the items that use the type.
+/// Returns the first lines of the documentation of the type at `position`: name, description, origin, ambiguities, and
+/// the items that use the type.
 pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];

@@ -17,7 +17,7 @@ pub const INTERFACE_VERSION: u32 = 1;
 
 /// Returns the Rust module for `catalog`. Returns `None` if the catalog has no element for which code can be generated.
 ///
-/// The content of a single device is at the top level. If the catalog has several devices, each device has its own Rust
+/// The code of a single device is at the top level. If the catalog has several devices, each device has its own Rust
 /// module. The Rust modules for plug-in modules are next to those for devices.
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
     let file = catalog.files.first()?;
@@ -30,7 +30,7 @@ pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> 
 
 /// Returns the Rust module for `device`, which `file` describes.
 ///
-/// The text is the content of a module. The text can be a separate file or be included in `mod name { … }`.
+/// The text is the body of a module. It can be a separate file or be included in `mod name { … }`.
 pub fn emit(device: &Device, file: &FileInfo, options: &RustOptions) -> String {
     let mut code = Code::new(header(file), &options.runtime);
     print::model(&mut code, Model::new(device, file, options, &ModulePaths::default()));
@@ -82,7 +82,7 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
 }
 
-/// Returns the calls that read and write an item: first in its physical unit, then as raw value. `handle` is the
+/// Returns the calls that read and write an item: first as a physical value, then as a raw value. `handle` is the
 /// expression of the item.
 fn calls_of(context: &Context<'_>, item: &Item, handle: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {

@@ -50,8 +50,8 @@ const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
 /// Returns the model of the enumeration at `position` in the list of types.
 ///
-/// The enumeration has no variant `Unknown` if it is the type of a field in a bit field, has at most [`COMPLETE`] bits,
-/// and names all numbers of its width.
+/// The enumeration has no variant `Unknown` if it is the type of a field in a bit field and names all numbers of its
+/// width. The width must be at most [`COMPLETE`] bits.
 pub(super) fn model(
     context: &Context<'_>,
     position: u32,

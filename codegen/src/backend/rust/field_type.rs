@@ -19,7 +19,7 @@ pub(super) enum FieldType {
     Real(u32),
     Time(&'static str),
     Bytes(u32),
-    /// An enumeration: its name, and the primitive integer that holds its raw value.
+    /// An enumeration or bit field: its name, and the primitive integer that holds its raw value.
     Named(String, &'static str),
 }
 
@@ -38,8 +38,8 @@ impl FieldType {
         }
     }
 
-    /// Returns an expression that converts `value` to bits in a `u64`. For an enumeration, bits of the result beyond
-    /// its width may be set.
+    /// Returns an expression that converts `value` to bits in a `u64`. For an enumeration or bit field, bits of the
+    /// result beyond its width may be set.
     pub fn encode(&self, value: &str, bits: u32) -> String {
         match self {
             FieldType::Named(_, native) => match native.strip_prefix('i') {

@@ -55,7 +55,7 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
 }
 
 /// Returns the conversions between units of the device and units of the machine, without repetitions, in the order of
-/// the items that need them.
+/// the items and message fields that need them.
 fn units(device: &Device, field: &dyn Fn(&GivenRef) -> Option<String>) -> Vec<UnitModel> {
     let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
     let items = device.groups.iter().flat_map(|group| &group.items);

@@ -78,7 +78,7 @@ pub(super) struct Title<'n> {
 /// The module that contains the handle of an item.
 #[derive(Clone, Copy)]
 pub(super) struct ItemModule<'n> {
-    /// Name of the object to which the module belongs. `None` for the module that contains all handles.
+    /// Name of the object for which the module is generated. `None` for the module that contains all handles.
     pub name: Option<&'n str>,
     /// Path to the device's module.
     pub outer: &'n str,

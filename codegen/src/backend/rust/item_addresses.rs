@@ -17,7 +17,8 @@ use field::Field;
 /// Index and sub-index of an object.
 pub(super) type ObjectAddress = (u16, u8);
 
-/// The addresses of an item on all buses that generated code supports, and the routes to the item.
+/// The addresses of an item on all buses that generated code supports, the routes to the item, and facts about its
+/// value.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ItemAddresses<'i> {
     canopen: Option<(u16, u8)>,

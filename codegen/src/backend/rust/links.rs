@@ -126,7 +126,8 @@ struct Handle {
 /// Maximum number of elements that a sentence lists.
 const LISTED: usize = 8;
 
-/// The paths of all elements that are generated for a device or module. The paths are relative to the device's module.
+/// The paths of all elements that are generated for a device or module, and the relations between items, types, PDOs
+/// and composite numbers. The paths are relative to the device's module.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,

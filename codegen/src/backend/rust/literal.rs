@@ -52,8 +52,8 @@ pub(super) fn text_bytes(text: &[u8]) -> String {
     }
 }
 
-/// Returns whether a character is a letter or digit of any script, a space, or a visible sign that does not change how
-/// other characters are displayed.
+/// Returns whether a character is a letter or digit of any script, a space, or a visible sign. Signs that change how
+/// other characters are displayed are left out.
 pub(super) fn is_harmless(letter: char) -> bool {
     letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || is_sign(letter)
 }

@@ -16,7 +16,7 @@ fn maker(at: usize) -> String {
     format!("location_{}", at + 1)
 }
 
-/// The locations of a device's or module's handles.
+/// The location types of a device's or module's handles, and the functions that create the locations.
 pub(super) struct Locations {
     /// The default location type. The type of a handle names its location type only if it is not the default.
     pub usual: Buses,

@@ -273,9 +273,9 @@ impl Named<'_, '_> {
     }
 }
 
-/// Returns the transitions that a program can trigger or wait for. Automatic transitions from any state, and automatic
-/// transitions to a fault state (`faults`) from a state that is not a fault state, are left out, because they are
-/// reactions of the device to errors. Transitions without generated states or commands are also left out.
+/// Returns the transitions that a program can trigger or wait for. Leaves out automatic transitions with which the
+/// device reacts to an error: those from any state, and those to a fault state (`faults`) from a state that is not a
+/// fault state. Also leaves out transitions without generated states or commands.
 fn steps(
     machine: &StateMachine,
     states: &PatternsModel,

@@ -1,8 +1,8 @@
 //! Reserved names of methods and of objects' modules, and method names for which clippy expects a certain signature.
 
-/// Names that objects' modules and methods must not have. These are keywords, methods and modules of the device,
-/// methods that all types have and that take `self` by value, and names that would hide a primitive type or the
-/// runtime.
+/// Names that objects' modules and methods must not have. These are keywords, methods and modules of the device, and
+/// names that would hide a primitive type or the runtime. Methods that all types have and that take `self` by value are
+/// also included.
 pub(super) const RESERVED: [&str; 31] = [
     "types",
     "new",

@@ -185,8 +185,8 @@ impl Model {
         }
     }
 
-    /// Creates the message protocol. Its methods must not have the names of the objects' accessors, because both belong
-    /// to the same type.
+    /// Creates the message protocol. The device's type has the methods of the protocol and the accessors of the
+    /// objects, so their names must differ.
     #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));

@@ -1,4 +1,4 @@
-//! The first stage of the back end. This stage determines the Rust names of a description's elements.
+//! The naming stage of the back end determines the Rust names of a description's elements.
 
 pub(super) mod composites;
 pub(super) mod handles;

@@ -17,7 +17,8 @@ pub enum Presence {
 /// Options of the generated Rust code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RustOptions {
-    /// Name of the device's type. `None` means that the name is derived from the product name.
+    /// Name of the device's type. `None` means that the name is derived from the order code of an EtherCAT device, the
+    /// name of the device, or the file name.
     pub device_name: Option<String>,
     /// Path of the runtime crate in the generated code.
     pub runtime: String,

@@ -199,8 +199,8 @@ pub(super) fn title(context: &Context<'_>, pdo: &Pdo) -> String {
     docs::sentence(&format!("{title}{name}"))
 }
 
-/// Returns a mask of the bits that unpacking and packing preserve. The four reserved bits of a TIME_OF_DAY or
-/// TIME_DIFFERENCE value are not preserved.
+/// Returns a mask of those bits in the first 64 bits that unpacking and packing preserve. The four reserved bits of a
+/// TIME_OF_DAY or TIME_DIFFERENCE value are not preserved.
 fn covered(fields: &[FieldModel]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
@@ -491,7 +491,8 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
 
 /// Returns the SDO writes that configure a PDO as the description states. They disable the PDO, write its mapping, set
 /// its transmission type and timers, and enable it again (CiA 301 7.5.2.36). Writes to read-only communication
-/// parameters are left out. Returns no writes if the COB-ID is unknown or read-only.
+/// parameters are left out. Returns no writes if the PDO has no communication parameters, or if the COB-ID is unknown
+/// or read-only.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);

@@ -51,7 +51,8 @@ fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {
     lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }
 
-/// Returns the cells of a table row: the item and the value that is written.
+/// Returns the cells of a table row: the item and the value that is written. Returns `None` if the step does not write
+/// a constant value.
 fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     let Step::Write(name, value) = step else { return None };
     let item = context.link(name, DocModule::OTHER).unwrap_or_else(|| docs::escape(name));
@@ -59,8 +60,9 @@ fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
     Some([item, docs::typed(value, ty)])
 }
 
-/// Returns the constructor calls of a procedure's writes. Returns `None` if there are no steps, or if a step is not a
-/// write of a constant integer that fits in an object of an 8-, 16- or 32-bit integer type.
+/// Returns the constructor calls of a procedure's writes. Returns `None` if there are no steps, or if a step does not
+/// write a constant integer. Also returns `None` if an integer does not fit in an object of an 8-, 16- or 32-bit
+/// integer type.
 fn writes(context: &Context<'_>, procedure: &Procedure) -> Option<Vec<String>> {
     let writes: Option<Vec<String>> = procedure.steps.iter().map(|step| write(context, step)).collect();
     writes.filter(|writes| !writes.is_empty())
@@ -87,7 +89,7 @@ fn write(context: &Context<'_>, step: &Step) -> Option<String> {
     Some(pdo::write(&format!("u{bits}"), index, sub_index, &number))
 }
 
-/// Returns the object of an item on the bus of the device.
+/// Returns the index and sub-index of an item on the bus of the device.
 fn object(context: &Context<'_>, item: &Item) -> Option<(u16, u8)> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Object { buses, index, sub_index } => {

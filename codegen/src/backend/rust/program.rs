@@ -88,10 +88,11 @@ pub struct ProgramItem {
 /// Buses of a program, in order of preference.
 const BUSES: [RouteBus; 3] = [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus];
 
-/// Returns the elements for a program that accesses `device` on `bus`. If `bus` is `None`, the program uses the first
-/// bus of CANopen, EtherCAT and Modbus on which it can lead a state machine to its operating state. If there is no such
-/// bus, the program uses the first bus on which it can access a state machine or, if there is none, a value. Returns
-/// `None` if the program can access neither on any bus.
+/// Returns the elements for a program that accesses `device` on `bus`. If `bus` is `None`, the possible buses are
+/// CANopen, EtherCAT and Modbus, in this order. The program uses the first bus on which it can lead a state machine to
+/// its operating state. If there is no such bus, the program uses the first bus on which it can access a state machine.
+/// If it can access none, it uses the first bus on which it can access a value. Returns `None` if the program can
+/// access neither on any bus.
 pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Program> {
     let options = RustOptions::default();
     let driver = device_names::device_name(device, file, None);
@@ -194,8 +195,8 @@ impl Parts<'_, '_> {
         Some((self.item(entry, call, number)?, number))
     }
 
-    /// Returns the first raw value that an item can have on a bus: one of the numbers `preferred`, or a limit or an
-    /// allowed value of the item.
+    /// Returns the first raw value that an item can have on a bus: one of the `preferred` numbers, a limit, or an
+    /// allowed value.
     fn sample(&self, item: &Item, bus: RouteBus, preferred: &[i128]) -> Option<i128> {
         let limits = item.limits_on(bus.of_items()).unwrap_or(&item.limits);
         let (low, high) = limits.integers();
@@ -227,8 +228,9 @@ impl Parts<'_, '_> {
         })
     }
 
-    /// Returns the items that are plain numbers, and the calls of their accessors. Sub-index 0 of objects with several
-    /// entries is left out, because it contains the number of sub-indices.
+    /// Returns the items that are integers of 8, 16 or 32 bits without an enumeration or bit field, and the calls of
+    /// their accessors. Sub-index 0 of objects with several entries is left out, because it contains the number of
+    /// sub-indices.
     fn calls(&self) -> impl Iterator<Item = (&NamedItem<'_>, String)> {
         let is_count =
             |item: &Item, call: &str| call.contains('.') && item.object().is_some_and(|(_, sub_index)| sub_index == 0);

@@ -12,8 +12,8 @@ pub(super) struct QuantityType {
     pub word: String,
 }
 
-/// Returns the type of an item's value. Returns `None` if the value is a plain number or not a number, if its scale
-/// differs between models or buses, or if no type of the runtime can express the scale.
+/// Returns the type of an item's value. Returns `None` if the value is a plain number or not a number, or if its scale
+/// differs between models or buses. Also returns `None` if no type of the runtime can express the scale.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {

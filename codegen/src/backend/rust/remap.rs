@@ -24,7 +24,7 @@ pub(super) struct RemappableModel {
     pub name: String,
     pub title: String,
     pub direction: &'static str,
-    /// Rust type of the PDO's COB-ID.
+    /// Rust type of the PDO's COB-ID, or the type that is used instead on EtherCAT.
     pub cob_id: &'static str,
     /// Constants of the PDO, each with its type and value.
     pub constants: Vec<Doc>,
@@ -116,8 +116,8 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'
     }
 }
 
-/// Adds the constants that an EtherCAT PDO needs. Returns the type that is used instead of a COB-ID, or `None` if the
-/// description is not that of an EtherCAT device or contains only a dictionary.
+/// Adds the constants that an EtherCAT PDO needs. Returns the type that is used instead of a COB-ID. Returns `None` if
+/// the description is not that of an EtherCAT device, or if it contains only a dictionary.
 fn on_ethercat(context: &Context<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     if context.bus != ObjectBus::CoE || device.dictionary_only {
         return None;

@@ -73,8 +73,8 @@ impl<'a> Scope<'a> {
     }
 
     /// Resolves aliases of a type. Returns the resulting type, which is the base type of an enumeration, bit field or
-    /// scaled type. If the type has a definition other than an alias, also returns the position and content of the
-    /// definition.
+    /// scaled type. If the chain of aliases ends at a definition, also returns this definition and its
+    /// position in `types`.
     pub fn resolve(&self, ty: Type) -> (Type, Option<(u32, &'a TypeDef)>) {
         /// Maximum length of a chain of type aliases. A longer chain is treated as a cycle.
         const DEPTH: usize = 16;

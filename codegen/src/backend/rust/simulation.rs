@@ -20,8 +20,8 @@ pub struct Simulation {
 }
 
 /// Returns the behavior of a state machine. The simulated device makes a transition without a command only on the
-/// shortest path to the target state, and only if no command leads closer to the target. Returns `None` if the machine
-/// has no commands that are bit patterns.
+/// shortest path to the target state. It makes no such transition from a state in which a command leads closer to the
+/// target. Returns `None` if the machine has no commands that are bit patterns.
 pub(super) fn of(model: &MachineModel, walk: &WalkModel, path: &Path<'_>) -> Option<Simulation> {
     let transition =
         |step: &StepModel| Some((step.from.clone(), step.command.clone()?, path.settled(&step.to).to_owned()));

@@ -93,7 +93,7 @@ impl<'m> Path<'m> {
     }
 }
 
-/// Returns the number of transitions from each state to the target.
+/// Returns the number of transitions from each state to the target. States without a path to the target are left out.
 fn distances<'m>(steps: &[&'m StepModel], target: &'m str) -> HashMap<&'m str, usize> {
     let mut distances = HashMap::from([(target, 0)]);
     for distance in 1..=steps.len() {

@@ -6,7 +6,7 @@ use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
 
-/// Reports mapped objects that contradict the PDO mapping, and PDOs that are too long. Other lints check the mapping
+/// Reports PDO entries that contradict the mapped items, and PDOs that are too long. Other lints check the mapping
 /// objects of CANopen devices. For EtherCAT devices, missing objects and wrong lengths are already reported elsewhere.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;

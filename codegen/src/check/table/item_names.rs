@@ -12,8 +12,8 @@ use crate::text::{brief, edit_distance};
 /// similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// A letter counts as a prefix if at least this number of item names, and at least nine tenths of all item names, begin
-/// with it.
+/// A letter counts as a prefix if at least nine tenths of all item names begin with it, but not fewer than this number
+/// of names.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

@@ -69,7 +69,7 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
     }
 }
 
-/// Reports a reply whose first constant probably belongs to another message. The constant is not in the request of this
+/// Reports a reply whose first constant is probably that of another message. The constant is not in the request of this
 /// message, but in the request of another message whose reply begins with the same constant.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let first =
@@ -144,8 +144,8 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Compares the requests that begin with several constants. Reports a single request whose first constant differs from that of
-/// all others.
+/// Compares the requests whose first constant byte is directly followed by another constant byte. Reports a single request whose
+/// first constant differs from that of all others.
 fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let mut groups: BTreeMap<(usize, u8), Vec<&Framed<'_>>> = BTreeMap::new();
     for framed in all.iter().filter(|framed| framed.request.first_run().len() > 1) {

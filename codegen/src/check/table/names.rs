@@ -1,5 +1,5 @@
-//! Checks that row names exist, are not hyphenated at the edge of a table column, are not descriptions, and differ in
-//! more than upper and lower case.
+//! Checks that row names exist, are not hyphenated at the edge of a table column, and are not descriptions. Also checks
+//! that names differ in more than upper and lower case.
 
 use std::collections::HashMap;
 
@@ -13,8 +13,8 @@ use crate::text::brief;
 /// The maximum number of words in a register name, if other names are single words. A longer name is a description.
 const NAME_WORDS: usize = 6;
 
-/// Reports names that are missing, that are hyphenated at the edge of a table column, that are descriptions, or that
-/// differ only in upper and lower case.
+/// Reports names that are missing, that are hyphenated at the edge of a table column, or that are descriptions. Also
+/// reports names that differ only in upper and lower case.
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let are_words = are_words(context.device);
     context.device.groups.iter().for_each(|group| whole(group, are_words, diagnostics));
@@ -79,7 +79,8 @@ fn are_words(device: &Device) -> bool {
     single > 3 * several
 }
 
-/// Returns the foreign content of a name, which was probably pasted from a neighboring cell.
+/// Returns a noun for the text in a name that was probably pasted from a neighboring cell: a tag, values or a
+/// description.
 fn description(name: &str, are_words: bool) -> Option<&'static str> {
     match () {
         () if name.contains('<') => Some("a tag"),

@@ -1,5 +1,5 @@
-//! Checks that the numbers of items fit into the windows, that the items of a window are integers, and that windows can
-//! transfer the values of items that have no other address.
+//! Checks that the numbers of items fit into the windows, and that the items of a window are integers. Also checks that
+//! windows can transfer the values of items that have no other address.
 
 use std::collections::HashSet;
 

@@ -60,8 +60,8 @@ impl<'a> MarkedSource<'a> {
 
 /// Returns the position of the end of `marked`, which starts at `from`.
 ///
-/// Counts only the characters of the marked text. The part of the line before it is often longer, because a file can be
-/// one long line.
+/// If the marked text is on one line, counts only its characters. The part of the line before the mark is often longer,
+/// because a file can be one long line.
 fn end_position(source: &Source, marked: Range<usize>, from: Position) -> Position {
     let text = &source.text()[marked.clone()];
     match memchr::memchr2(b'\r', b'\n', text.as_bytes()) {

@@ -73,8 +73,8 @@ pub fn object_code(
     by_content
 }
 
-/// Returns the origin of an object code. `None` means that the file states the code, or that it states none and the
-/// object is a VAR, which is the default of CiA 306.
+/// Returns the origin of an object code. `None` means that the file states the code. It also means that the file states
+/// no code and the object is a VAR, the default of CiA 306.
 pub fn code_origin(given: Option<&ObjectType<'_>>, code: ObjectCode) -> Option<FactOrigin> {
     let stated = given.map_or(Some(ObjectCode::Var), |given| given.number.and_then(ObjectCode::from_number));
     (stated != Some(code)).then_some(FactOrigin::Rule(Rule::ObjectContents))

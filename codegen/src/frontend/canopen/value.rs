@@ -45,8 +45,8 @@ impl Converter<'_> {
         })
     }
 
-    /// Returns the value of `text` if it is a plain number that fits the integer type `ty` of at most 32 bits and needs
-    /// no diagnostic.
+    /// Returns the value of `text` if it is a plain number that fits the integer type `ty` and needs no diagnostic. The
+    /// type must have at most 32 bits.
     #[inline]
     pub fn plain_integer(&self, text: &str, ty: Type) -> Option<Value> {
         let (Type::Integer(bits) | Type::Unsigned(bits)) = ty else { return None };

@@ -158,7 +158,7 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKin
 }
 
 /// Reports sections that CiA 306 does not define. Stores their entries as extensions of the device, with keys such as
-/// `section/key`. Also stores the entries of sections that belong to an undescribed object.
+/// `section/key`. Also stores the entries of sections about undescribed objects.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
     let mut seen: HashMap<String, &Section> = HashMap::new();
     for section in unknown {

@@ -123,7 +123,7 @@ impl Reader<'_, '_> {
         self.raw_with(sections, &[])
     }
 
-    /// Assigns entries to keywords like [`raw`](Self::raw), with up to two further keywords.
+    /// Assigns entries to keywords as [`raw`](Self::raw) does, with `more` as up to two further keywords.
     pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
         let mut raw =
             Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };

@@ -7,7 +7,7 @@ use crate::ir::{Device, Extensions, Group};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
-/// Indices in the object lists of a file.
+/// Indices in the object lists of a file, each with its list and its span.
 #[derive(Default)]
 pub(super) struct Lists {
     listed: Vec<(u16, List, Span)>,
@@ -73,7 +73,7 @@ pub(super) fn numbered(
 const NO_GAP: &str = "number the entries from 1 without a gap";
 
 /// Returns the entries of a list that have a sub-index as their key, each with this sub-index. The list may skip
-/// sub-indices. Passes all entries with other keys to `others`, except `NrOfEntries`.
+/// sub-indices. Compares the number of entries with `NrOfEntries`, and passes entries with any other key to `others`.
 pub(super) fn by_sub_index(
     reader: &mut Reader<'_, '_>,
     section: &Section,
@@ -124,9 +124,9 @@ fn by_number(
     (entries, count)
 }
 
-/// Returns whether `entry` announces the correct number of entries. Reports an incorrect or hexadecimal number. The
-/// diagnostic about an incorrect number has no fix if the list has a gap. With a gap, the announced number may be
-/// correct and the numbering of the entries wrong.
+/// Returns false if `entry` announces a number other than `count`. Reports such a number, and an unreadable or
+/// hexadecimal number. The diagnostic about a wrong number has no fix if the list has a gap. With a gap, the announced
+/// number may be correct and the numbering of the entries wrong.
 pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize, has_gap: bool) -> bool {
     let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));

@@ -1,7 +1,7 @@
 //! Converts EDS and DCF files (CiA 306-1) to IR.
 //!
-//! [`read`] processes the sections of a file in one pass. The values in header sections are stored in the device
-//! directly. Object sections may have any order in the file, so they are sorted by index first.
+//! [`read`] reads the sections of a file in one pass. The values in header sections are stored in the device directly.
+//! Object sections may have any order in the file, so they are sorted by index first.
 //!
 //! | file | subject |
 //! |---|---|

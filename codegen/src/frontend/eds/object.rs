@@ -378,8 +378,8 @@ impl<'a> Reader<'a, '_> {
         is_mappable.then(|| Srdo { inverted: inverted.map(|address| ((address >> 8) as u16, address as u8)) })
     }
 
-    /// Returns the number of sub-indices that CompactSubObj declares, which is at most 254, or `None` if it declares
-    /// none.
+    /// Returns the number of sub-indices that CompactSubObj declares. Reports a number above 254, and returns 254.
+    /// Returns `None` if the entry is missing, unreadable, negative or 0.
     fn compact_count(&mut self, raw: &Raw) -> Option<u8> {
         let entry = raw.get(Key::CompactSubObj)?;
         let (text, span) = self.fixed(entry, Fixed::Number);

@@ -66,8 +66,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.fixed_part(text, span, cut, form)
     }
 
-    /// Reads a value like [`fixed`](Self::fixed). `mark` is the offset of the first comment mark or quotation mark in
-    /// `text`.
+    /// Reads a value as [`fixed`](Self::fixed) does. `mark` is the offset of the first comment mark or quotation mark
+    /// in `text`.
     #[cold]
     fn fixed_part(&mut self, text: &'a str, span: Span, mark: usize, form: Fixed) -> (&'a str, Span) {
         // A comment mark in quotation marks is part of the value.

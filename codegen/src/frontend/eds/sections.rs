@@ -34,7 +34,7 @@ pub(super) enum List {
     Manufacturer,
 }
 
-/// Content of a section that describes the sub-indices of a compact object.
+/// Fact that a section lists for the sub-indices of a compact object: names, values or denotations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refinement {
     Name,

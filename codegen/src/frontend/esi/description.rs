@@ -18,7 +18,7 @@ pub(super) struct Description {
 }
 
 impl Description {
-    /// Adds the unresolved references of a device or module.
+    /// Adds the references, unresolved types of PDO entries and diagnosis messages of a device or module.
     pub fn add_other_files(&mut self, owner: Owner, other_files: OtherFiles) {
         self.references.extend(other_files.files.into_iter().map(|file| (owner, file)));
         self.catalog.code_tables.extend(other_files.messages);
@@ -37,7 +37,7 @@ pub(super) enum Target {
     Diagnosis,
 }
 
-/// Element to which the content of a referenced file belongs.
+/// Element to which the content of a referenced file is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Owner {
     Catalog,
@@ -59,7 +59,8 @@ impl Reference {
     }
 }
 
-/// References of a device or module to other files.
+/// References of a device or module to other files, types of PDO entries that these files may define, and diagnosis
+/// messages.
 #[derive(Default)]
 pub(super) struct OtherFiles {
     pub files: Vec<Reference>,

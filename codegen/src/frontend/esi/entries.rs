@@ -123,7 +123,7 @@ pub(super) struct Matched {
 }
 
 /// Assigns each sub-item to the entry with the same name. If the name is unknown or not unique, assigns the sub-item to
-/// the entry at the same position or to the next free entry.
+/// the entry at the same position or to the next free entry. A sub-item without a free entry becomes an extra sub-item.
 pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[RawSub<'_>]) -> Matched {
     let mut matched = Matched { of_entry: vec![None; entries.len()], extra: Vec::new() };
     let named = |entry: &Entry<'_, '_>, sub: &RawSub<'_>| sub.name.text == entry.field.name.text;

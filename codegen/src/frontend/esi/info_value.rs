@@ -94,7 +94,7 @@ pub(super) fn properties<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> R
     reader.each(parent, "Property", property)
 }
 
-/// Reads a `Property` element. Stores its value as an extension with the name of the property, and its description as a
+/// Reads a `Property` element. Stores the value as an extension with the name of the property, and the description as a
 /// second extension. If the value is missing, the first extension contains the description.
 pub(super) fn property<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<()> {
     let (mut name, mut value) = (Given::default(), Given::default());

@@ -6,7 +6,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
-/// Number, and whether its notation is a bit pattern.
+/// Value of a number, and facts about its notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
     pub value: i128,

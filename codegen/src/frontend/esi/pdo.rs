@@ -7,7 +7,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{Oversampling, Pdo, PdoEntry, PdoEntryKind};
 use crate::syntax::xml::Tag;
 
-/// Contents of a PDO that are added to [`Pdo`] after its template is read.
+/// Contents of a PDO that are added to [`Pdo`] after the template of the PDO is read.
 #[derive(Default)]
 pub(super) struct Content<'a> {
     pub index: Option<u16>,

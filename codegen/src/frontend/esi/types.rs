@@ -31,7 +31,7 @@ pub(super) struct Types<'t, 'a> {
     made: HashMap<CompactString, Type>,
 }
 
-/// References between data types, as positions in the dictionary.
+/// References between data types, as positions in the list of data types.
 #[derive(Default)]
 struct Links {
     bases: Vec<Option<u32>>,
@@ -551,8 +551,8 @@ fn extents(one: &Field, other: &Field) -> String {
     format!("{} and {}", bits(one), bits(other))
 }
 
-/// Returns the lower bound and the number of elements of each dimension. If the number of a single dimension is
-/// missing, calculates it from `BitSize`.
+/// Returns the lower bound and the number of elements of each dimension. If the array has one dimension and the number
+/// is missing or 0, calculates the number from `BitSize`.
 fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
     const MAX_DIMENSIONS: usize = 3;
     if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {
@@ -595,7 +595,8 @@ fn bit_array(width: u8) -> Shape {
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
 }
 
-/// Returns the basic type for a type name that the file does not define. Reports nonstandard and unknown names.
+/// Returns the basic type for a type name that the file does not define, or raw bytes for an unknown name. Reports
+/// nonstandard and unknown names.
 pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
     match type_name::basic(&name.text) {
         Some((Basic::Type(ty), spelling)) => {

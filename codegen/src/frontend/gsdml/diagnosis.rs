@@ -131,7 +131,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Appends the additional values of a code to `text`, in the form `1 Unsigned16, 2 Float32`.
+    /// Appends the additional values of a code to `text`, in the form `1 Unsigned16, 2 Float32` (identifier and data
+    /// type).
     fn add_values(&mut self, list: &Tag<'a>, text: &mut String) -> Read<()> {
         self.each(list, "DataItem", |reader, tag| {
             let [id, data_type] = reader.attributes(tag, ["Id", "DataType"])?;

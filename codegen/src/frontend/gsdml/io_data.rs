@@ -170,14 +170,14 @@ struct Bit {
     origin: Origin,
 }
 
-/// Fields of consecutive data items.
+/// Layout of consecutive data items.
 #[derive(Default)]
 struct Layout {
     fields: Vec<PdoEntry>,
     items: Vec<IoItem>,
     /// Length in bits of the data items that were added so far.
     at: u32,
-    /// Number of bytes at the end of the data that are not user data.
+    /// Number of bytes of PROFIsafe trailers at the end of the data, which are not user data.
     overhead: u32,
     /// Positions and origins of the PROFIsafe trailers in `items`.
     trailers: Vec<(usize, Origin)>,

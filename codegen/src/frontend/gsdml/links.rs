@@ -24,7 +24,7 @@ pub(super) enum ElementKind {
 }
 
 impl ElementKind {
-    /// Returns the name of the XML element that declares the identifier.
+    /// Returns the name of an XML element of this kind for diagnostics.
     fn element(self) -> &'static str {
         match self {
             ElementKind::AccessPoint => "DeviceAccessPointItem",

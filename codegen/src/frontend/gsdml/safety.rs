@@ -96,7 +96,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Adds the mandatory parameters that the file omits, with their default values.
+    /// Reports the mandatory parameters that the file omits, and adds them with their default values. Sorts all
+    /// parameters in the order of the schema.
     fn add_missing(&mut self, tag: &Tag<'a>, parameters: &mut Vec<FParameter>) {
         for known in KNOWN.iter().filter(|known| known.required) {
             if !parameters.iter().any(|parameter| parameter.name == known.name) {

@@ -15,7 +15,7 @@ use crate::syntax::xml::Tag;
 /// Subslot number of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// Destination for the built-in submodules of an element.
+/// Destination for the built-in submodules of an element, and for the device settings that they declare.
 pub(super) struct Holder<'h> {
     /// Submodules of the catalog.
     pub submodules: &'h mut Vec<Submodule>,

@@ -1,5 +1,5 @@
-//! Reads keys whose value can have one of two forms: a scale factor or a scale rule, a number or a text, a Boolean or a
-//! text, the values or the bits of a condition.
+//! Reads keys whose value can have one of two forms: a scale factor or a rule, a number or a text, a Boolean or a text,
+//! values or bits.
 
 use toml::de::DeValue;
 

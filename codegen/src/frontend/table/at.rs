@@ -111,7 +111,7 @@ mod schema {
         }
     }
 
-    /// Implements `JsonSchema` for a type, so that its schema is repeated at each use of the type.
+    /// Implements `JsonSchema` for types whose schema is repeated at each use of the type.
     macro_rules! inline {
         ($($name:ident $prefix:literal $inner:ident $schema:tt)*) => {$(
             impl<T: JsonSchema> JsonSchema for $name<T> {

@@ -82,7 +82,7 @@ impl Rows {
     }
 
     /// Reports a list that has more default values than the row has items. Also reports a name without `{n}` or `{n+1}`
-    /// if the row has several items.
+    /// if the row has several items because of `count`.
     pub(super) fn each_has_one(&self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, count: u32) {
         // An array has a default value for each of its elements.
         let is_array = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).is_some_and(|ty| ty.elements.is_some());
@@ -103,7 +103,7 @@ impl Rows {
         }
     }
 
-    /// Returns the number of bits that one register number of the space addresses.
+    /// Returns the number of bits that one register number of the space addresses, or 16 if there is no space.
     fn unit(&self, space: Option<usize>) -> u32 {
         space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits))
     }
@@ -351,7 +351,8 @@ impl Rows {
         found.and(self.buses)
     }
 
-    /// Returns the buses on which the object of a row exists. Reports a row that exists on neither CANopen nor EtherCAT.
+    /// Returns the buses on which the object of a row exists. Reports a row that exists on neither CANopen nor EtherCAT, and
+    /// returns CANopen for this row.
     pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
         let objects = self.buses_of(reader, row).with_objects();
         if Buses::from(objects).is_empty() {

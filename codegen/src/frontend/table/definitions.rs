@@ -106,7 +106,8 @@ impl Definitions {
         integer(reader, base)
     }
 
-    /// Returns the basic type on which an alias, a bit field, an enumeration or a scaled type is based.
+    /// Returns the type on which an alias, a bit field, an enumeration or a scaled type is based. Returns any other
+    /// type unchanged.
     pub fn underlying(&self, ty: Type) -> Type {
         let mut ty = ty;
         // The types form no cycle, because each type refers only to earlier types.

@@ -1,4 +1,4 @@
-//! Reads a register table part by part.
+//! Reads a register table, one top-level key at a time.
 
 use super::at::{At, Entries};
 use super::by_name::ByName;
@@ -19,7 +19,7 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Buses, Catalog, Device};
 use crate::source::{FileId, Source, Span};
 
-/// JSON Schema (draft 7) of register tables, which editors use to complete and check tables. `lexibus schema` prints it.
+/// JSON Schema (draft 7) of register tables, which editors use to complete and check tables. `lexibus schema` prints this schema.
 pub const SCHEMA: &str = include_str!("../../../schema/table.json");
 
 /// Supported version of the format.
@@ -112,7 +112,7 @@ pub fn read(
     Some(Catalog { devices: vec![device], ..Catalog::default() })
 }
 
-/// Parts of a file by their top-level key.
+/// Values of a file by top-level key, and the options and spaces of the file.
 pub(super) struct Table<'a> {
     pub(super) parts: Vec<(At<String>, Option<Node<'a>>)>,
     pub(super) options: Vec<(At<String>, OptionTable)>,
@@ -255,7 +255,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads the elements that describe no items: axes, PDOs, codes, sequences and ambiguities.
+    /// Reads the elements that describe no items: axes, PDOs, codes, state machines, procedures, composites and
+    /// ambiguities.
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
             let models = axes.value.models.iter().flatten();

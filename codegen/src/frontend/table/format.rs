@@ -328,7 +328,7 @@ tables! {
         pub pdo_assign: bool,
         /// Whether the PDO mapping objects are writable.
         pub pdo_config: bool,
-        /// Whether masters read the PDO assignment from the device.
+        /// Whether masters read the PDO mapping and the PDO assignment from the device.
         pub pdo_upload: bool,
         /// Whether complete access to all sub-indices is supported.
         pub complete_access: bool,
@@ -620,7 +620,7 @@ tables! {
         /// Data type: `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` if the manual does not state it.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
-        /// Access rights: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state them (the compiler assumes `rw`).
+        /// Access rights: `ro`, `rw`, `wo`, `const`, `rwr` or `rww`; `?` if the manual does not state them (the compiler assumes `rw`, or `ro` for Modbus inputs).
         #[cfg_attr(test, schemars(transform = schema::words("ro rw wo const rwr rww ?")))]
         pub access: Option<At<String>>,
         /// PDO direction, as seen from the device: `rx`, `tx`, `both` or `no`.
@@ -826,7 +826,7 @@ tables! {
         /// Integer type of the bits; required only if it does not follow from a row.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub base: Option<At<String>>,
-        /// Address of the byte with bits 0 to 7, if the manual counts the bits of each byte from 0 (`"0x221:3-2"`).
+        /// Address of the byte that contains bits 0 to 7. Required if keys of `at` contain byte addresses, as in `"0x221:3-2"`.
         pub address: Option<u32>,
         /// Bits and ranges of bits (`"3-2"`); a list of meanings if other items select the meaning.
         #[cfg_attr(test, schemars(transform = schema::keys(schema::BITS_OF_BYTES)))]

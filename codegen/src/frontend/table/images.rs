@@ -14,7 +14,7 @@ use crate::ir::{
 };
 use crate::text::brief;
 
-/// Position of a field in its image.
+/// Bit offset and length of a field in its image, and the type that the field declares.
 struct FieldPosition {
     bit_offset: u32,
     bits: u32,

@@ -103,7 +103,8 @@ fn elements(
     item.at.default = span;
 }
 
-/// Reads the allowed values. Reports the first allowed value that the minimum or maximum of the row excludes.
+/// Reads the allowed values. Reports values outside of the range of the type, and the first value that the minimum or
+/// maximum of the row excludes.
 fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, limits: &mut Limits) {
     let Some(given) = &row.allowed else { return };
     let span = reader.span(given);

@@ -10,7 +10,7 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Minimum number of rows with both a register number and its object. If a chapter has this number of such rows, the
+/// Minimum number of rows whose object follows the rule of the space. If a chapter has this number of such rows, the
 /// lint expects an object in each row of the chapter.
 const PRINTED: usize = 3;
 
@@ -36,7 +36,7 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
     range(reader, value, ty, span);
 }
 
-/// Reports a number that begins with `0X`. TOML has no numbers with this prefix, but a text may contain it.
+/// Reports a number that begins with `0X`. TOML has no numbers with this prefix, but a text may contain such a number.
 fn capital(reader: &mut Reader<'_, '_>, span: Span) {
     let text = reader.source.slice(span).trim_matches(['"', '\'']);
     if text.starts_with("0X") {

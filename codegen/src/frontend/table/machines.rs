@@ -17,8 +17,8 @@ fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// Reads a state machine. Reports transitions with unknown states or commands. A command may also be the name of a
-/// message. Returns `false` if the machine exceeds `budget`. In this case, the caller must ignore all further machines.
+/// Reads a state machine. Reports unknown names of states and commands. A message of the device may serve as a command.
+/// Returns `false` if the machine exceeds `budget`. In this case, the caller must ignore all further machines.
 pub(super) fn machine(
     reader: &mut Reader<'_, '_>,
     name: &At<String>,

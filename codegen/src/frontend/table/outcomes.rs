@@ -18,7 +18,7 @@ use crate::text::{brief, count_of};
 pub(super) struct Names<'n> {
     states: HashSet<&'n str>,
     commands: HashSet<&'n str>,
-    /// States and commands in the order of the file.
+    /// States in the order of the file, and commands followed by messages.
     listed: [Vec<&'n str>; 2],
 }
 
@@ -31,14 +31,14 @@ impl<'n> Names<'n> {
         Names { states: set(&states), commands: set(&commands), listed: [states, commands] }
     }
 
-    /// Reports the name of a state that does not exist.
+    /// Reports a name that is not a state of the machine.
     pub fn state(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
         if !self.states.contains(name) {
             reader.unresolved("state", name, span, self.listed[0].iter().copied());
         }
     }
 
-    /// Reports the name of a command that does not exist.
+    /// Reports a name that is neither a command of the machine nor a message of the device.
     pub fn command(&self, reader: &mut Reader<'_, '_>, name: &str, span: Span) {
         if !self.commands.contains(name) {
             reader.unresolved("command", name, span, self.listed[1].iter().copied());

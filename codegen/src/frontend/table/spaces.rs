@@ -27,8 +27,9 @@ pub(super) struct Space {
     /// True if a value that is shorter than its registers is extended to all bits.
     extend: bool,
     windows: Vec<Window>,
-    /// Prefix that the manual prints before each Modbus register number, and the minimum number of digits.
+    /// Prefix that the manual prints before each Modbus register number.
     pub prefix: CompactString,
+    /// Minimum number of digits of a printed register number.
     pub digits: u8,
     /// True if the word order is an assumption.
     pub is_order_assumed: bool,
@@ -48,7 +49,7 @@ struct ObjectBase {
     sub_index: u8,
 }
 
-/// Register numbers of a row, and the word order of its value.
+/// First register number of a row, and the length, word order, byte order and bit offset of its value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Numbers {
     pub first: u32,
@@ -164,7 +165,8 @@ fn objects(rule: &ObjectRule) -> ObjectBase {
 }
 
 impl Space {
-    /// Returns the index and sub-index for a register number, if the space has a rule for objects.
+    /// Returns the index and sub-index for a register number. Returns `None` if the space has no rule for objects, or
+    /// the index is out of range.
     pub fn object(&self, number: u32) -> Option<(u16, u8)> {
         let rule = self.canopen.or(self.ethercat)?;
         Some((u16::try_from(rule.index.checked_add(number.into())?).ok()?, rule.sub_index))

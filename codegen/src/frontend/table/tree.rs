@@ -204,7 +204,7 @@ impl<'a> Reader<'a, '_> {
         Origin { span: self.span(at), line: self.source.line_at(at.start) }
     }
 
-    /// Returns a span that messages can show: an empty span is replaced with the span of the last character before it
+    /// Returns a span that messages can show. An empty span is replaced with the span of the last preceding character
     /// that is not white space.
     fn visible(&self, span: Span) -> Span {
         let before =
@@ -220,7 +220,8 @@ impl<'a> Reader<'a, '_> {
         Span::new(self.file, range.start as u32, range.end as u32)
     }
 
-    /// Returns the literals of the list at the byte range `whole`, each with its span.
+    /// Returns the literals of the list at the byte range `whole`, each with its span. The span is that of the whole
+    /// list if the file does not contain this number of elements.
     pub fn each(&self, list: &[Literal], whole: ByteRange) -> Vec<At<Literal>> {
         let ranges = self.element_ranges(whole);
         let range = |at: usize| if ranges.len() == list.len() { ranges[at] } else { whole };
@@ -228,7 +229,8 @@ impl<'a> Reader<'a, '_> {
         list.iter().enumerate().map(at).collect()
     }
 
-    /// Returns the byte range of the element `at` in a list with `length` elements.
+    /// Returns the byte range of the element `at` in a list with `length` elements, or `whole` if the file does not
+    /// contain this number of elements.
     pub fn element_range(&self, length: usize, at: usize, whole: ByteRange) -> ByteRange {
         let ranges = self.element_ranges(whole);
         ranges.get(at).copied().filter(|_| ranges.len() == length).unwrap_or(whole)

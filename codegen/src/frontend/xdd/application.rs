@@ -116,14 +116,14 @@ impl<'p, 'a> View<'p, 'a> {
         of(self.parameter).iter().chain(of(self.template))
     }
 
-    /// Returns the length in bytes of the parameter's and the template's element, which is the cost of a copy.
+    /// Returns the cost of a copy: the length in bytes of the elements of the parameter and the template.
     pub fn weight(&self) -> usize {
         self.parameter.map_or(0, |parameter| parameter.weight) + self.template.map_or(0, |template| template.weight)
     }
 }
 
 impl<'a> Application<'a> {
-    /// Returns the parameter to which an object refers, with its template.
+    /// Returns the parameter to which an object refers, with its template. Reports an unknown parameter or template.
     pub fn view(&self, reader: &mut Reader<'a, '_>, given: &Given<'a>) -> View<'_, 'a> {
         if given.is_missing() {
             return View::NONE;

@@ -16,8 +16,8 @@ use crate::ir::{
 };
 use crate::source::Span;
 
-/// Facts that a sub-object takes from its object: the parameter of the object, and the type of the sub-object according
-/// to the data type of the object.
+/// Facts that a sub-object takes from its object: the parameter of the object, and the type that the object's data type
+/// defines for the sub-object.
 pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
@@ -277,8 +277,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Sets the unit, step and scale of an item: physical value = (raw value + offset) × multiplier of the parameter ×
-    /// multiplier of the unit.
+    /// Sets the unit, step and scale of an item. The physical value is (raw value + offset) × multiplier of the
+    /// parameter × multiplier of the unit.
     fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
         let unit = view.find(|parameter| parameter.unit.as_deref());
         let multiplier = view.find(|parameter| parameter.multiplier.non_empty());

@@ -346,7 +346,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "value of objFlags").unwrap_or(0)
     }
 
-    /// Returns the type of a sub-object, as the type of its object defines it.
+    /// Returns the type of a sub-object, if the type of its object defines the sub-object.
     fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
         let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
         match &self.types.get(at as usize)?.shape {

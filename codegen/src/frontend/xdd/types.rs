@@ -148,8 +148,8 @@ impl<'t, 'a> Types<'t, 'a, '_> {
     }
 }
 
-/// Returns a type derived from `base`: a string of `count` characters or bytes, an array of `count` elements, or an
-/// alias of `base` if there is no count or only one element.
+/// Returns a type derived from `base`: a string of `count` characters or bytes, or an array of `count` elements.
+/// Without a count, or for a single element, returns an alias of `base`.
 fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, Option<u32>) {
     let Some(count) = count.filter(|&count| count > 0) else { return (Shape::Alias(base), bits) };
     match base {
@@ -180,7 +180,7 @@ impl<'a> Application<'a> {
     }
 }
 
-/// Returns the basic type on which an alias, an enumeration or a scaled type is based.
+/// Returns the type on which an alias, an enumeration or a scaled type is based. Returns any other type unchanged.
 pub(super) fn underlying(types: &[TypeDef], ty: Type) -> Type {
     let mut ty = ty;
     // Types of the application process have no cycles. The loop is limited because types that objects define may have

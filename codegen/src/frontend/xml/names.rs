@@ -82,7 +82,8 @@ impl<'a, L: Language> Names<'a, L> {
         self.0.iter().map(|(language, given)| LocalText { language: language.tag(), text: given.compact() })
     }
 
-    /// Returns the texts as documentation of an element: the name as the text, and the others as translations.
+    /// Returns the texts as documentation of an element: the text with the lowest rank as the description, and the
+    /// others as translations. Returns `None` if there is no text.
     pub fn documentation(&self) -> Option<Box<Documentation>> {
         let text = self.given()?.text.to_string();
         Some(Box::new(Documentation { text, translations: self.others(), ..Documentation::default() }))

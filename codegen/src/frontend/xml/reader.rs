@@ -16,7 +16,7 @@ pub type Read<T> = Result<T, Box<Diagnostic>>;
 /// Names and values of attributes.
 pub type Attributes = Vec<(CompactString, CompactString)>;
 
-/// State of an XML format, and its settings for reading elements.
+/// State of a front end, and the settings with which its format reads elements.
 pub trait Format {
     /// Name of the standard in diagnostics.
     const STANDARD: &'static str;
@@ -223,8 +223,8 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         given
     }
 
-    /// Reads a Boolean value: `true`, `false`, 1 or 0. Reports any other text. Returns `default` if the value is
-    /// missing.
+    /// Reads a Boolean value: `true`, `false`, 1 or 0. Returns `default` if the value is missing. Reports any other
+    /// text, and reads this text as true if it is `yes`, `true` in another case, or contains a digit from 1 to 9.
     pub fn flag_or(&mut self, given: &Given<'_>, default: bool) -> bool {
         if given.is_missing() {
             return default;
@@ -240,7 +240,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         value
     }
 
-    /// Reads a Boolean value: `true`, `false`, 1 or 0. Reports any other text. Returns false if the value is missing.
+    /// Reads a Boolean value as [`flag_or`](Self::flag_or) does. Returns false if the value is missing.
     pub fn flag(&mut self, given: &Given<'_>) -> bool {
         self.flag_or(given, false)
     }

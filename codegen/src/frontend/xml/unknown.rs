@@ -39,8 +39,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         self.extensions.push(Extension { key, value, span: attribute.span });
     }
 
-    /// Reports an unknown name that differs in one letter from one of `names`, or in two letters if it has more than eight.
-    /// A name of up to four letters is not compared. Returns whether the name is similar.
+    /// Reports an unknown name that is similar to one of `names`. A name of 5 to 8 letters may differ in one letter, and a longer
+    /// name in two letters. Shorter names are not compared. Returns whether the name was reported.
     pub(super) fn misspelled(&mut self, name: &str, span: Span, names: &[&str]) -> bool {
         if !self.diagnostics.wants(&codes::MISSPELLED_NAME) {
             return false;

@@ -1,11 +1,11 @@
-//! Fixed parts of frames: constants with their byte offsets, and the lengths of the data.
+//! Facts about frames: constant bytes with their offsets, and the lengths of the data.
 
 use std::collections::BTreeMap;
 
 use crate::ir::owner::Owner;
 use crate::ir::{Binding, Device, MessageField, SpaceRef};
 
-/// The data of a frame, without start, checksum and end.
+/// Facts about the data of a frame: constant bytes, lengths and misalignment. The data do not include start, checksum and end.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Frame {
     /// Constant bytes before the first field with a variable length, by byte offset.

@@ -44,8 +44,8 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
     all.into_iter().zip(lost).filter(|(_, is_lost)| !is_lost).map(|(shaped, _)| shaped).collect()
 }
 
-/// Returns, for each message, whether its reply cannot be decoded: the meaning of the reply depends on an earlier message, and no
-/// message with generated code can determine this meaning.
+/// Returns, for each message, whether its reply cannot be decoded. In this case, the meaning of the reply depends on an earlier
+/// message, and no message with generated code can determine this meaning.
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let selectors: HashSet<MessageId> =
         all.iter().filter(|shaped| shaped.can_select()).map(|shaped| shaped.id).collect();
@@ -70,8 +70,8 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     lost
 }
 
-/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if no code is
-/// generated for such a message, or if its reply is empty or borrows from the data.
+/// Returns the position of the message that the device sends if it rejects `message`. Returns `None` if there is no such message,
+/// if no code is generated for it, or if its reply is empty or borrows from the data.
 pub(crate) fn refusal(shapes: &[Shaped<'_>], message: &Message) -> Option<usize> {
     let id = message.error.as_ref()?.id?;
     shapes.iter().position(|shaped| shaped.id == id && !shaped.message.reply.is_empty() && !shaped.reply.borrows())

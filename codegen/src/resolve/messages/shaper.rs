@@ -197,8 +197,8 @@ impl<'a> Shaper<'a, '_> {
         (is_whole && is_within).then_some(Step::Echo { first: at / 8 + first, count: last - first + 1 }).ok_or(ECHO)
     }
 
-    /// Returns the byte offset of the parameter number in the request, if this number consists of whole bytes, starts at a byte
-    /// boundary, and has a length of `bits` bits.
+    /// Returns the byte offset of the parameter number in the request. Returns `None` unless this number has a length of `bits`
+    /// bits, consists of whole bytes, and starts at a byte boundary.
     fn requested_code(&self, bits: u32) -> Option<u32> {
         let (at, length) = self.request?.code?;
         (length == bits && at.is_multiple_of(8) && bits.is_multiple_of(8)).then_some(at / 8)
@@ -237,8 +237,8 @@ impl<'a> Shaper<'a, '_> {
     }
 }
 
-/// Checks that the steps contain at most one list of repeated fields, and at most one step with a variable length in addition to a
-/// counted list. A counted list must come after its count and before the other step.
+/// Checks that the steps contain at most one list of repeated fields. In addition to a counted list, at most one step may have a
+/// variable length. A counted list must come after its count and before the other step.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);
@@ -259,7 +259,8 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     }
 }
 
-/// Returns the maximum number of repetitions of a list whose count is in the field `name`, or `None` for another field.
+/// Returns the declared maximum number of repetitions if `field` is a list whose count is in the field `name`. Returns `Some(None)`
+/// for such a list without a maximum, and `None` for any other field.
 fn counts(field: &MessageField, name: &str) -> Option<Option<u16>> {
     match field {
         MessageField::Repeat { count: Some(count), max, .. } if count == name => Some(*max),

@@ -63,7 +63,7 @@ impl Step<'_> {
         matches!(self, Step::Settings { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. })
     }
 
-    /// Returns whether the step has a variable length that the following steps, or the end of the data, determine.
+    /// Returns whether the step has a variable length that no count determines.
     pub(super) fn is_open(&self) -> bool {
         self.bits().is_none() && !self.is_counted_list()
     }

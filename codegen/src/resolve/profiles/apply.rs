@@ -71,8 +71,8 @@ fn is_device_of(device: &Device, profile: &Profile) -> bool {
     follows(&numbers, &device.groups, profile)
 }
 
-/// Returns whether a device or module follows a profile: it declares the profile, or it has the object that identifies the
-/// profile and declares no other profile except `MODULAR`. Only the object identifies a profile without a number.
+/// Returns whether a device or module follows a profile. It follows a profile that it declares. If it declares no profile except
+/// `MODULAR`, it also follows each profile whose identifying object it has. Only the object identifies a profile without a number.
 fn follows(numbers: &[u32], groups: &[Group], profile: &Profile) -> bool {
     if profile.api.is_some() {
         return false;

@@ -21,12 +21,12 @@ const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
 /// Maximum number of axes (CiA 402: 0x6000 to 0x9FFF).
 const AXES: u16 = 8;
 
-/// The state while a profile is applied to several devices.
+/// State while a profile is applied to devices, modules and submodules.
 pub(crate) struct Completion<'p> {
     profile: &'p Profile,
-    /// Types of the device, followed by types that the profile adds.
+    /// Types of the device, module or catalog, followed by types that the profile adds.
     types: Vec<TypeDef>,
-    /// Types that were added to the device, by the type in the profile and the underlying integer.
+    /// Types that were added, by the type in the profile and the underlying integer.
     added: HashMap<(TypeId, Type), TypeId>,
 }
 
@@ -166,8 +166,8 @@ impl<'p> Completion<'p> {
         (item.ty != old).then_some((old, item.ty))
     }
 
-    /// Adds a type of the profile with the underlying integer `base` to the device. If the profile's type has another underlying
-    /// integer, the name of the type gets a suffix.
+    /// Adds a type of the profile with the underlying integer `base`, and returns its id. If the profile's type has another
+    /// underlying integer, the name of the type gets a suffix.
     fn meaning(&mut self, id: TypeId, base: Type) -> Option<TypeId> {
         if let Some(added) = self.added.get(&(id, base)) {
             return Some(*added);
@@ -230,13 +230,13 @@ impl<'p> Completion<'p> {
         Some(cited.unwrap_or_else(|| Box::new(FactOrigin::Standard(self.profile.name.clone()))))
     }
 
-    /// Moves the types of a device into this struct, so that types can be added.
+    /// Moves `types` into this struct, so that types can be added.
     fn start(&mut self, types: &mut Vec<TypeDef>) {
         self.types = std::mem::take(types);
         self.added.clear();
     }
 
-    /// Moves the types from this struct back to the device. Renames a new type if a type of the device has the same name.
+    /// Moves the types from this struct back to `types`. Renames a new type if one of the first `before` types has the same name.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
         *types = std::mem::take(&mut self.types);
         let before = before.min(types.len());
@@ -304,7 +304,8 @@ impl<'p> Completion<'p> {
     }
 }
 
-/// Returns the enumeration of a field, and the integer type with the length of the field.
+/// Returns the enumeration of a bit-field entry, and an unsigned type with the length of the entry. Returns `None` if the entry has
+/// no enumeration.
 fn named_values(field: &mut BitFieldEntry) -> Option<(&mut TypeId, Type)> {
     match &mut field.meaning {
         BitMeaning::Enumeration(id) => Some((id, Type::Unsigned(field.bits))),

@@ -1,4 +1,4 @@
-//! Profiles: facts of standards about the objects of all devices that follow them.
+//! Profiles: facts of standards about all devices, modules and submodules that follow these standards.
 //!
 //! A profile is a table with `[profile]`, written like an overlay (`dictionaries/README.md`). The compiler contains each profile
 //! in a compact form, so that profiles do not need the front end of register tables. Profiles are applied after overlays, and do

@@ -6,7 +6,7 @@ use crate::ir::{
     Quantity, Shape, StateMachine, Type, TypeDef, TypeId, Value,
 };
 
-/// Facts of a standard about the objects of all devices that follow this standard.
+/// Facts of a standard about all devices, modules and submodules that follow it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Profile {
     /// Name of the standard.
@@ -30,8 +30,9 @@ pub(crate) struct Profile {
     pub telegrams: Vec<Telegram>,
     /// Types that name the bits and values of objects and signals.
     pub types: Vec<TypeDef>,
-    /// Code tables and state machines of devices that follow the profile, with the ambiguities of each.
+    /// Code tables of devices that follow the profile, each with its ambiguities.
     pub codes: Vec<(CodeTable, Doubts)>,
+    /// State machines of devices that follow the profile, each with its ambiguities.
     pub machines: Vec<(StateMachine, Doubts)>,
 }
 

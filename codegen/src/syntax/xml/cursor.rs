@@ -87,7 +87,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Reads up to the root element.
+    /// Reads up to the root element and returns its start tag.
     ///
     /// # Errors
     ///

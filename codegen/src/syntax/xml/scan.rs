@@ -70,7 +70,7 @@ pub(super) fn find_near(byte: u8, bytes: &[u8]) -> Option<usize> {
     }
 }
 
-/// The length of an attribute value up to its closing quotation mark.
+/// Length of an attribute value up to its closing quotation mark, and whether the value needs decoding.
 #[derive(Clone, Copy)]
 pub(super) struct Value {
     pub length: usize,

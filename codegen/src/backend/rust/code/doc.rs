@@ -6,8 +6,8 @@ use crate::facts::number::hex16;
 
 /// Code of one construct: its text on one line, with marked positions for line breaks.
 ///
-/// The members of a list are either all on one line or each on a separate line, except the members of a list of numbers
-/// or names. As in Oppen's algorithm, a list is on one line only if the text that follows it, up to the next break
+/// The members of a list are either all on one line or each on a separate line. Lists of numbers or names are an
+/// exception. As in Oppen's algorithm, a list is on one line only if the text that follows it, up to the next break
 /// position, also fits.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {

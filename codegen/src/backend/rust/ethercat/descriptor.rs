@@ -1,4 +1,4 @@
-//! The constants `DEVICE` and `MODULE`. These constants describe a slave or a module with the types of the runtime.
+//! The constants `DEVICE` and `MODULE`, which describe a slave or a module with the types of the runtime.
 
 use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};
@@ -50,7 +50,8 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
     )
 }
 
-/// Returns ranges of consecutive objects whose indices depend on the slot in the same way.
+/// Returns ranges of consecutive objects whose indices depend on the slot or slot group in the same way. Other objects
+/// are left out.
 fn slot_objects(groups: &[Group]) -> Vec<Doc> {
     let known = groups.iter().filter_map(|group| Some((group.index()?, group)));
     let known = known.map(|(index, group)| (index, depends_on(group.depends_on_slot, group.depends_on_slot_group)));
@@ -177,7 +178,7 @@ fn init_command(command: &InitCommand) -> Doc {
     )
 }
 
-/// Filters `names` to the transitions that the runtime supports.
+/// Returns the transitions in `names` that the runtime supports.
 fn known_transitions<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'static str> {
     let names: Vec<&str> = names.collect();
     TRANSITIONS.into_iter().filter(|known| names.contains(known)).collect()

@@ -120,8 +120,8 @@ impl ItemAddresses<'_> {
 
     /// Returns a function that creates the location from the values that differ between items. A call of the generated
     /// function compiles in a third of the time that the full expression needs. Returns `None` if the runtime defines
-    /// the location type, if no bus allows access to the item, or if the item has different numbers in several windows.
-    /// `windows` is the path to the device's windows.
+    /// the location type, or if no bus allows access to the item. Also returns `None` if the item has different numbers
+    /// in several windows. `windows` is the path to the device's windows.
     pub fn maker(&self, located: &Located<'_>, windows: &str) -> Option<Maker> {
         let buses = self.buses();
         if buses.is_empty() || buses.path().is_some() {

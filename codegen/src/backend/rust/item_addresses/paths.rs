@@ -85,15 +85,16 @@ fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) 
     })
 }
 
-/// Returns whether an item has no variants, and none of its addresses is indirect, in a process image or in the memory
-/// of a slave controller.
+/// Returns whether an item has neither variants nor an address that is indirect, in a process image or in the memory of
+/// a slave controller.
 fn is_plain(item: &Item) -> bool {
     let is_address =
         |binding: &Binding| !matches!(binding, Binding::Indirect(_) | Binding::Image(_) | Binding::EscMemory { .. });
     item.variants.is_empty() && item.bindings.iter().all(is_address)
 }
 
-/// Returns the type of a value that occupies this number of bytes in a slave controller.
+/// Returns the type of a value in the memory of a slave controller: `ty`, or an unsigned integer if `length` is not the
+/// number of bytes of `ty`.
 fn in_memory(ty: Type, length: u16) -> Type {
     match (ty.bits(), u8::try_from(length)) {
         (Some(bits), Ok(length @ 1..=8)) if bits.div_ceil(8) != u32::from(length) => Type::Unsigned(8 * length),

@@ -110,7 +110,7 @@ fn compare(
     })
 }
 
-/// Returns the offset and mask of the named bits in a bit field.
+/// Returns the offset and mask of the bits named `name` in a bit field.
 fn bits(context: &Context<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
     let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
     let field = fields.iter().find(|field| field.name == name)?;

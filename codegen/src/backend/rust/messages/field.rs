@@ -187,7 +187,8 @@ fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Che
     (range.text() != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
 }
 
-/// Returns the range check for a number that has fewer bits than its Rust type, or a list of allowed values.
+/// Returns the range check for a number that has fewer bits than its Rust type. The check accepts the listed values or,
+/// if there is no list, the numbers within the limits and the width.
 fn narrow(item: &Item, base: Type, native: &str, value: String) -> Option<Check> {
     let value_type = ValueType::Odd { name: "", range: base.integer_range()? };
     Some((native.to_owned(), value, value_type.range_within(&variant::widest(item))?))

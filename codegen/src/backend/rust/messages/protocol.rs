@@ -37,7 +37,7 @@ pub(in super::super) struct ProtocolModel {
     pub by_default: Option<DefaultModel>,
 }
 
-/// A message, which consists of a request and a reply, ready to be printed.
+/// A message, which consists of a request, a reply, or both, ready to be printed.
 pub(in super::super) struct MessageModel {
     pub title: String,
     /// Documentation of the method that sends the request.
@@ -69,7 +69,7 @@ pub(in super::super) struct DataModel {
     pub is_complete: Option<String>,
 }
 
-/// The fields of a list entry.
+/// The type of a list entry, ready to be printed.
 pub(in super::super) struct EntryModel {
     pub name: String,
     pub title: String,

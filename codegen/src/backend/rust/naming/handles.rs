@@ -101,7 +101,7 @@ impl<'a> HandleNames<'a> {
         })
     }
 
-    /// Returns the item with this ID. If the item belongs to an object with several values, also returns the object.
+    /// Returns the item with this ID. If the item is in an object with several values, also returns the object.
     fn find(&self, id: ItemId) -> Option<(Option<&NamedObject<'a>>, &NamedItem<'a>)> {
         if let Ok(at) = self.registers.binary_search_by_key(&id, |register| register.entry.id) {
             return Some((None, &self.registers[at].entry));

@@ -6,9 +6,9 @@ use crate::names::{self, Case, NameRequest};
 /// A state machine and its names.
 pub(in crate::backend::rust) struct NamedMachine<'a> {
     pub machine: &'a StateMachine,
-    /// Name of the type of states.
+    /// Name of the state type.
     pub states: String,
-    /// Name of the type of commands.
+    /// Name of the command type.
     pub commands: String,
     /// Name of the bit field method that returns the state.
     pub getter: String,

@@ -96,7 +96,7 @@ fn handle_types(code: &mut Code, model: &Model) {
     }
 }
 
-/// Writes an object: a module with its values, or its only value.
+/// Writes an object as a module of handles, or as the handle of its only value.
 pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &ObjectModel) {
     if !object.is_module {
         return object.items.iter().for_each(|item| handle(code, item, ""));

@@ -91,7 +91,8 @@ fn submodule_docs(
     lines
 }
 
-/// Returns the length of the cyclic data, including an F-message trailer.
+/// Returns the expression for the length of the cyclic data, including an F-message trailer. The expression is `None`
+/// if there are no data.
 fn length(data: Option<&IoData>) -> String {
     let Some(data) = data else { return "None".to_owned() };
     let length = u64::from(data.image.length) + u64::from(data.image.overhead);
@@ -140,7 +141,7 @@ pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str
     }
 }
 
-/// Returns the slot of a device access point.
+/// Returns the slot of a device access point: its first fixed slot, otherwise its first allowed slot, otherwise 0.
 pub(super) fn slot(point: &AccessPoint<'_>) -> u16 {
     let fixed = point.settings.places.fixed.iter().next();
     fixed.or_else(|| point.settings.places.allowed.iter().next()).unwrap_or(0)

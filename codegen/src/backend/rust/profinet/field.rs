@@ -73,7 +73,8 @@ enum FieldKind {
     Bytes,
 }
 
-/// Purpose of the struct that contains a field. The purpose determines the Rust types of integers with unusual widths.
+/// Purpose of the struct that contains a field. The purpose determines the Rust types of integers whose width no
+/// primitive type has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
     /// The struct is an image of cyclic data, which is written without checks. Each field therefore has a type that can

@@ -32,8 +32,8 @@ pub(super) use values::Enumeration;
 /// All device access points of a file, ready to be printed.
 pub(super) struct FileModel<'a> {
     pub access_points: Vec<DapModel<'a>>,
-    /// True if the file has a single device access point. The content of a single device access point is at the top
-    /// level of the output.
+    /// True if the file has a single device access point. The code of a single device access point is at the top level
+    /// of the output.
     pub is_single: bool,
     pub modules: Vec<ModuleModel<'a>>,
     pub submodules: Vec<SubmoduleModel<'a>>,

@@ -70,7 +70,8 @@ struct Slot<'s> {
     submodules: Subslots,
     /// Submodules that the module supports.
     uses: &'s [SubmoduleUse],
-    /// Subslots of the module. If the list is empty, the module has the subslots of its submodules.
+    /// Subslots of the module. `None` for the device access point. If the list is empty, the module has the subslots of
+    /// its submodules.
     subslots: Option<&'s Numbers>,
 }
 
@@ -136,7 +137,7 @@ impl<'s> Plan<'s> {
         None
     }
 
-    /// Plugs the first submodule with cyclic data into a free subslot of any module.
+    /// Plugs the first submodule with cyclic data into a free subslot of a plugged module.
     fn plug_any_submodule(&mut self) -> Option<Exchange> {
         let slots: Vec<u16> = self.slots.keys().copied().collect();
         let data = slots.into_iter().find_map(|slot| self.plug_submodule(slot))?;
@@ -169,7 +170,8 @@ impl<'s> Plan<'s> {
         fits(inputs, max.input) && fits(outputs, max.output) && fits(inputs + outputs, max.data)
     }
 
-    /// Returns the first submodule with cyclic data, preferably one with both inputs and outputs.
+    /// Returns the first submodule with both inputs and outputs or, if there is none, the first submodule with cyclic
+    /// data.
     fn data(&self) -> Option<ProfinetData> {
         let all = || {
             self.slots.iter().flat_map(|(slot, place)| place.submodules.iter().map(move |(at, id)| (*slot, *at, *id)))

@@ -42,7 +42,7 @@ impl<'a> Scope<'a> {
         Scope { catalog, options, access_points, modules, submodules, values }
     }
 
-    /// Returns whether the file has a single device access point. The content of a single device access point is at the
+    /// Returns whether the file has a single device access point. The code of a single device access point is at the
     /// top level of the output.
     pub(super) fn is_single(&self) -> bool {
         self.access_points.len() == 1

@@ -37,7 +37,7 @@ pub(super) enum RowEffect {
     NoMatch,
     /// The row matches, but the description already contains all of its facts.
     NoChange,
-    /// The row changed something, or its error was reported.
+    /// The row changed an object or item, or an error in the row was reported.
     Changed,
 }
 

@@ -100,7 +100,8 @@ fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Opt
     }
 }
 
-/// Returns the facts that a row declares about its objects, except their addresses and type.
+/// Returns the buses, unit, behavior and documentation that a row declares for its objects, and the clause of the
+/// standard.
 fn described(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Described {
     let mut item = Item { ty: ty.unwrap_or(Type::Opaque(None)), ..Item::new(Binding::canopen(0, 0)) };
     rows.fill(reader, &mut item, named(row), &row.row.value, None);

@@ -18,8 +18,8 @@ pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
     }
 }
 
-/// Returns a statement that checks a field. Returns `None` if all values of the field's type are allowed, or none of
-/// them.
+/// Returns a statement that checks a field. Returns `None` if all values of the field's type are allowed, or if the
+/// allowed ranges contain no value of this type.
 pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<Doc> {
     let Parameter { item, field } = parameter;
     let allowed = ranges(&item.limits);
