@@ -3,7 +3,7 @@
 
 usage: docs/sample.py [--seed TEXT] [--count NUMBER] [AREA...]
 
-The areas are book, tables, diagnostics, rustdoc, dictionaries and comments. Without an area, the script samples all areas. The default
+The areas are book, tables, diagnostics, rustdoc, dictionaries, comments and networks. Without an area, the script samples all areas. The default
 seed is the current commit, so that all readers get the same sentences. The output has the form `file:line: sentence`.
 """
 import argparse
@@ -124,6 +124,8 @@ AREAS = {
     "dictionaries": dictionaries,
     "comments": lambda: of_comments(files("codegen/*.rs", "cli/*.rs", "tests/*.rs", "benches/*.rs"), "///|//!|//")
     + of_comments(files("*.sh", "*.py", ".ci/run"), "#"),
+    "networks": lambda: of_markdown(["docs/src/network.md", "docs/src/devices.md"])
+    + of_comments(files("network/*.rs", "device/*.rs", "codegen/export/src/sii/*.rs"), "///|//!|//"),
 }
 
 

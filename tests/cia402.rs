@@ -560,7 +560,7 @@ fn a_quick_stop() {
         assert_eq!(rig.motion().quick_stop(DEADLINE), Ok(state));
         assert_eq!((rig.drive.device().get(VELOCITY), rig.controls()), (Ok(0), vec![0x02]));
     }
-    // The command works in every state, and clears all other bits.
+    // "Quick stop" works in every state, and clears all other bits of the controlword.
     let mut rig = moving();
     rig.write(0x6040, &0x0306_u16.to_le_bytes());
     rig.writes.clear();

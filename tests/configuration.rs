@@ -65,7 +65,7 @@ fn a_strict_device_accepts_the_configuration() {
     assert_eq!(device.get(objects::SERIAL_NUMBER), Ok(0));
 }
 
-/// Each phase depends on an earlier phase.
+/// Each phase of a configuration depends on an earlier phase.
 #[test]
 fn the_strict_device_refuses_another_order() {
     let refused = |configuration: Configuration, write: SdoWrite, code: AbortCode| {

@@ -230,7 +230,7 @@ fn a_change_rewrites_only_its_bindings() {
     };
     assert_eq!(build(), Vec::<String>::new(), "an unchanged build runs nothing");
     let before = times();
-    // Cargo and file systems compare times with limited resolution.
+    // File systems store the times of files with limited resolution, and Cargo compares these times.
     std::thread::sleep(std::time::Duration::from_millis(1100));
     write("valve_3.eds", &VALVE.replace("Opening", "Position"));
     let running = build();

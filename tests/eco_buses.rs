@@ -258,8 +258,8 @@ fn on_profinet() -> Outcome<()> {
     ];
     let changes = &drive.image().changes;
     assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
-    // The item number and the value in the window must change in the same cycle. In different cycles, the drive would
-    // write the value to a wrong item.
+    // The item number and the value in the window must change in the same cycle. Otherwise, the drive would write the
+    // value to a wrong item.
     let pairs = [
         "80 02 00 00 00 3C",
         "80 1B 00 00 00 00",

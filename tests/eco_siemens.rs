@@ -1,5 +1,5 @@
-//! Tests the second Modbus address map of the Eco drive, which is intended for Siemens controllers. An option of the
-//! register table selects this map. The manual prints the fields of the requests ("Esempi di utilizzo dei codici
+//! Tests the second Modbus address map of the Eco drive, which is intended for Siemens controllers. Two options of
+//! the register table select this map. The manual prints the fields of the requests ("Esempi di utilizzo dei codici
 //! funzione"), but not their bytes.
 
 use std::convert::Infallible;
@@ -20,7 +20,7 @@ use siemens::{objects, types};
 struct Probe {
     asked: Vec<(u16, u16)>,
     words: Vec<u16>,
-    /// The words that reads return.
+    /// The words that the simulated drive returns if it is read.
     registers: Vec<u16>,
 }
 

@@ -52,7 +52,7 @@ mod with_ethercrab {
 
     use super::*;
 
-    /// Sends a value through the traits, as `ethercrab` does.
+    /// Encodes a value and decodes it again with the methods of the traits, as `ethercrab` does.
     fn echo<T: EtherCrabWireReadWrite + EtherCrabWireReadSized + EtherCrabWireWriteSized>(value: &T) -> T {
         let mut buffer = T::buffer();
         assert_eq!(buffer.as_ref().len(), T::PACKED_LEN);

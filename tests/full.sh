@@ -125,7 +125,7 @@ part_rest() {
     for name in $all; do [[ $named == *" $name "* ]] || rest+=("$name"); done
     tests "${rest[@]}"
 }
-# Runs an example with a simulated device for each bus.
+# For each bus, runs an example with a simulated device.
 part_examples() {
     local example failed=0
     cargo build --quiet --all-features --examples || return 1

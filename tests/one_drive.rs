@@ -1,5 +1,5 @@
-//! Tests the bindings of one device on all buses. The accessors that are generated from `data/one-drive.toml` use objects, windows,
-//! registers and a process image.
+//! Tests the bindings of one device on several buses. The accessors that are generated from `data/one-drive.toml` use objects,
+//! windows, registers and a process image.
 
 #![cfg(all(feature = "macros", feature = "std"))]
 
@@ -38,7 +38,8 @@ fn now<F: Future>(future: F) -> F::Output {
     }
 }
 
-/// Returns a simulated drive on CANopen. Its window gives access to three registers.
+/// Returns a simulated drive on CANopen. Three registers can be read through a window, and one of them can be written through
+/// another window.
 fn node() -> Device {
     let mut device = Device::new(ENTRIES);
     device

@@ -217,7 +217,7 @@ const fn entry(index: u16, sub_index: u8, data_type: DataType, initial: &'static
     }
 }
 
-/// Writes that a PDO struct of [`counting`] would return.
+/// Writes that a generated PDO struct would return for TPDO 1 of the node [`counting`].
 const COUNTING: [SdoWrite; 5] = [
     SdoWrite::new_u32(0x1800, 1, 0x8000_0185),
     SdoWrite::new_u8(0x1A00, 0, 0),
@@ -260,7 +260,7 @@ fn the_sync_start_value_is_the_first_sync() {
         configure(&mut drive, parameters, COUNTING);
         assert_eq!(after_syncs(&mut drive, counted), expected, "every {every}, start {start}");
     }
-    // SYNC messages without a counter: the start value has no effect.
+    // If the SYNC messages have no counter, the start value has no effect.
     let mut drive = counting();
     configure(&mut drive, NEW.transmission(TransmissionType::EverySync(2)).sync_start(3), COUNTING);
     assert_eq!(after_syncs(&mut drive, |drive, _| drive.sync().expect("sent")), [no, yes, no, yes]);

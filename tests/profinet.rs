@@ -92,8 +92,8 @@ mod profisafe {
 
     #[test]
     fn f_parameters_get_their_checksum() {
-        // SIL 2 is 01 in bits 2 and 3. Version 1 is in bits 6 and 7. The host and device addresses are 1, and the time
-        // is 100 ms. The CRC in the file is 49406 = 0xC0FE.
+        // SIL 2 is 01 in bits 2 and 3. Version 1 is in bits 6 and 7. The source and destination addresses are 1, and the
+        // watchdog time is 100 ms. The CRC in the file is 49406 = 0xC0FE.
         assert_eq!(F_PARAMETERS.default_bytes(), [0x04, 0x40, 0x00, 0x01, 0x00, 0x01, 0x00, 0x64, 0xC0, 0xFE]);
         let mut parameters = F_PARAMETERS.default;
         parameters.destination_address = 12;

@@ -127,7 +127,7 @@ fn set_point(device: &mut Device, target: i64, bits: i64) {
     write(device, 0x6040, 0x0F | bits);
 }
 
-/// Advances the time until the condition is true, and returns the time in milliseconds.
+/// Advances the time until the condition is true, and returns the elapsed time in milliseconds.
 fn until(device: &mut Device, condition: impl Fn(&Device) -> bool) -> u64 {
     (0..20_000)
         .find(|_| {
@@ -175,7 +175,7 @@ fn every_command() {
         write(&mut device, 0x6040, control);
         assert_eq!(state(&device), expected, "0x{control:02X}");
     }
-    // In "Ready to switch on", the command "Enable operation" passes through "Switched on" within one step.
+    // In "Ready to switch on", the command "Enable operation" moves the drive through "Switched on" within one step.
     device.step(ms(1));
     assert_eq!(state(&device), State::OperationEnabled);
     write(&mut device, 0x6040, 0x06);
@@ -393,7 +393,7 @@ fn a_fault_during_motion() {
     // The default quick-stop deceleration is ten times the profile deceleration.
     assert_eq!(until(&mut device, |device| state(device) == State::Fault), 10);
     let position = number(&device, 0x6064);
-    // The reset discards the set-point.
+    // The fault reset discards the set-point.
     DemoDrive::new(device.client::<CanOpen>()).walk(State::OperationEnabled, DEADLINE).unwrap();
     device.step(ms(500));
     assert_eq!(number(&device, 0x6064), position);

@@ -33,7 +33,7 @@ struct Key {
     line: Option<String>,
 }
 
-/// A line of the file.
+/// An entry of the baseline: a line after the first line of the file.
 #[derive(Serialize, Deserialize)]
 struct Entry {
     #[serde(flatten)]
@@ -41,7 +41,7 @@ struct Entry {
     count: usize,
 }
 
-/// Number of equal diagnostics.
+/// Numbers of equal diagnostics in the baseline and in this run.
 #[derive(Clone, Copy, Default)]
 struct Count {
     /// Number in the baseline.
@@ -58,7 +58,7 @@ pub(super) struct Baseline {
     counts: BTreeMap<Key, Count>,
     /// Files that were checked in this run.
     checked: BTreeSet<String>,
-    /// Number of diagnostics that were left out.
+    /// Number of diagnostics of this run that were left out because they are in the baseline.
     left_out: usize,
 }
 

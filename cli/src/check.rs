@@ -21,7 +21,7 @@ pub(super) fn run(check: &Check) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Writes a baseline with the diagnostics of all inputs.
+/// Writes a baseline with the diagnostics of all readable inputs. Reports unreadable inputs instead.
 fn write(check: &Check, options: &Options, mut baseline: Baseline) -> Result<bool, Failure> {
     let mut reporter = Reporter::new(&check.inputs, false)?;
     inputs::each(&check.inputs, options, |_, compilation| {

@@ -52,7 +52,8 @@ fn last_class(shown: Shown) -> Class {
     }
 }
 
-/// Compiles a description. If the description has errors, reports the errors and returns `None`.
+/// Compiles a description. If the description has errors or describes nothing, reports its diagnostics and returns
+/// `None`.
 fn read(path: &Path, options: &Options) -> Result<Option<Compilation>, Failure> {
     let source =
         Source::read(path).map_err(|error| Failure::Usage(format!("cannot read {}: {error}", path.display())))?;

@@ -29,7 +29,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let networks = Networks::take(&mut files, &options.levels, &mut reporter)?;
     let names = Names::new(&files);
     // A single input needs no first pass, because the names of its folders in the site do not depend on other files.
-    // Several inputs are compiled twice, because keeping all compilations in memory would cost more.
+    // Several inputs are compiled twice, so that not all compilations have to be kept in memory.
     if files.len() > 1 || !networks.is_empty() {
         inputs::compile_all(&files, &docs.inputs, &options, |input, compilation| {
             compilation.usable().into_iter().for_each(|catalog| site.announce(names.of(input), catalog));
@@ -142,7 +142,7 @@ fn stale(folder: &Path, written: &HashSet<PathBuf>) -> Vec<PathBuf> {
     stale
 }
 
-/// Returns whether `lexibus docs` wrote a file.
+/// Returns whether `lexibus docs` wrote the file at `path`.
 fn was_written(path: &Path) -> bool {
     let page = Page { path: path.to_string_lossy().into_owned(), text: String::new() };
     std::fs::read(path).is_ok_and(|bytes| page.replaces(&String::from_utf8_lossy(&bytes)))
@@ -152,7 +152,7 @@ fn was_written(path: &Path) -> bool {
 fn remove(root: &Path, path: &Path) -> Result<(), String> {
     std::fs::remove_file(path).map_err(|error| format!("cannot remove {}: {error}", path.display()))?;
     for folder in path.ancestors().skip(1).take_while(|folder| *folder != root) {
-        // Folders with other files stay.
+        // Only an empty folder can be removed.
         if std::fs::remove_dir(folder).is_err() {
             break;
         }

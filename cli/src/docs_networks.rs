@@ -18,7 +18,7 @@ use super::Failure;
 pub(super) struct Networks(Vec<(String, Compilation)>);
 
 impl Networks {
-    /// Reads the network files in a list of files, and removes them from the list.
+    /// Compiles the network files in a list of files, reports their diagnostics, and removes these files from the list.
     pub(super) fn take(files: &mut Vec<PathBuf>, levels: &Levels, reporter: &mut Reporter) -> Result<Self, Failure> {
         let (mut networks, mut titles) = (Vec::new(), HashSet::new());
         for path in std::mem::take(files) {
@@ -42,12 +42,12 @@ impl Networks {
         self.0.is_empty()
     }
 
-    /// Announces the devices of all networks.
+    /// Announces to the site the devices of all networks without errors.
     pub(super) fn announce(&self, site: &mut Site) {
         self.usable().for_each(|(title, network)| announce(network, title, site));
     }
 
-    /// Returns the pages of all networks and of their devices.
+    /// Returns the pages of all networks without errors, and the pages of the devices in these networks.
     pub(super) fn pages(&self, site: &mut Site) -> Vec<Page> {
         self.usable().flat_map(|(title, network)| pages(network, title, site)).collect()
     }
@@ -57,7 +57,8 @@ impl Networks {
     }
 }
 
-/// Reads a file if it is a network file. Files of other formats are not read, because ESI files can be large.
+/// Returns the content of a network file, or `None` for other files. Files with other extensions are not read, because
+/// ESI files can be large.
 fn network_file(path: &Path) -> Option<Source> {
     Format::of_name(&path.to_string_lossy())?;
     Source::read(path).ok().filter(is_network)

@@ -108,7 +108,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-/// Writes the exported files of an input.
+/// Writes the exported files of an input. Reports an error if there are several files and the output is not a folder.
 fn write(
     format: &Format,
     input: &Path,

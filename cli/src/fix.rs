@@ -106,8 +106,8 @@ impl Fixed {
     }
 }
 
-/// Returns the fixes in the first file of a compilation, in ascending order. Leaves out fixes that overlap an earlier fix
-/// or change nothing.
+/// Returns the fixes in the first file of a compilation, in ascending order of their positions. Leaves out fixes that
+/// have an empty span, overlap an earlier fix or change nothing.
 fn replacements(compilation: &Compilation) -> Vec<(Range<usize>, &str)> {
     let source = &compilation.sources[0];
     let mut all: Vec<(Range<usize>, &str)> = Vec::new();
@@ -128,7 +128,7 @@ fn replacements(compilation: &Compilation) -> Vec<(Range<usize>, &str)> {
     all
 }
 
-/// Prints the changes to a file on standard output.
+/// Prints the unified diff of a file and its fixed version to standard output.
 fn show(old: &Source, fixed: &Fixed) -> io::Result<()> {
     let new = &fixed.compilation.sources[0];
     let mut out = io::stdout().lock();
@@ -138,7 +138,7 @@ fn show(old: &Source, fixed: &Fixed) -> io::Result<()> {
     out.flush()
 }
 
-/// Writes a changed file. If `keep` is set, first saves the old content in a backup.
+/// Writes a file to which fixes were applied. If `keep` is set, first saves the old content in a backup.
 fn write(path: &Path, old: &Source, fixed: &Fixed, keep: bool) -> io::Result<()> {
     if fixed.count == 0 {
         return Ok(());
@@ -185,7 +185,7 @@ fn copy(path: &Path, backup: &Path) -> io::Result<()> {
         io::copy(&mut old, &mut file)
     });
     if copied.is_err() {
-        // The backup is incomplete.
+        // Remove the incomplete backup.
         let _ = fs::remove_file(backup);
     }
     copied.map(|_| ())
@@ -243,8 +243,8 @@ mod tests {
     use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
     use lexibus_codegen::source::{FileId, Span};
 
-    /// A program acquires the guard `settled` before it ends on a signal. While the test holds this guard, no backup
-    /// must be started.
+    /// `lexibus` acquires the guard `settled` before a signal ends it. While the test holds this guard, no backup must be
+    /// started.
     #[test]
     fn a_backup_is_complete_when_the_program_ends() {
         let folder = std::env::temp_dir().join(format!("lexibus-fix-copy-{}", std::process::id()));

@@ -128,7 +128,7 @@ fn progress(files: usize) -> ProgressBar {
 }
 
 /// Returns the input files. Each folder is replaced with the device descriptions in it and in its subfolders, sorted by
-/// path.
+/// path. Returns an error if a folder contains no device description or its subfolders are nested too deeply.
 pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
@@ -179,7 +179,7 @@ fn search(
 }
 
 /// Returns whether a file is a device description. The file must have a known extension. An XML or TOML file must also
-/// have matching content.
+/// have matching content or be unreadable; the error of an unreadable file is reported later.
 fn is_description(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xml") {

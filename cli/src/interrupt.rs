@@ -24,7 +24,7 @@ impl Deferred {
         Deferred
     }
 
-    /// Returns whether Ctrl-C was pressed.
+    /// Returns whether Ctrl-C was pressed while it was deferred.
     pub(super) fn is_requested(&self) -> bool {
         IS_REQUESTED.load(Ordering::SeqCst)
     }

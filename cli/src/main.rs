@@ -56,7 +56,7 @@ use report::Reporter;
 /// Exit code for errors in the input, output that cannot be written, stale output, breaking changes, device failures,
 /// deviations or differences.
 const FAILED: u8 = 1;
-/// Exit code for invalid arguments.
+/// Exit code for invalid arguments, including names of files that a command cannot use.
 const USAGE: u8 = 2;
 /// Exit code after Ctrl-C, as in shells: 128 plus the number of the signal. Each output file is then complete or
 /// unchanged.
@@ -102,7 +102,7 @@ fn say(line: &str) {
 
 /// The reason why a command ended early.
 enum Failure {
-    /// The arguments are invalid.
+    /// The arguments are invalid, or a file that they name cannot be used.
     Usage(String),
     /// The output cannot be written.
     Output(std::io::Error),

@@ -56,8 +56,8 @@ pub(super) fn report(reporter: &mut Reporter, compilation: &Compilation) -> Resu
     reporter.report(&Reported::of_diagnostics(source.clone(), diagnostics.clone()))
 }
 
-/// Returns a summary: the number of nodes, the bus load of the cyclic frames, and the PDOs that the bus load does not
-/// include because they have no inhibit time.
+/// Returns a summary: the number of nodes including the master, the bus load of the cyclic frames, and the PDOs that
+/// the bus load leaves out, because they have neither an inhibit time nor an event timer.
 fn summary(network: &Network) -> String {
     let nodes = network.nodes.len() + usize::from(network.master.is_some());
     let noun = if nodes == 1 { "node" } else { "nodes" };

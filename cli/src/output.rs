@@ -50,8 +50,8 @@ impl<'g> Target<'g> {
         self.is_folder
     }
 
-    /// Writes an output, or compares it with the existing file. In a folder, the file name is `name` with the extension
-    /// `ending`. A number makes repeated names unique.
+    /// Writes an output to standard output or a file, or compares it with the existing file. In a folder, the file name
+    /// is `name` with the extension `ending`. A number makes repeated names unique.
     pub(super) fn put(
         &mut self,
         name: impl FnOnce() -> String,

@@ -120,7 +120,7 @@ fn printed(output: &Output) -> Vec<String> {
     text.trim_end().lines().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// Returns whether the lines match the expected lines. An expected `…` matches any number of lines.
+/// Returns whether the lines match the expected lines. An expected line `…` matches any number of lines.
 fn agrees(lines: &[String], expected: &[&str]) -> bool {
     match expected.split_first() {
         None => lines.is_empty(),

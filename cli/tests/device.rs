@@ -1,4 +1,4 @@
-//! Tests the commands that access devices on simulated devices: questions, exit codes and interruptions.
+//! Tests the commands that access devices: questions, reports, exit codes and interruptions, with simulated devices.
 #![cfg(unix)]
 
 mod bus_support;
@@ -208,7 +208,7 @@ fn a_report_is_written_in_each_format() {
     let output = run(&[&common[..], &["--format", "html", "--out", &page.to_string_lossy()]].concat());
     assert!(output.status.success(), "{:?}", texts(&output));
     assert!(std::fs::read_to_string(page).expect("a page").starts_with("<!DOCTYPE html>"));
-    // The description is that of another device, so `verify` finds deviations and the exit code is 1.
+    // The description is for another product, so `verify` finds deviations and the exit code is 1.
     let pump = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/examples/pump.eds");
     let overlay = folder("overlay").join("found.toml");
     let pump = pump.to_string_lossy().into_owned();

@@ -54,8 +54,8 @@ overlays() {
     done
 }
 
-# Creates a request with each code to node 1, followed by a reply of zeros. The crate `arbitrary` expects 01 before each byte of a
-# list, and 00 after the last byte.
+# Creates one file for each request code: a request to node 1, followed by a reply of zeros. The crate `arbitrary` expects 01
+# before each byte of a list, and 00 after the last byte.
 requests() {
     local code number
     mkdir -p corpus/requests

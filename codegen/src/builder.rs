@@ -80,18 +80,18 @@ impl Builder {
         self
     }
 
-    /// Selects a device by name, order code or product code, and optionally by revision: `"EL3004"`,
+    /// Selects devices by name, order code, identifier or product code, and optionally by revision: `"EL3004"`,
     /// `"0x0BBC3052@0x00110000"`, `"EL3004@latest"`.
     ///
-    /// Each call adds a device. Without a call, all devices are selected.
+    /// Each call adds a filter. Without a call, all devices are selected.
     pub fn device(mut self, filter: impl Into<String>) -> Self {
         self.devices.push(filter.into());
         self
     }
 
-    /// Selects a module by name, identifier or ident number.
+    /// Selects modules by name, order code, identifier or ident number.
     ///
-    /// Each call adds a module. Without a call, all modules of the selected devices are selected.
+    /// Each call adds a filter. Without a call, all modules of the selected devices are selected.
     pub fn module(mut self, filter: impl AsRef<str>) -> Self {
         self.options.select.modules.push(filter.as_ref().into());
         self
@@ -122,7 +122,7 @@ impl Builder {
     /// Sets whether profiles (CiA 301, CiA 402, CoE, PROFIdrive) complete the objects of devices that follow them. The
     /// default is `true`.
     ///
-    /// Profiles add names of bits and values, units and descriptions.
+    /// Profiles add units, descriptions, and the names of bits and values.
     pub fn profiles(mut self, profiles: bool) -> Self {
         self.options.no_profiles = !profiles;
         self
@@ -141,20 +141,21 @@ impl Builder {
         self
     }
 
-    /// Sets whether each entry has an accessor method. Generated code without accessors compiles in a third of the time that code
-    /// with accessors needs.
+    /// Sets whether an accessor method is generated for each entry. Generated code without accessors compiles in a third of
+    /// the time that code with accessors needs.
     pub fn accessors(mut self, accessors: bool) -> Self {
         self.options.rust.accessors = accessors;
         self
     }
 
-    /// Sets whether each PDO has a struct.
+    /// Sets whether a struct is generated for each PDO.
     pub fn pdos(mut self, pdos: bool) -> Self {
         self.options.rust.pdos = pdos;
         self
     }
 
-    /// Sets whether the output contains a static table of all entries, for tools.
+    /// Sets whether the output contains a static table of all entries, for tools: always, never, or only if a cargo feature is
+    /// enabled.
     pub fn table(mut self, table: Presence) -> Self {
         self.options.rust.table = table;
         self

@@ -13,8 +13,8 @@ pub const MAX_REPEAT: u32 = 0x1_0000;
 
 /// Maximum number of derived items in a file. A derived item has no separate line in the file.
 ///
-/// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. For
-/// GSDML, the limit applies to the values that are copied if a value list is used with several types. In addition, the limit
+/// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and rows of a register table that
+/// describe several items. Copied texts in a register table count as items, too (see [`ROW_BYTES_PER_ITEM`]). For GSDML, the limit applies to the values that are copied if a value list is used with several types. In addition, the limit
 /// applies to the items that `import` creates.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 

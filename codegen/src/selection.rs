@@ -236,7 +236,8 @@ impl Selection {
         }
     }
 
-    /// Removes objects that are not selected. Selecting objects is the last step, because names in PDOs come from objects.
+    /// Removes objects that are not selected, and reports filters that match no object. Selecting objects is the last step, because
+    /// names in PDOs come from objects.
     pub(crate) fn objects(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
         if self.objects.is_empty() {
             return;
@@ -300,7 +301,8 @@ impl Selection {
     }
 }
 
-/// Returns the indices of all objects, registers with an object address, and mapping objects of PDOs.
+/// Returns the indices of all objects, registers with an object address, and mapping objects of PDOs, without fixed objects of
+/// modules.
 fn indices(catalog: &Catalog) -> BTreeSet<u16> {
     let Catalog { devices, modules, .. } = catalog;
     let parts = devices.iter().map(|device| (&device.groups, &device.process_data));

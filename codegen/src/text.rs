@@ -1,4 +1,4 @@
-//! Shortens, sanitizes and compares texts for diagnostics.
+//! Functions that shorten, sanitize, format and compare texts, mainly for diagnostics.
 
 use std::borrow::Cow;
 use std::fmt::Display;

@@ -13,8 +13,8 @@ pub struct Unique {
 }
 
 impl Unique {
-    /// Returns `wanted` if it is unused. Otherwise, returns the result of `numbered` for the first unused number, starting with
-    /// 2.
+    /// Returns `wanted` if this name is unused. Otherwise, calls `numbered` with 2, 3 and so on, and returns the first unused
+    /// name. The returned name is used from then on.
     pub fn unique(&mut self, wanted: &str, numbered: impl Fn(u32) -> CompactString) -> CompactString {
         let mut name = CompactString::from(wanted);
         while !self.used.insert(name.clone()) {

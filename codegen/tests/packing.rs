@@ -1,7 +1,7 @@
 //! Tests that generated code packs and unpacks data without changing it. The tests use random bits for the process data,
 //! process images, records and messages of all corpus files and dictionaries.
 //!
-//! The tests compile the bindings to programs and run them. `packing/program.rs` contains the checks for a type. The
+//! The tests compile the bindings to programs and run them. `packing/program.rs` contains the checks for each kind of type. The
 //! intermediate representation determines the expected bit positions (`packing/layouts.rs`) and whether requests contain a
 //! device number.
 
@@ -34,7 +34,8 @@ use lexibus_codegen::{Presence, RustOptions};
 /// Source text at the start of each test program.
 const CHECKS: &str = include_str!("packing/program.rs");
 
-/// Maximum number of lines of bindings per program. A higher number needs more memory, and a lower number needs more time.
+/// Number of lines of bindings after which a new program starts. A higher number needs more memory, and a lower number needs more
+/// time.
 const MAX_LINES: usize = 60_000;
 
 fn options() -> Options {
@@ -55,8 +56,8 @@ impl Bindings {
     fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
         let text = emit_catalog(catalog, &options().rust)?;
         let (checks, counts) = found::checks(name, &text, catalog);
-        // The checks depend only on the IR. If different IRs wrongly gave equal bindings, their checks would differ, and both
-        // would run.
+        // For equal bindings, the checks depend only on the IR. If different IRs wrongly gave equal bindings, their checks would
+        // differ, and both would run.
         let key = body(&text).to_owned() + &checks.concat().replace(name, "");
         let is_new = seen.lock().expect("the seen keys").insert(key);
         is_new.then(|| (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts))

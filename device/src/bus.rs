@@ -1,4 +1,5 @@
-//! Addresses of buses on the computer: `can:can0`, `slcan:/dev/ttyACM0@500k`, `tcp:192.168.0.5`, `rtu:/dev/ttyUSB0@19200`.
+//! Addresses of the buses that are connected to the computer: `can:can0`, `slcan:/dev/ttyACM0@500k`, `tcp:192.168.0.5`,
+//! `rtu:/dev/ttyUSB0@19200`.
 
 use std::error::Error;
 use std::fmt;
@@ -18,13 +19,13 @@ mod line;
 #[cfg(feature = "modbus")]
 mod modbus;
 
-/// A bus on the computer.
+/// The address of a bus that is connected to the computer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BusAddress {
     /// `can:NAME`: a CAN interface of Linux (SocketCAN).
     SocketCan(String),
-    /// `slcan:PATH` or `slcan:PATH@500k`: a CAN adapter on a serial line. Without a bit rate, the adapter keeps the bit
-    /// rate that it has.
+    /// `slcan:PATH` or `slcan:PATH@500k`: a CAN adapter on a serial line. Without a bit rate, the adapter keeps its bit
+    /// rate.
     Slcan {
         /// Path of the serial line.
         path: String,
@@ -47,7 +48,7 @@ pub enum BusAddress {
     },
 }
 
-/// The text isn't the address of a bus.
+/// The error for a text that isn't the address of a bus.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BusAddressError(String);
 
@@ -55,7 +56,7 @@ impl fmt::Display for BusAddressError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "`{}` is not a bus; examples: can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.0.5, rtu:/dev/ttyUSB0@19200-8E1",
+            "`{}` is not the address of a bus; examples: can:can0, slcan:/dev/ttyACM0@500k, tcp:192.168.0.5, rtu:/dev/ttyUSB0@19200-8E1",
             self.0
         )
     }
@@ -83,7 +84,7 @@ impl FromStr for BusAddress {
     }
 }
 
-/// Parses a bit rate in kbit/s that slcan has a command for: `500k`, `1000k`, `1M`.
+/// Parses a bit rate: `500`, `500k`, `1M`. Returns the bit rate in kbit/s, or `None` if slcan has no command for it.
 fn kilobits(text: &str) -> Option<u16> {
     let number = match text.strip_suffix('M') {
         Some(number) => number.parse::<u16>().ok()?.checked_mul(1000)?,
@@ -122,19 +123,22 @@ impl BusAddress {
         match self {
             BusAddress::SocketCan(name) => AnyPort::socketcan(name),
             BusAddress::Slcan { path, bit_rate } => AnyPort::slcan(path, *bit_rate),
-            BusAddress::Tcp(_) | BusAddress::Rtu { .. } => Err(Failure::Bus("the bus is not a CAN bus".to_owned())),
+            BusAddress::Tcp(_) | BusAddress::Rtu { .. } => {
+                Err(Failure::Bus("the bus is not a CAN bus; use can:INTERFACE or slcan:PATH".to_owned()))
+            }
         }
     }
 
-    /// Connects to a device: the CANopen node or the Modbus server with this address. `timeout` is the maximum time for a
-    /// reply. No message is sent to the device.
+    /// Connects to a device. `address` is the node-ID on CANopen, or the server address on Modbus. `timeout` is the
+    /// maximum time for a reply. No message is sent to the device.
     ///
-    /// On Modbus, the connection uses only the functions and request lengths that `description` states. The list of
-    /// functions stays in memory until the end of the program.
+    /// On Modbus, the connection uses only the functions and request lengths that `description` states, or those of the
+    /// Modbus specification if it states none. The memory for the lists of functions is never freed.
     ///
     /// # Errors
     ///
-    /// Fails if the bus cannot be opened, or if this build doesn't support it.
+    /// Fails if the bus cannot be opened, if this build doesn't support it, or if `address` isn't a node-ID from 1 to
+    /// 127 or is 0 on Modbus RTU.
     pub fn connect(
         &self,
         description: &Description,
@@ -143,8 +147,8 @@ impl BusAddress {
     ) -> Result<Box<dyn Connection>, Failure> {
         match self.network() {
             Network::CanOpen => {
-                let id =
-                    NodeId::new(address).ok_or_else(|| Failure::Bus("the node-ID is not in 1 to 127".to_owned()))?;
+                let id = NodeId::new(address)
+                    .ok_or_else(|| Failure::Bus("the node-ID is not in the range 1 to 127".to_owned()))?;
                 Ok(Box::new(self.open_port()?.connection(id, timeout)))
             }
             Network::Modbus => self.connect_modbus(description, address, timeout),

@@ -30,15 +30,17 @@ pub trait Connection {
     ///
     /// # Errors
     ///
-    /// Returns the reason why the device or the bus didn't transfer the value. After a timeout, the device may have
-    /// accepted the value.
+    /// Returns the reason why the device or the bus didn't transfer the value. After a timeout or a bus failure, the
+    /// device may have accepted the value.
     fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure>;
 
-    /// Reads the basic device identification of a Modbus device (function 43): numbers of objects with their texts.
+    /// Reads the basic device identification of a Modbus device (function 43): the IDs of the objects, with their
+    /// texts.
     ///
     /// # Errors
     ///
-    /// Fails if the device or the connection doesn't support the function. This is the default.
+    /// Fails if the device or the connection doesn't support the function, if the bus fails, or if the device doesn't
+    /// reply. The default implementation always fails.
     fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
         Err(Failure::Unsupported("the connection cannot read the device identification".to_owned()))
     }

@@ -15,7 +15,7 @@ use crate::parameter::Parameter;
 /// Maximum number of parameters with the same name that an error lists.
 const CANDIDATES: usize = 8;
 
-/// The description of a device, as the device appears on one bus.
+/// The description of a device on one bus.
 #[derive(Clone, Debug)]
 pub struct Description {
     catalog: Catalog,
@@ -59,10 +59,10 @@ impl Error for DescriptionError {}
 pub enum FindError {
     /// No parameter has this name or address. The second field is a similar name, if there is one.
     Unknown(String, Option<String>),
-    /// The address is that of an object of a further axis. The fields are the address, the number of the axis, and the object of the first
-    /// axis.
+    /// The address belongs to an object of an axis after the first one. The fields are the address, the number of this
+    /// axis, and the corresponding object of the first axis.
     OtherAxis(String, u8, String),
-    /// Several parameters have this name. The list contains the addresses and paths of the first ones.
+    /// Several parameters have this name or path. The list contains the addresses and paths of at most eight of them.
     Ambiguous(String, Vec<String>),
 }
 
@@ -75,7 +75,7 @@ impl fmt::Display for FindError {
             }
             FindError::OtherAxis(text, axis, first) => write!(
                 f,
-                "`{text}` is an object of axis {axis}, but only objects of the first axis can be accessed: {first}"
+                "`{text}` is an object of axis {axis}, but only objects of the first axis can be accessed, here {first}"
             ),
             FindError::Ambiguous(text, candidates) => {
                 write!(f, "several parameters have the name `{text}`; use an address: {}", candidates.join(", "))
@@ -91,7 +91,8 @@ impl Description {
     ///
     /// # Errors
     ///
-    /// Fails if the file has errors, or if it doesn't describe exactly one device on the network.
+    /// Fails if the file has errors, if it doesn't describe exactly one selected device, or if this device has no
+    /// parameter on the network.
     pub fn compile(source: Source, network: Network, options: &Options) -> Result<Self, DescriptionError> {
         let compilation = compile::check(source, options);
         match compilation.usable() {
@@ -111,7 +112,7 @@ impl Description {
     ///
     /// # Errors
     ///
-    /// Fails if the catalog doesn't contain exactly one device on the network.
+    /// Fails if the catalog doesn't contain exactly one device, or if this device has no parameter on the network.
     pub fn new(catalog: Catalog, network: Network) -> Result<Self, DescriptionError> {
         let devices = catalog.devices.iter().enumerate().filter(|(_, device)| !device.dictionary_only);
         let devices: Vec<(usize, String)> = devices.map(|(at, device)| (at, device.name.to_string())).collect();
@@ -167,7 +168,7 @@ impl Description {
     }
 
     /// Returns the parameters that the device has on the network, in the order of the description. Definitions of data
-    /// types and reserved entries are not parameters.
+    /// types, NULL objects and reserved entries are not parameters.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter<'_>> {
         let groups = self.device().groups.iter().filter(|group| is_data(group));
         groups.flat_map(|group| {
@@ -189,7 +190,7 @@ impl Description {
         self.parameters().find(|parameter| parameter.address() == address)
     }
 
-    /// Returns the object at an index and sub-index.
+    /// Returns the parameter at an index and sub-index.
     pub(crate) fn object(&self, index: u16, sub_index: u8) -> Option<Parameter<'_>> {
         let group = self.device().object(index).filter(|group| is_data(group));
         match group {
@@ -237,7 +238,8 @@ impl Description {
         }
     }
 
-    /// Returns the number of the axis that has an object, and the object of the first axis from which it is derived.
+    /// If the object belongs to an axis after the first one, returns the number of this axis and the corresponding
+    /// object of the first axis.
     fn of_other_axis(&self, (index, sub_index): (u16, u8)) -> Option<(u8, Parameter<'_>)> {
         let axes = self.device().axes.as_ref().filter(|_| self.network == Network::CanOpen)?;
         let first = |step: u16, axis: u8| index.checked_sub(step.checked_mul(axis.into())?);
@@ -280,7 +282,7 @@ fn hexadecimal(text: &str) -> Option<&str> {
     text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
 }
 
-/// Returns whether a group contains data, and is not the definition of a data type.
+/// Returns whether a group contains values. Definitions of data types and NULL objects contain none.
 fn is_data(group: &Group) -> bool {
     !matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null))
 }

@@ -12,16 +12,16 @@ pub enum Failure {
     Abort(AbortCode),
     /// The device refused the Modbus request with this exception code.
     Exception(u8),
-    /// The device didn't reply in time.
+    /// The device didn't reply in time, or replied with Modbus exception 5 or 11. It may have executed the request.
     Timeout,
-    /// The client has no request for this access, such as a value that is too long for a Modbus request. Nothing was sent.
+    /// The client or the device doesn't support this access. For example, the value is too long for a Modbus request.
     Unsupported(String),
     /// The bus or the client failed.
     Bus(String),
 }
 
 impl Failure {
-    /// Returns whether the device refused the access, or the access is impossible. The bus and the device still work.
+    /// Returns whether the device refused the access, or the access is impossible. Other accesses can still succeed.
     #[must_use]
     pub fn is_refusal(&self) -> bool {
         matches!(self, Failure::Abort(_) | Failure::Exception(_) | Failure::Unsupported(_))
@@ -52,8 +52,10 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Abort(code) => write!(f, "the device aborted: {code}"),
-            Failure::Exception(code) => write!(f, "the device refused: Modbus exception {code} ({})", exception(*code)),
+            Failure::Abort(code) => write!(f, "the device aborted the transfer: {code}"),
+            Failure::Exception(code) => {
+                write!(f, "the device refused the request: Modbus exception {code} ({})", exception(*code))
+            }
             Failure::Timeout => f.write_str("no reply within the timeout"),
             Failure::Unsupported(text) | Failure::Bus(text) => f.write_str(text),
         }
@@ -62,7 +64,7 @@ impl fmt::Display for Failure {
 
 impl Error for Failure {}
 
-/// Reads up to three times if the device doesn't reply.
+/// Calls `read` again after a timeout, up to three times in total.
 pub(crate) fn retried<T>(mut read: impl FnMut() -> Result<T, Failure>) -> Result<T, Failure> {
     for _ in 1..3 {
         match read() {

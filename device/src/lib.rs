@@ -40,11 +40,12 @@
 //!
 //! # Safety of the machine
 //!
-//! - A function writes only the values that its caller passes as a list of writes.
-//! - No function sends NMT commands, stores parameters (0x1010), or restores default parameters (0x1011).
-//! - Values that command a motion or an action are never part of a restore unless the caller names each of them
+//! - Only [`Write::execute`], [`restore::Plan::execute`] and [`Connection::write`] write values to a device.
+//! - No function sends NMT commands. No function stores parameters (0x1010) or restores default parameters (0x1011)
+//!   unless the caller names this parameter.
+//! - A restore writes a value that commands a motion or starts an action only if the caller names its parameter
 //!   ([`Protection`]).
-//! - A function that writes several values reports which of them were written, also after an error.
+//! - A restore reports which values were written, even after an error.
 //!
 //! # Features
 //!

@@ -29,7 +29,7 @@ impl PartialEq for Parameter<'_> {
 }
 
 impl<'d> Parameter<'d> {
-    /// Returns the parameter of an item, or `None` if the item doesn't exist on the network.
+    /// Returns the parameter of an item, or `None` if the item has no address on the network.
     pub(crate) fn new(description: &'d Description, group: &'d Group, item: &'d Item) -> Option<Self> {
         let bus = description.network().bus();
         let ty = types::basic(&description.device().types, item.type_on(bus));
@@ -131,7 +131,7 @@ impl<'d> Parameter<'d> {
         facts::range(self.item, self.limits(), self.types(), SHOWN)
     }
 
-    /// Returns the behavior, or a default behavior if the description states none.
+    /// Returns the behavior, such as storage and side effects, or `None` if the description states none.
     #[must_use]
     pub fn behavior(&self) -> Option<&'d Behavior> {
         self.item.behavior.as_deref()
@@ -154,7 +154,7 @@ impl<'d> Parameter<'d> {
         self.basic().bits().map(|bits| bits.div_ceil(8) as usize)
     }
 
-    /// Returns the number of bytes to read.
+    /// Returns the number of bytes to read on Modbus. On CANopen, the device determines the length.
     fn read_length(&self) -> usize {
         let of_register = match self.address {
             Address::Register(register) => 2 * usize::from(register.count),
@@ -163,11 +163,11 @@ impl<'d> Parameter<'d> {
         self.length().unwrap_or(of_register)
     }
 
-    /// Formats a value with its unit, its name and its raw value: `15.50 rev/s (raw 1550)`, `6 (Homing)`, `100 ms`.
+    /// Formats a value with its unit and raw value, or with its name: `15.50 rev/s (raw 1550)`, `6 (Homing)`, `100 ms`.
     #[must_use]
     pub fn text(&self, value: &Value) -> String {
         let text = facts::value(self.item, value, self.types());
-        // The text of a COB-ID and of a mapped object already contains the meaning of its bits.
+        // The text of a COB-ID or of a mapped object already explains its bits.
         let is_explained = PLAIN.is_named(self.item, value)
             || self.address.object().is_some_and(|object| matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF));
         if let Some(meaning) = facts::meaning(self.ty(), value, self.types()).filter(|_| !is_explained) {
@@ -180,14 +180,14 @@ impl<'d> Parameter<'d> {
         }
     }
 
-    /// Returns the value of bytes that the device sent. Returns `None` if the bytes are not a value of the type.
+    /// Decodes bytes that the device sent. Returns `None` if the bytes are not a value of the type.
     #[must_use]
     pub fn decode(&self, bytes: &[u8]) -> Option<Value> {
         encoding::value(bytes, self.basic())
     }
 
-    /// Returns the bytes of a value. `node_id` replaces `$NODEID` in a formula. Returns `None` if the value isn't a value
-    /// of the type, or if it depends on the node-ID and there is none.
+    /// Returns the bytes of a value. `node_id` replaces `$NODEID` in a formula. Returns `None` if the value isn't a
+    /// value of the type, or if it depends on the node-ID and `node_id` is `None`.
     #[must_use]
     pub fn encode(&self, value: &Value, node_id: Option<u8>) -> Option<Vec<u8>> {
         let value = match node_id {
@@ -198,7 +198,8 @@ impl<'d> Parameter<'d> {
         (encoding::fits(&value, basic)).then(|| encoding::bytes(&value, basic))?
     }
 
-    /// Returns the reason why a value is outside the limits, or `None` if it is within the limits.
+    /// Returns the reason why a value is outside the limits, or `None` if it is within the limits. Limits whose minimum
+    /// is above the maximum are ignored. `node_id` replaces `$NODEID` in a limit.
     #[must_use]
     pub fn excluded(&self, value: &Value, node_id: Option<u8>) -> Option<String> {
         let resolve = |limit: &Option<Value>| match (limit, node_id) {

@@ -16,13 +16,16 @@ const RAW: &str = "raw";
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ParseError {
-    /// The text isn't a value of the type. The second field is the type.
+    /// The text isn't a value of the type. The fields are the text and the type.
     NoValue(String, String),
-    /// The parameter has a scale factor, so a number needs the unit or `raw`.
+    /// The parameter has a scale factor, so a number needs the unit or `raw`. The field is the unit of the parameter,
+    /// which may be empty.
     UnitNeeded(String),
-    /// The unit isn't that of the parameter. The first field is the unit of the parameter, which may be empty.
+    /// The unit isn't that of the parameter. The fields are the unit of the parameter, which may be empty, and the
+    /// given unit.
     OtherUnit(String, String),
-    /// The physical value cannot be converted, because the scale depends on another parameter or on the model.
+    /// The physical value cannot be converted to a raw value. For example, the scale depends on another parameter or on
+    /// the model.
     NoConversion,
 }
 
@@ -31,16 +34,17 @@ impl fmt::Display for ParseError {
         match self {
             ParseError::NoValue(text, ty) => write!(f, "`{text}` is not a value of the type {ty}"),
             ParseError::UnitNeeded(unit) if unit.is_empty() => {
-                f.write_str("the raw value is scaled; write `raw` after the number to set the raw value")
+                f.write_str("the value is scaled; add `raw` if the number is the raw value")
             }
             ParseError::UnitNeeded(unit) => {
-                write!(f, "the raw value is scaled; write the unit `{unit}` or `raw` after the number")
+                write!(f, "the value is scaled; add the unit `{unit}`, or `raw` if the number is the raw value")
             }
-            ParseError::OtherUnit(unit, given) if unit.is_empty() => write!(f, "the parameter has no unit `{given}`"),
+            ParseError::OtherUnit(unit, given) if unit.is_empty() => {
+                write!(f, "the parameter has no unit, but the text has the unit `{given}`")
+            }
             ParseError::OtherUnit(unit, given) => write!(f, "the unit is `{unit}`, not `{given}`"),
             ParseError::NoConversion => f.write_str(
-                "the physical value cannot be converted, because the scale depends on another value; write `raw` \
-                 after the number to set the raw value",
+                "the physical value cannot be converted to a raw value; write the raw value with `raw` after it",
             ),
         }
     }
@@ -52,11 +56,12 @@ impl Parameter<'_> {
     /// Parses a value: a number with the unit of the parameter, a raw value (`1550 raw`), a hexadecimal number, the name
     /// of a value, a formula with `$NODEID`, a text, or bytes in hexadecimal.
     ///
-    /// The physical value of an integer type is rounded to the nearest raw value.
+    /// If the type is an integer, a physical value is rounded to the nearest raw value.
     ///
     /// # Errors
     ///
-    /// Fails if the text isn't a value of the parameter's type, or if the unit is missing or wrong.
+    /// Fails if the text isn't a value of the parameter's type, if the unit is missing or wrong, or if a physical value
+    /// cannot be converted to a raw value.
     pub fn parse(&self, text: &str) -> Result<Value, ParseError> {
         let basic = self.basic();
         match basic {

@@ -1,4 +1,4 @@
-//! CAN interfaces of the computer.
+//! CAN interfaces that are connected to the computer.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use lexibus::NodeId;
 use crate::connection::CanOpenConnection;
 use crate::failure::Failure;
 
-/// Number of frames that are kept while another frame is expected.
+/// Maximum number of received frames that are buffered while the client waits for another frame.
 const KEPT: usize = 64;
 
 /// A CAN interface of any kind.
@@ -77,7 +77,7 @@ impl CanPort for AnyPort {
     }
 }
 
-/// A CAN interface with converted errors.
+/// A CAN interface whose errors are converted to [`Failure`].
 struct Converted<P>(P);
 
 impl<P: CanPort<Error: std::fmt::Display>> CanPort for Converted<P> {

@@ -21,11 +21,11 @@ const REFUSES_READ: u32 = 2;
 pub enum Protection {
     /// The parameter refuses writes during a download (bit 0 of ObjFlags, CiA 306).
     RefusesDownload,
-    /// A write starts an action, such as storing parameters or a program download.
+    /// A write starts an action. For example, the device stores parameters or starts a program download.
     Command,
     /// The parameter commands the state, the mode or a motion of the device.
     Control,
-    /// The parameter is an output: RPDOs transfer its value.
+    /// The parameter is an output: a coil, a value that RPDOs transfer, or an output of a CiA 401 device.
     Output,
     /// The parameter sets the node-ID or the address of the device.
     NodeId,
@@ -38,17 +38,17 @@ pub enum Protection {
 }
 
 impl Protection {
-    /// Returns the reason in words.
+    /// Returns the reason as text.
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
             Protection::RefusesDownload => "refuses writes on download (ObjFlags)",
-            Protection::Command => "a write starts an action",
+            Protection::Command => "starts an action when it is written",
             Protection::Control => "commands the state, the mode or a motion",
             Protection::Output => "is an output",
             Protection::NodeId => "sets the node-ID or address",
             Protection::BitRate => "sets the bit rate",
-            Protection::SideEffect => "a write has side effects",
+            Protection::SideEffect => "has side effects when it is written",
             Protection::WriteOnce => "can be written only once",
         }
     }
@@ -73,7 +73,7 @@ pub enum ReadRefusal {
 }
 
 impl ReadRefusal {
-    /// Returns the reason in words.
+    /// Returns the reason as text.
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
@@ -91,12 +91,12 @@ impl fmt::Display for ReadRefusal {
 }
 
 impl Parameter<'_> {
-    /// Returns ObjFlags of the object and of the entry (CiA 306).
+    /// Returns the bits of ObjFlags that are set for the object or for the entry (CiA 306).
     fn flags(&self) -> u32 {
         self.group().flags | self.item().flags
     }
 
-    /// Returns the reason why functions that read many parameters don't read this one.
+    /// Returns the reason why functions that read many parameters don't read this one, or `None` if they read it.
     #[must_use]
     pub fn read_refusal(&self) -> Option<ReadRefusal> {
         match () {
@@ -107,7 +107,8 @@ impl Parameter<'_> {
         }
     }
 
-    /// Returns the reason why a restore doesn't write the parameter unless the caller names it.
+    /// Returns the reason why a restore doesn't write the parameter unless the caller names it, or `None` if it is not
+    /// protected.
     #[must_use]
     pub fn protection(&self) -> Option<Protection> {
         let device = self.description().device();
@@ -142,7 +143,8 @@ impl Parameter<'_> {
         fields.iter().any(|field| is_trigger(field.trigger))
     }
 
-    /// Returns whether the parameter is the control word of a state machine, the mode, a target or an offset of a drive.
+    /// Returns whether the parameter is the controlword of a state machine, or an object of a CiA 402 drive for which
+    /// [`is_drive_command`] is true.
     fn is_control(&self, device: &Device) -> bool {
         let is_controlled = |machine: &lexibus_codegen::ir::StateMachine| {
             device.referred(&machine.control_item).is_some_and(|item| std::ptr::eq(item, self.item()))
@@ -153,8 +155,8 @@ impl Parameter<'_> {
         device.machines.iter().any(is_controlled) || is_of_drive()
     }
 
-    /// Returns whether RPDOs transfer the value by default, or the value is a process output. An item of a Modbus device may also be an
-    /// object on another bus.
+    /// Returns whether the parameter is a coil or a process output, or RPDOs transfer its value by default. An item of
+    /// a Modbus device can also be an object on another bus, so its object is checked too.
     fn is_output(&self, device: &Device) -> bool {
         let is_coil = matches!(self.address(), Address::Register(register) if register.table == RegisterTable::Coil);
         let Some(object) = self.item().object() else { return is_coil };
@@ -177,7 +179,7 @@ impl Parameter<'_> {
             "deviceaddress",
         ];
         let name = letters(&self.name());
-        // Entries of network objects, such as the consumer heartbeat time, contain the node-IDs of other devices.
+        // Communication objects, such as the consumer heartbeat time, can contain the node-IDs of other devices.
         let is_vendor_specific = self.address().object().is_none_or(|object| object.index >= 0x2000);
         is_vendor_specific && NAMES.iter().any(|known| name.contains(known))
             || self.description().network() == Network::Modbus && name == "address"
@@ -196,7 +198,7 @@ impl Parameter<'_> {
     }
 }
 
-/// Returns whether the parameter is the command that stores other parameters.
+/// Returns whether `item` is the command that stores another item.
 fn stores_others(device: &Device, item: &Item) -> bool {
     device.items().any(|other| match other.behavior.as_deref().map(|behavior| &behavior.storage) {
         Some(Storage::OnCommand(command)) => match command.id {
@@ -214,8 +216,8 @@ fn is_command_object(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1010 | 0x1011 | 0x1021..=0x1026 | 0x1F25 | 0x1F50..=0x1F57 | 0x1F82 | 0x1F8A..=0x1F91)
 }
 
-/// Returns whether an object of a CiA 402 drive commands the state, the mode, a motion or an output. The objects of each
-/// further axis are 0x800 higher (CiA 402-2).
+/// Returns whether an object of a CiA 402 drive commands the state, the mode, a motion or an output. The indices of
+/// each further axis are 0x800 higher (CiA 402-2).
 fn is_drive_command(index: u16) -> bool {
     /// Mode of operation, offsets of position, velocity and torque, interpolation data, touch probe function, digital
     /// outputs.

@@ -1,7 +1,8 @@
 //! Writes saved parameters to a device.
 //!
-//! A [`Plan`] lists all writes in their order, and the values that are not written. [`Plan::execute`] performs the writes
-//! and returns an [`Outcome`], which lists the state of every write, also if the restore fails or is interrupted.
+//! A [`Plan`] lists all writes in their order, and the values that are not written. [`Plan::execute`] performs the
+//! writes and returns an [`Outcome`], which lists the state of every write, even if the restore fails or is
+//! interrupted.
 //!
 //! ```
 //! use lexibus::sim::Device;

@@ -29,12 +29,12 @@ pub struct FoundNode {
     pub revision_number: Option<u32>,
     /// Serial number (object 0x1018, sub-index 4).
     pub serial_number: Option<u32>,
-    /// Name that the manufacturer gave the device (object 0x1008).
+    /// Manufacturer device name (object 0x1008).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
 }
 
-/// How well a description fits a node.
+/// The numbers of the identity in which a node and a description agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Fit {
     /// Vendor ID and product code are equal. The description states no revision, or another one.
@@ -44,7 +44,8 @@ pub enum Fit {
 }
 
 impl FoundNode {
-    /// Returns how well a description fits the node, or `None` if it describes another product.
+    /// Returns how well a description fits the node, or `None` if the vendor ID or the product code is different or
+    /// unknown.
     #[must_use]
     pub fn fit(&self, description: &Description) -> Option<Fit> {
         let identity = &description.device().identity;
@@ -57,14 +58,15 @@ impl FoundNode {
     }
 }
 
-/// Searches the nodes of a bus, and reads their identity.
+/// Searches for the nodes of a bus, and reads their identity.
 ///
 /// The search requests the device type (object 0x1000) from each node-ID with one SDO upload, and sends nothing else to
-/// node-IDs that don't reply. `timeout` is the time to wait for replies.
+/// node-IDs that don't reply. `timeout` is the time to wait for replies after the last of these requests, and the
+/// maximum time for each later reply.
 ///
 /// # Errors
 ///
-/// Returns the errors of the bus.
+/// Fails if the bus fails, or if a request cannot be sent within `timeout`.
 pub fn scan<P>(port: &mut P, timeout: Duration) -> Result<Vec<FoundNode>, Failure>
 where
     P: CanPort,
@@ -88,7 +90,7 @@ where
     P: CanPort,
     P::Error: std::fmt::Display,
 {
-    /// First COB-IDs of SDO requests and SDO replies (CiA 301 7.3.3).
+    /// COB-IDs of SDO requests and SDO replies without the node-ID (CiA 301 7.3.3).
     const REQUESTS: u32 = 0x600;
     const REPLIES: u32 = 0x580;
     /// Upload request for object 0x1000.
@@ -99,16 +101,18 @@ where
     let mut note = |frame: &CanFrame| {
         states.extend(NmtState::of(frame));
         let node = frame.id().checked_sub(REPLIES).filter(|node| (1..=0x7F).contains(node));
-        // The reply contains the value or an abort code.
+        // A reply with the value and an SDO abort both contain the index and sub-index.
         let is_reply = matches!(frame.data(), [_, 0, 0x10, 0, ..]);
         nodes.extend(node.filter(|_| is_reply).map(|node| node as u8));
-        // All frames are skipped, so the port waits for the whole time.
+        // All frames are skipped, so `receive` waits for the whole time.
         false
     };
     for node in 1..=0x7F {
         let Some(request) = CanFrame::new(REQUESTS + node, &DEVICE_TYPE) else { continue };
         if !port.send(&request, timeout).map_err(bus)? {
-            return Err(Failure::Bus("the bus is busy, or no node acknowledges frames".to_owned()));
+            return Err(Failure::Bus(
+                "cannot send a frame, because the bus is busy or no node acknowledges frames".to_owned(),
+            ));
         }
         port.receive(PAUSE, &mut note).map_err(bus)?;
     }
@@ -120,7 +124,7 @@ fn bus(error: impl std::fmt::Display) -> Failure {
     Failure::Bus(error.to_string())
 }
 
-/// Reads the identity of a node. Objects that the node doesn't have are `None`.
+/// Reads the identity of a node. Values that cannot be read are `None`.
 fn identity<P>(node: &mut Node<P>) -> FoundNode
 where
     P: CanPort,

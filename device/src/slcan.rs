@@ -1,5 +1,5 @@
-//! CAN adapters on a serial line, with the protocol slcan of Lawicel. A frame is a line that ends with a carriage return:
-//! `t6058…`.
+//! CAN adapters on a serial line, with the slcan protocol of Lawicel. A frame is a line that ends with a carriage
+//! return: `t6058…`.
 
 use std::collections::VecDeque;
 use std::fmt::Write as _;
@@ -17,7 +17,7 @@ const LINE: usize = 1 + 8 + 1 + 16 + STAMP;
 /// Number of digits of a time stamp.
 const STAMP: usize = 4;
 
-/// Returns the command that sets the bit rate, given in kbit/s.
+/// Returns the command that sets a bit rate in kbit/s, or `None` if slcan has no command for it.
 pub(crate) fn setup(bit_rate: u16) -> Option<&'static [u8]> {
     Some(match bit_rate {
         10 => b"S0\r",
@@ -65,7 +65,7 @@ impl Decoder {
                     self.line.clear();
                 }
                 _ if self.line.len() <= LINE => self.line.push(byte),
-                // The line is too long for a frame. Its rest is ignored, up to the next carriage return.
+                // The line is too long for a frame, so its remaining bytes are ignored.
                 _ => {}
             }
         }
@@ -83,8 +83,8 @@ impl Decoder {
     }
 }
 
-/// Parses a line as a frame. A time stamp at the end is ignored. Returns `None` for any other line: an invalid CAN-ID or length, digits
-/// that are not hexadecimal, or missing and additional digits.
+/// Parses a line as a frame. A time stamp at the end is ignored. Returns `None` if the line is not a frame: its CAN-ID
+/// or length is invalid, a digit is not hexadecimal, or it has too few or too many digits.
 fn frame(line: &[u8]) -> Option<CanFrame> {
     let (kind, digits) = line.split_first()?;
     let (width, flag, is_remote) = match kind {
@@ -157,7 +157,8 @@ mod tests {
     fn other_lines_are_skipped() {
         let mut decoder = Decoder::default();
         decoder.push(b"\x07\rz\rZ\rV1013\rt12\rtXYZ0\rt1239\rt12320A\rt8000\r");
-        // Wrong length codes, signs, additional digits, wrong time stamps and other bytes.
+        // These lines are not frames: they have wrong length codes, signs, additional digits, wrong time stamps or
+        // other bytes.
         decoder.push(
             b"t12390102030405060708\xff\rt1239010203040506070809\rr1239\rr123F\rt+120\rt1231+1\rt12310\rt1231012\r",
         );
@@ -203,7 +204,7 @@ mod tests {
             prop_assert_eq!(decoded(lower.as_bytes()), [frame]);
         }
 
-        /// A changed line is rejected, or is the line of another frame with at most a time stamp.
+        /// If a line is changed, the decoder rejects it or decodes it as another frame, possibly with a time stamp.
         #[test]
         fn a_changed_line_is_rejected_or_another_frame(
             frame in frames(),
@@ -221,7 +222,7 @@ mod tests {
                     _ => bytes.insert(at.index(bytes.len() + 1), byte),
                 }
             }
-            // A change can insert the end of a line.
+            // A change can insert a carriage return, which ends a line.
             for text in bytes.split(|byte| *byte == b'\r') {
                 let Some(found) = self::frame(text) else { continue };
                 let canonical = line(&found);

@@ -28,12 +28,12 @@ Period = { reg = 7, type = "f64", unit = "Hz", scale = { reciprocal = 2.0 } }
 1 = "automatic"
 "#;
 
-/// A register table with a scaled value, a value with a unit, and an enumeration.
+/// Returns the description of a register table with scaled values, values with units, and an enumeration.
 pub(crate) fn table() -> Description {
     described(Source::new("heater.toml", TABLE.into()), Network::Modbus)
 }
 
-/// The pump of the book.
+/// Returns the description of the pump, an example of the book.
 pub(crate) fn pump() -> Description {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples/pump.eds");
     described(Source::read(path.as_ref()).expect("an example"), Network::CanOpen)

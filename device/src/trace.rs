@@ -9,13 +9,14 @@ use lexibus::clients::canopen::CanFrame;
 pub enum Line {
     /// A frame. Its time is that of the trace, if the line has one.
     Frame(CanFrame),
-    /// A line without a frame: an empty line, a comment, a header, or an error frame.
+    /// A line without a frame, such as an empty line, a comment, a header, or an event of an ASC file.
     Other,
-    /// A line that has neither of the formats.
+    /// A line that cannot be parsed in the format of the trace.
     Unknown,
 }
 
-/// Reads a trace line by line. The first lines determine the format.
+/// Reads a trace line by line. After a line that begins with `date` or `base`, the format is ASC; otherwise, it is that
+/// of `candump`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reader {
     is_asc: bool,

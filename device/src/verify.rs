@@ -1,8 +1,7 @@
 //! Comparison of a device with its description.
 //!
-//! [`verify`] only reads. It reports what the description declares and the device lacks, what the device has and the
-//! description doesn't declare, differences, and parameters that cannot be read. Facts that only a write would show are
-//! listed as unverifiable.
+//! [`verify`] only reads. It reports parameters that the device lacks, objects that the description doesn't declare,
+//! differences, and parameters that cannot be read. Facts that only a write would show are listed as unverifiable.
 //!
 //! ```
 //! use lexibus::sim::Device;

@@ -29,9 +29,11 @@ pub enum WriteError {
     ReadOnly,
     /// The value isn't a value of the type, or depends on an unknown node-ID. The field is the type.
     NoValue(String),
-    /// The value is outside the limits of the description. The fields are the reason and the range.
+    /// The value is outside the limits, or is not one of the writable values, of the description. The fields are the
+    /// reason, and the range or the writable values.
     Excluded(String, String),
-    /// The description allows writing only while a condition holds, and the condition doesn't hold.
+    /// The description allows writing only while a condition holds, and the condition doesn't hold or cannot be
+    /// checked.
     Condition(String),
     /// The device or the bus didn't transfer the value.
     Failed(Failure),
@@ -42,7 +44,7 @@ impl fmt::Display for WriteError {
         match self {
             WriteError::Parse(error) => error.fmt(f),
             WriteError::ReadOnly => f.write_str("the parameter is read-only"),
-            WriteError::NoValue(ty) => write!(f, "the value is not a value of the type {ty}"),
+            WriteError::NoValue(ty) => write!(f, "the value does not fit the type {ty}"),
             WriteError::Excluded(reason, range) if range.is_empty() => write!(f, "the value is {reason}"),
             WriteError::Excluded(reason, range) => write!(f, "the value is {reason}; the range is {range}"),
             WriteError::Condition(condition) => write!(f, "the value can be written only while {condition}"),
@@ -94,7 +96,7 @@ impl<'d> Write<'d> {
         let writable = parameter.behavior().map_or(&[][..], |behavior| &behavior.writable_values);
         if !writable.is_empty() && !writable.contains(&value) {
             let values: Vec<String> = writable.iter().map(|value| parameter.text(value)).collect();
-            return Err(WriteError::Excluded("not a value that can be written".to_owned(), values.join(", ")));
+            return Err(WriteError::Excluded("not one of the writable values".to_owned(), values.join(", ")));
         }
         Ok(Self { parameter, value, bytes })
     }
@@ -122,7 +124,7 @@ impl<'d> Write<'d> {
         &self.bytes
     }
 
-    /// Reads the items that the conditions of the description name, and checks the conditions.
+    /// Checks the conditions under which the description allows the write. Reads the items that the conditions name.
     ///
     /// # Errors
     ///

@@ -12,7 +12,7 @@ use crate::{check, frontend, resolve};
 pub struct Compilation {
     /// The network file.
     pub source: Source,
-    /// Bus of the computer to which the network is connected, for commands that access its devices.
+    /// Bus through which the computer accesses the devices of the network, such as `can:can0`.
     pub bus: Option<At<String>>,
     /// The network; `None` if the file cannot be read as a network.
     pub network: Option<Network>,
@@ -27,7 +27,7 @@ impl Compilation {
     }
 }
 
-/// Reads and checks a network file. The descriptions of the nodes are read from the folder of the file.
+/// Reads and checks a network file. Paths of descriptions are relative to the folder of the file.
 pub fn compile(source: Source, levels: Levels) -> Compilation {
     let mut diagnostics = Diagnostics::new(levels);
     let declared = frontend::read(&source, FileId(0), &mut diagnostics);

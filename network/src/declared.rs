@@ -11,7 +11,7 @@ pub struct DeclaredNetwork {
     pub name: Option<At<String>>,
     /// Bit rate in kbit/s.
     pub bit_rate: Option<At<u16>>,
-    /// Bus of the computer to which the network is connected, for commands that access its devices.
+    /// Bus through which the computer accesses the devices of the network, such as `can:can0`.
     pub bus: Option<At<String>>,
     /// The master.
     pub master: Option<DeclaredMaster>,
@@ -56,7 +56,8 @@ pub struct DeclaredMaster {
     pub startup: u32,
     /// Boot time in ms (0x1F89).
     pub boot_time: u32,
-    /// True if the master exchanges PDOs: it receives each TPDO and sends each RPDO of the nodes, unless another node does.
+    /// True if the master exchanges PDOs: it receives each enabled TPDO of the nodes, and sends each enabled RPDO that no other
+    /// node sends.
     pub exchanges_pdos: bool,
 }
 
@@ -221,7 +222,7 @@ pub struct DeclaredPdo {
 /// COB-ID of a PDO as its section declares it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclaredCobId {
-    /// The COB-ID of the predefined connection set, or the next one that is free.
+    /// The COB-ID of the predefined connection set or, for PDOs above the fourth, the next free CAN-ID.
     Automatic,
     /// A COB-ID with flags.
     Number(u32),

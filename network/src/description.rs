@@ -57,12 +57,12 @@ impl<'s> Descriptions<'s> {
         Descriptions { network, read: HashMap::new() }
     }
 
-    /// Returns the description of a node. Reports a description that cannot be used once for each set of equal keys.
+    /// Returns the description of a node. If several nodes have the same key, reports an unusable description only once.
     pub fn of(&mut self, node: &DeclaredNode, diagnostics: &mut Diagnostics) -> Option<Rc<Description>> {
         let Some(device) = &node.device else {
             let message = format!("the node `{}` has no device description", node.name.value);
             let found = Diagnostic::new(&codes::DESCRIPTION_NOT_FOUND, node.name.span, message);
-            diagnostics.push(found.help("name an EDS, DCF, XDD, XDC or register table"));
+            diagnostics.push(found.help("add the path of an EDS, DCF, XDD, XDC or register table"));
             return None;
         };
         let path = self.find(device, &node.folders, diagnostics)?;
@@ -101,7 +101,8 @@ impl<'s> Descriptions<'s> {
         }
     }
 
-    /// Opens a file. Its name in diagnostics is relative to the working folder, as the name of the network file is.
+    /// Opens a file. If the file is below the folder of the network file, its path in diagnostics starts like that of the network
+    /// file.
     fn open(&self, path: &Path) -> std::io::Result<Source> {
         let source = Source::read(path)?;
         let shown = match path.strip_prefix(self.folder()) {
@@ -116,7 +117,8 @@ impl<'s> Descriptions<'s> {
         self.network.folder().unwrap_or(Path::new(""))
     }
 
-    /// Returns the path of a file: relative to one of `folders` or to the folder of the network file.
+    /// Returns the path of a file, which is searched in `folders` and then in the folder of the network file. Reports a file that
+    /// does not exist.
     fn find(&self, name: &At<String>, folders: &[At<String>], diagnostics: &mut Diagnostics) -> Option<PathBuf> {
         let mut unknown = Vec::new();
         let name_path = expanded(name, &mut unknown);
@@ -129,7 +131,7 @@ impl<'s> Descriptions<'s> {
         }
         let message = format!("the file `{}` is not found", name.value);
         let mut found = Diagnostic::new(&codes::DESCRIPTION_NOT_FOUND, name.span, message)
-            .label("relative to the folder of the network file");
+            .label("the path is relative to the folder of the network file");
         if let Some(other) = similar_file(&name.value, &paths) {
             found = found.help(format!("write `{other}`"));
         }
@@ -137,7 +139,7 @@ impl<'s> Descriptions<'s> {
             found = found.note(format!("the environment variable `{variable}` is not set"));
         }
         for folder in folders {
-            found = found.note_at(folder.span, "the file is also searched relative to this folder");
+            found = found.note_at(folder.span, "Lexibus also searches this folder");
         }
         diagnostics.push(found);
         None
@@ -158,15 +160,15 @@ fn similar_file(name: &str, paths: &[PathBuf]) -> Option<String> {
     paths.iter().find_map(similar)
 }
 
-/// Replaces `$NAME`, `${NAME}` and `@BUS_CONFIG_PATH@` in a path. `@BUS_CONFIG_PATH@` is the folder of the network file. Adds the
-/// variables that are not set to `unknown`.
+/// Replaces `$NAME` and `${NAME}` in a path, and `@BUS_CONFIG_PATH@` at its start, which is the folder of the network file. Adds
+/// the names of unset variables to `unknown`.
 pub(crate) fn expanded(path: &str, unknown: &mut Vec<String>) -> PathBuf {
     let path = path.replace('\\', "/");
     let path = path.strip_prefix("@BUS_CONFIG_PATH@").map_or(path.as_str(), |rest| rest.trim_start_matches('/'));
     PathBuf::from(expand(path, &|name| std::env::var(name).ok(), unknown))
 }
 
-/// Replaces environment variables in a text. Unknown variables remain unchanged.
+/// Replaces environment variables in a text. Unset variables remain in the text, and their names are added to `unknown`.
 fn expand(text: &str, variable: &dyn Fn(&str) -> Option<String>, unknown: &mut Vec<String>) -> String {
     let mut expanded = String::new();
     let mut rest = text;
@@ -209,7 +211,7 @@ fn usable(compilation: &Compilation, overlays: &[Source]) -> Result<(), Fault> {
         let errors = compilation.diagnostics.list().iter().filter(|found| found.severity == Severity::Error);
         return Err(Fault {
             message: format!("the description `{name}` has errors"),
-            help: format!("correct the description; `lexibus check {name}{overlays}` prints all diagnostics"),
+            help: format!("correct the errors; `lexibus check {name}{overlays}` prints all diagnostics"),
             notes: errors.take(3).map(|found| compilation.one_line(found)).collect(),
         });
     }
@@ -217,9 +219,9 @@ fn usable(compilation: &Compilation, overlays: &[Source]) -> Result<(), Fault> {
     match devices {
         [device] if buses(device).canopen && device.items().any(|item| item.object().is_some()) => Ok(()),
         [_] => {
-            fault(format!("the device in `{name}` has no CANopen objects"), "name the description of a CANopen device")
+            fault(format!("the device in `{name}` has no CANopen objects"), "use the description of a CANopen device")
         }
-        [] => fault(format!("`{name}` describes no device"), "name the description of a CANopen device"),
+        [] => fault(format!("`{name}` describes no device"), "use the description of a CANopen device"),
         several => Err(Fault {
             message: format!("`{name}` describes {} devices", several.len()),
             help: "choose a device with `model`".to_owned(),

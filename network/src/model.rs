@@ -14,7 +14,7 @@ use crate::values::{Values, Write};
 /// Bit of a COB-ID that disables a PDO or an EMCY (CiA 301 7.5.2.17, 7.5.2.35).
 pub const DISABLED: u32 = 1 << 31;
 
-/// Bit of a COB-ID with a 29-bit CAN-ID.
+/// Bit of a COB-ID that is set if the CAN-ID has 29 bits.
 pub const EXTENDED: u32 = 1 << 29;
 
 /// Bit of the COB-ID of a TPDO that the node does not send on RTR (CiA 301 7.5.2.37).
@@ -41,13 +41,14 @@ impl Network {
         self.master.as_ref().and_then(|master| master.node_id.as_ref()).map_or(255, |id| id.value)
     }
 
-    /// Returns the enabled PDOs of all nodes with this direction: for each node, sorted by number.
+    /// Returns the enabled PDOs of one direction, in the order of the nodes. The PDOs of a node are sorted by number.
     pub fn pdos(&self, direction: Direction) -> impl Iterator<Item = (&NetworkNode, &NetworkPdo)> {
         let is_sent = move |(_, pdo): &(&NetworkNode, &NetworkPdo)| pdo.is_enabled && pdo.direction == direction;
         self.nodes.iter().flat_map(|node| node.pdos.iter().map(move |pdo| (node, pdo))).filter(is_sent)
     }
 
-    /// Returns whether the master sends the RPDOs with a CAN-ID, because no node sends it.
+    /// Returns whether the master sends the RPDOs with a CAN-ID: the master exchanges PDOs, and no node has an enabled TPDO with
+    /// this CAN-ID.
     pub fn is_sent_by_master(&self, can_id: u32) -> bool {
         let is_sent = || self.pdos(Direction::Transmit).any(|(_, pdo)| pdo.can_id() == can_id);
         self.master.as_ref().is_some_and(|master| master.exchanges_pdos) && !is_sent()
@@ -67,13 +68,13 @@ impl Network {
         self.pdos(Direction::Transmit).chain(self.sent_by_master()).collect()
     }
 
-    /// Returns the nodes that receive a CAN-ID with an RPDO.
+    /// Returns the nodes with an enabled RPDO that has the CAN-ID of `cob_id`.
     pub fn receivers(&self, cob_id: u32) -> impl Iterator<Item = &NetworkNode> {
         self.pdos(Direction::Receive).filter(move |(_, pdo)| pdo.can_id() == can_id(cob_id)).map(|(node, _)| node)
     }
 }
 
-/// Returns the CAN-ID of a COB-ID, with bit 29 if it has 29 bits.
+/// Returns the CAN-ID of a COB-ID. Bit 29 is set if the CAN-ID has 29 bits.
 pub fn can_id(cob_id: u32) -> u32 {
     match cob_id & EXTENDED {
         0 => cob_id & 0x7FF,
@@ -90,7 +91,7 @@ pub struct NetworkNode {
     pub id: u8,
     /// Description of the device.
     pub description: Rc<Description>,
-    /// Path of the node's concise DCF, as the master finds it.
+    /// Path under which the master finds the node's concise DCF.
     pub upload_file: String,
     /// Path of the program that the master downloads; may be empty.
     pub software_file: String,
@@ -197,7 +198,7 @@ pub struct NetworkPdo {
 }
 
 impl NetworkPdo {
-    /// Returns the CAN-ID, with bit 29 if it has 29 bits.
+    /// Returns the CAN-ID. Bit 29 is set if the CAN-ID has 29 bits.
     pub fn can_id(&self) -> u32 {
         can_id(self.cob_id)
     }
@@ -212,8 +213,8 @@ impl NetworkPdo {
         self.bits().div_ceil(8)
     }
 
-    /// Returns whether the PDO is sent after a SYNC, and the number of SYNCs from PDO to PDO. An acyclic PDO counts as sent after
-    /// each SYNC.
+    /// Returns after how many SYNCs the PDO is sent, or `None` if it is not synchronous. The number for an acyclic PDO
+    /// (transmission type 0) is 1, which is the worst case.
     pub fn syncs(&self) -> Option<u8> {
         match self.transmission {
             0 => Some(1),
@@ -243,7 +244,7 @@ pub fn communication_index(direction: Direction, number: u16) -> u16 {
 /// An object in a PDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MappedObject {
-    /// Index of the object, or code of a data type below 0x1000 for a gap.
+    /// Index of the object. An index below 0x1000 is the code of a data type, which leaves a gap.
     pub index: u16,
     /// Sub-index of the object.
     pub sub_index: u8,
@@ -257,7 +258,7 @@ impl MappedObject {
         MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 }
     }
 
-    /// Returns the entry of a mapping for the object.
+    /// Returns the mapping entry for the object (CiA 301 7.5.2.36).
     pub fn word(self) -> u32 {
         u32::from(self.index) << 16 | u32::from(self.sub_index) << 8 | u32::from(self.bits)
     }

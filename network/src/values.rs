@@ -10,7 +10,7 @@ pub struct Write {
     pub object: (u16, u8),
     /// The value, as a value of the object's type; `None` for a value that the description already configures.
     pub value: Option<Value>,
-    /// The value as in an SDO transfer.
+    /// The bytes of the value in an SDO transfer.
     pub bytes: Vec<u8>,
     /// Location of the value in the network file.
     pub span: Span,
@@ -28,14 +28,16 @@ pub struct Values<'a> {
 }
 
 impl Values<'_> {
-    /// Returns the value of an object. Values that the description configures are its initial values.
+    /// Returns the value of an object, or `None` if it has no integer value. Values that the description configures are initial
+    /// values.
     pub fn get(&self, object: (u16, u8)) -> Option<i128> {
         let last = self.writes.iter().rev().find(|write| write.object == object);
         let written = last.and_then(|write| write.value.as_ref());
         written.or_else(|| self.device.entry(object.0, object.1)?.initial())?.resolved(self.id).as_int()
     }
 
-    /// Returns the value of an object as a number of type `T`. Returns `None` if it does not fit.
+    /// Returns the value of an object as a number of type `T`. Returns `None` if the object has no integer value, or if `T` is too
+    /// small for it.
     pub fn number<T: TryFrom<i128>>(&self, object: (u16, u8)) -> Option<T> {
         self.get(object).and_then(|value| T::try_from(value).ok())
     }

@@ -96,7 +96,8 @@ fn the_master_knows_all_nodes() {
 fn the_bus_load_is_that_of_all_cyclic_frames() {
     let compilation = example();
     let load = bus_load(compilation.usable().expect("a network"));
-    // SYNC and two PDOs with 6 bytes each 10 ms, a PDO with 4 bytes each 10 ms; heartbeats each 100 ms (3) and 500 ms (1).
+    // The cyclic frames are SYNC, two PDOs with 6 bytes and one with 4 bytes every 10 ms, three heartbeats every 100 ms, and one
+    // every 500 ms.
     let expected = 100.0 * f64::from(55 + 2 * 115 + 95) + (3.0 * 10.0 + 2.0) * 65.0;
     assert!((load.bits_per_second() - expected).abs() < 1e-6, "{}", load.bits_per_second());
     assert_eq!(load.unbounded.len(), 5);

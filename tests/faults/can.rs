@@ -261,7 +261,7 @@ fn late_segments_are_discarded() {
     assert_eq!((number, node.port().bus.bus().aborts), ([1, 2, 3, 4], 1));
 }
 
-/// A kind of transfer in the table of faults, in addition to reads.
+/// A kind of transfer in the table of faults, in addition to SDO reads.
 #[derive(Clone, Copy)]
 enum Access {
     Write,

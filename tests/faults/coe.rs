@@ -83,7 +83,7 @@ impl Dictionary for Objects {
 }
 
 impl World {
-    /// Returns the messages to send now.
+    /// Applies the fault to a reply, and returns the messages that the SubDevice sends now.
     fn filter(&mut self, reply: Option<Vec<u8>>) -> Vec<Vec<u8>> {
         self.frames += 1;
         let now = Instant::now();

@@ -15,10 +15,10 @@ use crate::random::Random;
 
 const NODE: u8 = 5;
 const PERIOD: Duration = Duration::from_millis(100);
-/// The consumer tolerates one missing heartbeat.
+/// Heartbeat consumer time, which tolerates one missing heartbeat.
 const CONSUMER_TIME: Duration = Duration::from_millis(250);
 
-/// The producer heartbeat time, in ms.
+/// Objects of the node: the producer heartbeat time, in ms.
 const ENTRIES: &[Entry] = &[Entry {
     object: Some(Object::new(0x1017, 0)),
     register: None,

@@ -113,7 +113,7 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
     assert!(found > 20 && inconclusive > 10, "{found} {inconclusive}");
 }
 
-/// Returns the active node-IDs after the next scan.
+/// Scans the bus without a fault. Returns the active node-IDs of all slaves.
 fn node_ids(master: &mut LssMaster<Faulty>) -> Vec<Option<NodeId>> {
     set(master.port(), None);
     let _ = master.fast_scan();
@@ -142,8 +142,8 @@ fn a_second_slave_that_answers_later_is_noticed() {
     let answer = |command| CanFrame::new(0x7E4, &[command, 0, 0, 0, 0, 0, 0, 0]).expect("a frame");
     let mut master = master();
     master.switch_global(LssState::Configuration).expect("a bus");
-    // An answer arrives every 200 ms, which is longer than the window. After an answer to this service, the master waits for
-    // further answers for the whole timeout.
+    // An answer arrives every 200 ms, which is longer than the window of the master. After an answer to this service, the master
+    // waits for further answers for the whole timeout, and not only for the window.
     set(master.port(), foreign(answer(0x11)));
     assert_eq!(master.configure_node_id(id(5)), Err(LssError::SeveralAnswers));
     assert_eq!(node_ids(&mut master), [None]);

@@ -83,7 +83,7 @@ fn endless_noise() -> StreamFault {
     StreamFault::Foreign { bytes: vec![0xFF], count: 6000, period: Duration::from_millis(10) }
 }
 
-/// Receives a request. Returns the transaction on TCP, the unit ID and the data.
+/// Receives a request. Returns the transaction ID (only on TCP), the unit ID and the data.
 async fn receive(line: &mut (impl AsyncRead + Unpin), is_rtu: bool) -> std::io::Result<([u8; 2], u8, Vec<u8>)> {
     let mut head = vec![0; if is_rtu { 2 } else { 8 }];
     line.read_exact(&mut head).await?;

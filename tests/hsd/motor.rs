@@ -17,7 +17,7 @@ pub struct Motor {
     polls: u32,
 }
 
-/// The value that the reply to the null request contains.
+/// The values that the reply to the null request contains.
 #[derive(Clone, Copy, Default, PartialEq)]
 enum Selected {
     #[default]

@@ -53,14 +53,15 @@ impl Script {
     }
 }
 
-/// Starts a server over TCP.
+/// Starts a server over TCP. Returns the server and its address, or `None` if Python or a library is missing.
 pub fn over_tcp() -> Option<(Script, SocketAddr)> {
     let (script, port) = Script::start(python()?, "modbus_server.py", &["tcp"]);
     let port = port.as_u64().and_then(|port| port.try_into().ok()).expect("a port");
     Some((script, SocketAddr::from(([127, 0, 0, 1], port))))
 }
 
-/// Starts an RTU server on a simulated serial line. Returns the server and the line for the client.
+/// Starts an RTU server on a simulated serial line. Returns the server and the line for the client, or `None` if Python or a
+/// library is missing.
 pub fn over_rtu() -> Option<(Script, Cable)> {
     let python = python()?;
     let cable = Cable::open();

@@ -1,4 +1,4 @@
-//! Objects of simulated devices.
+//! Creates the objects of simulated devices.
 
 use lexibus::table::{AccessRights, Bound, Entry, RawInitial};
 use lexibus::{DataType, Flags, Object};

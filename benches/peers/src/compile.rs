@@ -85,7 +85,7 @@ fn write(folder: &Path, one: &Crate) -> PathBuf {
     path
 }
 
-/// Measures `times` checks of the crate. The time does not include compiling the dependencies.
+/// Returns the total time of `times` runs of `cargo check`, without the time for compiling the dependencies.
 fn checks(path: &Path, times: u32) -> Result<Duration, String> {
     (0..times).map(|_| check(path)).sum()
 }

@@ -58,7 +58,8 @@ pub fn svd2rust(input: &Registers) -> Result<String, String> {
     svd2rust::generate(&input.svd, &config).map(|made| made.lib_rs).map_err(|error| format!("{error:#}"))
 }
 
-/// Formats code as users of svd2rust do.
+/// Formats Rust code with `prettyplease`, because svd2rust does not format its output. Returns an error if the code
+/// cannot be parsed.
 pub fn formatted(code: &str) -> Result<String, String> {
     syn::parse_file(code).map(|file| prettyplease::unparse(&file)).map_err(|error| error.to_string())
 }

@@ -38,7 +38,7 @@ fn svd(count: usize) -> String {
     text + "</registers></peripheral></peripherals></device>\n"
 }
 
-/// Returns a device in the input language of the generator device-driver.
+/// Returns a device in the input language of the code generator `device-driver`.
 fn ddsl(count: usize) -> String {
     let mut text = String::from("device Bench {\n    default-byte-order: LE,\n    register-address-type: u16,\n");
     text += "    default-access: RW,\n";

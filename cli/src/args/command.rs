@@ -112,7 +112,7 @@ pub(in super::super) struct Diff {
 pub(in super::super) enum DiffFormat {
     /// One line per change, followed by a summary.
     Text,
-    /// One line per change, which contains a JSON object.
+    /// One JSON object per line, one for each change.
     Json,
     /// HTML page.
     Html,

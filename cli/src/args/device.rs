@@ -16,7 +16,7 @@ pub(crate) enum DeviceCommand {
         after_help = "Examples:\n  lexibus read --bus can:can0 --node 5 drive.eds \"Profile velocity\"\n  lexibus read axis1 \"Profile velocity\""
     )]
     Read(Read),
-    /// Write a value of a device by name. The value is checked and shown before it is written.
+    /// Write a value of a device by name. The command checks and shows the value before it writes.
     #[command(
         after_help = "Examples:\n  lexibus write --bus can:can0 --node 5 drive.eds \"Profile velocity\" 15.5 rev/s\n  lexibus write axis1 \"Profile velocity\" 15.5 rev/s"
     )]
@@ -29,16 +29,16 @@ pub(crate) enum DeviceCommand {
     /// Save the parameters of a device to a file.
     #[command(after_help = "Example:\n  lexibus backup --bus can:can0 --node 5 drive.eds --out axis.dcf")]
     Backup(BackupCommand),
-    /// Write saved parameters to a device. All writes are shown before the first one.
+    /// Write saved parameters to a device. The command shows all writes before the first one.
     #[command(after_help = "Example:\n  lexibus restore --bus can:can0 --node 5 drive.eds axis.dcf --dry-run")]
     Restore(Restore),
     /// Compare the values in two backups. The exit code is 1 if they differ.
     #[command(after_help = "Example:\n  lexibus compare drive.eds monday.dcf friday.dcf")]
     Compare(Compare),
-    /// List the nodes on a CANopen bus, each with the descriptions that fit it.
+    /// List the nodes on a CANopen bus, with the descriptions that fit each node.
     #[command(after_help = "Example:\n  lexibus scan --bus can:can0 vendor-files/")]
     Scan(Scan),
-    /// Show the traffic on a CANopen bus, or values of a device, with their names. Ends on Ctrl-C or after the time
+    /// Show the traffic on a CANopen bus, or values of a device, with their names. Ends on Ctrl-C or after
     /// `--duration`.
     #[command(
         after_help = "Examples:\n  lexibus monitor --bus can:can0 5=drive.eds\n  lexibus monitor --network network.toml"
@@ -131,14 +131,14 @@ pub(crate) struct Verify {
     /// File to write; by default, standard output.
     #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
-    /// Also list the values that differ from their defaults.
+    /// In the text format, also list the values that differ from their defaults. The other formats always list them.
     #[arg(long)]
     pub changed: bool,
     /// Also search this range of indices, such as 0x2000..0x5FFF, for undeclared objects; can be repeated. Reading an
     /// undeclared object may have unknown effects.
     #[arg(long, value_name = "RANGE", value_parser = indices)]
     pub search: Vec<std::ops::RangeInclusive<u16>>,
-    /// Write an overlay with the facts that were found.
+    /// Write the deviations as an overlay to this file, as far as an overlay can express them.
     #[arg(long, value_name = "PATH")]
     pub write_overlay: Option<PathBuf>,
 }
@@ -186,7 +186,7 @@ pub(crate) struct Restore {
     /// Also restore this protected parameter (a name, path or address); can be repeated.
     #[arg(long, value_name = "NAME")]
     pub include: Vec<String>,
-    /// List what would be written and what is refused, and write nothing. No bus is needed.
+    /// List the writes and the refused values, and write nothing. The bus is not accessed.
     #[arg(long)]
     pub dry_run: bool,
     /// Write without asking.
@@ -217,7 +217,8 @@ pub(crate) struct Scan {
     /// Output format.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = ScanFormat::Text)]
     pub format: ScanFormat,
-    /// Device descriptions, or folders to search for them. The command reports those that fit a node.
+    /// Device descriptions, or folders that contain them. For each node, the command lists those with the same vendor
+    /// ID and product code.
     #[arg(value_name = "FILE")]
     pub descriptions: Vec<PathBuf>,
 }
@@ -245,8 +246,8 @@ pub(crate) struct WatchedNodes {
     /// Network file; by default, network.toml in the working folder.
     #[arg(long, value_name = "FILE")]
     pub network: Option<PathBuf>,
-    /// Nodes with their descriptions, as NODE=FILE, or names of nodes in the network file. By default, all nodes of the file that
-    /// --network names.
+    /// Nodes with their descriptions, as NODE=FILE, or names of nodes in the network file. By default, all nodes of the
+    /// network file (with `decode`, only if --network is given).
     #[arg(value_name = "NODE", value_parser = watched_node)]
     pub nodes: Vec<WatchedNode>,
 }
@@ -284,7 +285,8 @@ pub(crate) enum EventFormat {
     /// Table with the last value for each name. A terminal shows each update; otherwise, the table is printed at the
     /// end.
     Table,
-    /// CSV with the columns time, node, kind, address, name and value, and one row per value.
+    /// CSV with the columns time, node, kind, address, name and value. One row per value, or per message without
+    /// values.
     Csv,
     /// One line with a JSON object per message.
     Json,
@@ -314,5 +316,5 @@ fn indices(text: &str) -> Result<std::ops::RangeInclusive<u16>, String> {
     number(first)
         .zip(number(last))
         .map(|(first, last)| first..=last)
-        .ok_or_else(|| "expected 0x2000..0x5FFF".to_owned())
+        .ok_or_else(|| "expected a range of indices, such as 0x2000..0x5FFF".to_owned())
 }

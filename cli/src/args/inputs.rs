@@ -94,10 +94,10 @@ pub(crate) struct Printing {
 }
 
 impl Printing {
-    /// All diagnostics as text.
+    /// Prints all diagnostics in full as text.
     pub(crate) const TEXT: Printing =
         Printing { all: true, statistics: false, message_format: MessageFormat::Text, color: ColorChoice::Auto };
-    /// A limited number of diagnostics as text.
+    /// Prints a limited number of diagnostics of each code as text.
     pub(crate) const NEW: Printing = Printing { all: false, ..Printing::TEXT };
 }
 
@@ -140,7 +140,7 @@ impl LevelArguments {
         self.ordered = ordered.into_iter().map(|(_, code, level)| (code, level)).collect();
     }
 
-    /// Returns the levels of all codes.
+    /// Returns the levels of all codes, or an error if an option names an unknown code.
     pub(crate) fn levels(&self) -> Result<Levels, Failure> {
         let mut levels = if self.strict { Levels::strict() } else { Levels::lenient() };
         for (code, level) in &self.ordered {

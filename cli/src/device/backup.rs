@@ -44,7 +44,9 @@ fn format(arguments: &BackupCommand) -> Result<BackupFormat, Failure> {
         (Some(format), _) => Ok(format),
         (None, "dcf") => Ok(BackupFormat::Dcf),
         (None, "toml") => Ok(BackupFormat::Toml),
-        (None, _) => Err(Failure::Usage("the extension is neither .dcf nor .toml: add --format".to_owned())),
+        (None, _) => {
+            Err(Failure::Usage("the extension is neither .dcf nor .toml: add --format dcf or toml".to_owned()))
+        }
     }
 }
 

@@ -23,9 +23,10 @@ struct Timed<'e> {
 pub(super) struct Output<W> {
     out: W,
     format: EventFormat,
-    /// Rows of the table: the last text for each node and name. The name is that of a value or of a kind of event.
+    /// Rows of the table: the last text for each node and name. The name is that of a value, or the kind of an event
+    /// without values.
     rows: BTreeMap<(Option<u8>, String), String>,
-    /// Number of rows on the screen.
+    /// Number of rows in the table that was drawn last.
     shown: usize,
     is_terminal: bool,
 }

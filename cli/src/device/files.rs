@@ -20,7 +20,7 @@ pub(super) fn description(path: &Path, given: &DescriptionOptions, network: Netw
     compiled(path, network, &options)
 }
 
-/// Reads a description without options.
+/// Reads a description without overlays and without the selection of a device.
 pub(super) fn plain(path: &Path, network: Network) -> Result<Description, Failure> {
     compiled(path, network, &Options::default())
 }
@@ -55,12 +55,12 @@ pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, F
     }
     let backup = Backup::of_description(&configured);
     match backup.entries.is_empty() {
-        true => Err(Failure::Device(format!("{} contains no configured values", path.display()))),
+        true => Err(Failure::Device(format!("{} is not a backup: it contains no configured values", path.display()))),
         false => Ok(backup),
     }
 }
 
-/// Returns the addresses of parameters that the user named.
+/// Returns the addresses of the parameters that the user named.
 pub(super) fn addresses(names: &[String], description: &Description) -> Result<Vec<Address>, Failure> {
     let found = names.iter().map(|name| description.find(name).map(|parameter| parameter.address()));
     found.collect::<Result<_, _>>().map_err(|error| Failure::Usage(error.to_string()))

@@ -16,7 +16,7 @@ mod verify;
 use super::args::DeviceCommand;
 use super::Failure;
 
-/// Runs a command. Returns whether it succeeded.
+/// Runs a command. Returns false for exit code 1, for example after a failed read or if `verify` finds deviations.
 pub(super) fn run(command: &DeviceCommand) -> Result<bool, Failure> {
     match command {
         DeviceCommand::Read(read) => value::read(read),

@@ -70,7 +70,8 @@ pub(super) fn run(arguments: &Monitor) -> Result<bool, Failure> {
             }
         }
         Network::CanOpen => {
-            let id = NodeId::new(*node).ok_or_else(|| Failure::Usage("the node-ID is not in 1 to 127".to_owned()))?;
+            let id = NodeId::new(*node)
+                .ok_or_else(|| Failure::Usage("the node-ID is not in the range 1 to 127".to_owned()))?;
             let mut connection = bus.open_port()?.connection(id, timeout);
             let nodes = watched.nodes.iter().map(|(node, description)| (*node, description));
             let mut interpreter = Interpreter::new(nodes);

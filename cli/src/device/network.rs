@@ -21,7 +21,7 @@ pub(super) struct NetworkFile {
     compilation: Compilation,
 }
 
-/// The values of a node's description.
+/// The origin of the values in a node's description.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Values {
     /// The values of the description file.
@@ -95,7 +95,10 @@ impl NetworkFile {
             }
         };
         if bus.network() != Network::CanOpen {
-            return Err(Failure::Usage(format!("{} needs a CAN bus", self.name())));
+            return Err(Failure::Usage(format!(
+                "{} needs a CAN bus, such as can:can0 or slcan:/dev/ttyACM0",
+                self.name()
+            )));
         }
         let network = self.network();
         if let BusAddress::Slcan { bit_rate: bit_rate @ None, .. } = &mut bus {

@@ -34,7 +34,8 @@ impl Device {
     fn of(target: &Target, values: Values) -> Result<Self, Failure> {
         let timeout = Duration::from_millis(target.timeout.into());
         if let Some(node) = target.node {
-            let bus = target.bus.clone().ok_or_else(|| Failure::Usage("add the bus with --bus".to_owned()))?;
+            let bus =
+                target.bus.clone().ok_or_else(|| Failure::Usage("add the bus, such as --bus can:can0".to_owned()))?;
             let description = files::description(&target.file_or_node, &target.options, bus.network())?;
             return Ok(Self { bus, node, description, timeout });
         }
@@ -56,7 +57,7 @@ fn network_file(target: &Target) -> Result<NetworkFile, Failure> {
         let name = target.file_or_node.display();
         let text = match target.file_or_node.is_file() {
             true => format!("add the node-ID or server address of the device with --node, because {name} is a file"),
-            false => format!("add --node to read the description file {name}, or --network to use the name of a node"),
+            false => format!("there is no file {name} and no {DEFAULT}: add --network to use the name of a node"),
         };
         return Err(Failure::Usage(text));
     }
@@ -106,7 +107,7 @@ impl Watched {
         match (&self.network, &self.bus) {
             (Some(network), bus) => network.bus(bus.as_ref()),
             (None, Some(bus)) => Ok(bus.clone()),
-            (None, None) => Err(Failure::Usage("add the bus with --bus".to_owned())),
+            (None, None) => Err(Failure::Usage("add the bus, such as --bus can:can0".to_owned())),
         }
     }
 }

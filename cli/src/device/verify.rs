@@ -27,7 +27,7 @@ pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
     if let Some(path) = &arguments.write_overlay {
         match report.overlay() {
             Some(overlay) => put(Some(path), &overlay)?,
-            None => say("no overlay was written, because no finding changes the description"),
+            None => say("no overlay was written, because there is no deviation that an overlay can express"),
         }
     }
     let has_deviations = report.deviations().next().is_some();

@@ -8,7 +8,7 @@ use super::example;
 /// Maximum line width of the text that [`explain`] returns.
 const COLUMNS: usize = 80;
 
-/// Returns the explanation of a code, wrapped at 80 columns, with an example.
+/// Returns the explanation of a code, wrapped at 80 columns, with an example if there is one.
 pub fn explain(code: &Code) -> String {
     let (class, strictness) = (code.class.name(), strictness(code.class));
     let mut text = wrapped(&format!("{}: {}", code.id, code.summary));

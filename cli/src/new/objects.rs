@@ -21,9 +21,9 @@ struct Library<'l> {
     driver: &'l str,
     bus: &'l BusNames,
     machine: Option<&'l Machine<'l>>,
-    /// Reason why the driver does not enable the device.
+    /// Reason why the driver does not enable the device; `None` if the driver enables it.
     not_enabled: Option<String>,
-    /// Method that returns the operations of CiA 402.
+    /// Method of the bindings that returns the operations of CiA 402.
     motion: Option<&'l str>,
     /// Expression that sets the mode of operation.
     set_mode: String,

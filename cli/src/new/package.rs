@@ -54,7 +54,7 @@ struct BuildScript {
 }
 
 impl BuildScript {
-    /// Returns the calls of the builder.
+    /// Returns the code of the build script that calls `Builder`.
     fn builder(&self) -> String {
         // Assign a long name to a variable first, so that the calls fit on a line.
         let (start, file) = match self.file.chars().count() > 40 {

@@ -115,12 +115,12 @@ fn module_row(module: &ModuleInfo) -> [String; 4] {
     [argument(module.argument.as_deref()), hex32(module.ident), module_text(module), module.name.clone()]
 }
 
-/// Returns an argument for a shell, or `-` if there is none.
+/// Returns an argument in the notation of a shell, or `-` if there is none.
 fn argument(text: Option<&str>) -> String {
     text.map_or_else(|| "-".to_owned(), shell::argument)
 }
 
-/// Returns the vendor IDs of all devices, each once.
+/// Returns the different vendor IDs of the devices, separated by commas.
 fn vendors(devices: &[DeviceInfo]) -> String {
     let ids: BTreeSet<Option<u32>> = devices.iter().map(|device| device.vendor_id).collect();
     ids.into_iter().map(number).collect::<Vec<_>>().join(", ")

@@ -43,7 +43,7 @@ pub(in super::super) struct Reporter {
     all: bool,
     /// Numbers of diagnostics by code, if these numbers are printed instead of the diagnostics.
     statistics: Option<Statistics>,
-    /// Diagnostics that are not reported.
+    /// Baseline with the diagnostics that are not reported.
     baseline: Option<Baseline>,
     /// Diagnostics of all inputs. They are collected only for SARIF output, because a SARIF log is a single document.
     kept: Vec<Diagnostic>,
@@ -186,8 +186,8 @@ impl Reporter {
     }
 
     /// Prints the statistics or the SARIF document if the user selected them. In the formats `text` and `github`, also
-    /// prints a summary if diagnostics are the main output of the command or if there are diagnostics. Returns whether
-    /// no errors occurred.
+    /// prints a summary if diagnostics are the main output of the command or if there are diagnostics. A note after the
+    /// summary states how many diagnostics of the baseline no longer occur. Returns whether no errors occurred.
     pub(in super::super) fn finish(self) -> Result<bool, Failure> {
         match (&self.statistics, self.format) {
             (Some(statistics), MessageFormat::Json) => self.print(&statistics.json()?)?,

@@ -107,13 +107,13 @@ fn serve_modbus(mut stream: TcpStream, device: &mut Device) -> std::io::Result<(
 }
 
 /// Returns the reply to a request for the device identification (function 43) that begins with the object `first`. The
-/// reply for object 0 contains the vendor name, and the next reply contains the product code.
+/// reply for object 0 contains the vendor name, and each other reply contains the product code.
 fn identification(first: u8) -> Vec<u8> {
     let (value, more) = if first == 0 { (&b"AEC SRL"[..], 0xFF) } else { (&b"SMD1204"[..], 0) };
     [&[0x2B, 0x0E, 0x01, 0x01, more, 1, 1, first, value.len() as u8], value].concat()
 }
 
-/// Returns the reply to a request. Supports the function codes 3, 4, 6, 16 and 43, and rejects all others.
+/// Returns the reply to a request. The server supports the function codes 3, 4, 6, 16 and 43, and rejects all others.
 fn answer(request: &[u8], device: &mut Device) -> Vec<u8> {
     let number = |at: usize| u16::from_be_bytes([request[at], request[at + 1]]);
     let function = request[0];

@@ -109,7 +109,7 @@ fn export_writes_an_image_per_slave() {
     let stale = lexibus(&call);
     assert_eq!(code(&stale), 1);
     assert!(err(&stale).contains("is missing or stale"), "{}", err(&stale));
-    // The coupler has no ConfigData.
+    // The coupler has no ConfigData, which an EEPROM image requires.
     let into = format!("{}/", folder.join("all").to_string_lossy());
     let missing = lexibus(&["export", "--format", "sii", COUPLER, "--out", &into, "-A", "warnings"]);
     assert_eq!(code(&missing), 1);

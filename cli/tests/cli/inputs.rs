@@ -57,7 +57,7 @@ fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 #[test]
 fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
     let folder = folder("order");
-    // Create two input files with the same name. The second output must get a number.
+    // Use two input files with the same name. The name of the second output file must get a number.
     let twin = folder.join("in");
     std::fs::create_dir_all(&twin).expect("a folder");
     let mut files = examples();

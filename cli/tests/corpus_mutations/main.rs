@@ -430,7 +430,7 @@ fn files_that_start_as_one_and_end_as_another() {
     });
 }
 
-/// Generates a file name with the extension of a format or without an extension.
+/// Generates a file name with the extension of a CANopen description, a name without an extension, or an empty name.
 fn name() -> impl Strategy<Value = &'static str> {
     select(&["x.eds", "x.dcf", "x.xdd", "x.xdc", "", "x"][..])
 }

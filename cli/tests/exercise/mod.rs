@@ -73,7 +73,7 @@ fn everything_reported(overlays: Vec<Source>) -> Options {
     options
 }
 
-/// Generates the exports and the Rust code of all devices, even if there are errors.
+/// Exports the catalog and generates the Rust code of all devices, even if there are errors.
 fn emitted(compilation: &Compilation) {
     /// Maximum size of generated code that is parsed to check it, because `syn` is slow.
     const PARSED: usize = 60_000;
@@ -87,7 +87,7 @@ fn emitted(compilation: &Compilation) {
     }
 }
 
-/// Exports the catalog as ESI and as GSDML, and the first two devices as DCF. Ignores notes and refusals.
+/// Exports the catalog as ESI and as GSDML, and the first two devices as DCF and as SII. Ignores notes and refusals.
 fn exported(catalog: &Catalog) {
     let _ = esi::export(catalog, &esi::Options::default());
     let _ = gsdml::export(catalog, &gsdml::Options::default());

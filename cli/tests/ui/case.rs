@@ -61,7 +61,7 @@ pub struct Settings {
     pub map: Vec<String>,
     /// Parts of the register table that is imported from the input, a CSV file.
     pub table: Option<Vec<String>>,
-    /// Whether an EDS or DCF contains REAL values as IEEE 754 bit patterns, as with `--real hex`.
+    /// Whether an exported EDS or DCF contains REAL values as IEEE 754 bit patterns, as with `--real hex`.
     pub real_hex: bool,
     /// Additional facts for an export in the form `key = "value"`, as for `--set`.
     pub set: BTreeMap<String, String>,

@@ -73,7 +73,7 @@ fn printed(compilation: &Compilation) -> String {
     format!("{text}{name}: {}\n", render::summary(counts.0, counts.1))
 }
 
-/// Adds the outputs of a file that the settings name. Appends the notes of exports to the diagnostics.
+/// Returns the outputs of a file that the settings name. Appends the notes and refusals of exports to the diagnostics.
 fn made(
     case: &Case,
     compilation: &Compilation,
@@ -178,7 +178,7 @@ fn difference(case: &Case, compilations: &[Compilation]) -> Result<String, Strin
     Ok(format!("{lines}{}\n", Summary::of(&changes)))
 }
 
-/// Adds the register tables that `lexibus import` creates from register lists.
+/// Imports register lists and adds their diagnostics. If the settings name the table, also adds the register tables.
 fn import_lists(case: &Case, inputs: Vec<Source>, outputs: &mut Outputs) -> Result<(), String> {
     let mut diagnostics = String::new();
     for input in inputs {

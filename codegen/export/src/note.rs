@@ -66,13 +66,13 @@ kinds! {
     GivenFact = "given-fact", "value of an option left out: the file has no field for it";
     /// A fact of a configured device, such as ParameterValue or Denotation, if the output format is not DCF.
     Configuration = "configuration", "configured value left out: only a DCF has a field for it";
-    /// A unit, scale, sentinel value or step.
+    /// A unit or scale, including sentinel values, a step and further units.
     Quantity = "unit", "unit or scale left out";
-    /// A type with named values.
+    /// A type with named values, which is written as its integer type.
     Enumeration = "enumeration", "enumeration written as its integer type";
-    /// A type with named bits.
+    /// A type with named bits, which is written as its integer type.
     BitField = "bit-field", "bit field written as its integer type";
-    /// A record or array in one entry.
+    /// A record or array in a single entry, which is written as raw bytes.
     Structure = "structure", "array or record in a single entry written as raw bytes";
     /// An integer whose width does not exist in the format.
     Widened = "widened-type", "integer written with the next wider type of the format";
@@ -82,7 +82,7 @@ kinds! {
     Length = "text-length", "maximum length of a string left out";
     /// Allowed values that are several ranges or a list.
     AllowedValues = "allowed-values", "list of allowed values reduced to its minimum and maximum";
-    /// The default value and limits of a value in cyclic data.
+    /// The default value or a limit of a value in cyclic data.
     Limits = "limits", "default or limits of a value in cyclic data left out";
     /// A minimum that is greater than the maximum.
     SwappedLimits = "swapped-limits", "limits left out: the minimum is above the maximum";
@@ -98,9 +98,9 @@ kinds! {
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
     /// A PDO, or its communication parameters, that no object of the file describes.
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
-    /// Storage behavior, side effects or conditions of an item.
+    /// Storage behavior, side effects or conditions of an item, or conditions of a named value.
     Behavior = "behavior", "storage, conditions or side effects left out";
-    /// The models, versions or options in which an item exists.
+    /// The models, versions or options in which an item or a named value exists.
     Availability = "availability", "models, versions or options of an item left out";
     /// A reference from an item to another item that has the same value or a part of the value. Also the property that
     /// an item is reserved or optional.
@@ -127,7 +127,7 @@ kinds! {
     Duplicate = "duplicate", "object or entry left out: another one has the same address";
     /// An extension attribute for which the format has no field.
     Extension = "extension", "extension attribute left out: the format has no field for it";
-    /// A module of another bus.
+    /// A module of another bus, or its submodules or fixed objects.
     Module = "module", "module of another bus left out";
     /// A slot of a modular device, or the class or name of a module that a slot accepts.
     Slot = "slot", "slot, or class or name of a module that a slot accepts, left out";
@@ -164,7 +164,7 @@ kinds! {
     Incomplete = "incomplete", "facts left out: the format requires further facts that are missing";
     /// A word or number whose form the schema does not allow.
     Spelling = "spelling", "word or number left out: the schema does not allow its notation";
-    /// A device of another vendor.
+    /// A device or module of another vendor.
     OtherVendor = "other-vendor", "device or module of another vendor left out: a file contains only one vendor";
     /// A control character in a text.
     Control = "control-character", "control character removed from a text";
@@ -182,7 +182,7 @@ kinds! {
     LongText = "long-text", "text shortened to 255 bytes";
     /// A text after the 255 texts that an image can contain.
     TextCount = "text-count", "text left out: an image contains at most 255 texts";
-    /// A PDO entry whose length does not fit the length field.
+    /// A PDO entry longer than 255 bits, which is written as several entries.
     SplitEntry = "split-entry", "PDO entry longer than 255 bits written as several entries";
     /// A PDO with more than 255 entries.
     PdoEntries = "pdo-entries", "PDO left out: it has more than 255 entries";

@@ -6,7 +6,7 @@ use std::fmt::Display;
 use compact_str::CompactString;
 use quick_xml::escape::escape;
 
-/// An XML file that is being written. The caller must close each opened element.
+/// An XML file that is being written. The caller closes each element; `finish` closes the elements that are still open.
 pub(super) struct Xml {
     text: String,
     open: Vec<Open>,
@@ -185,7 +185,7 @@ impl Xml {
         text
     }
 
-    /// Returns the text of the file.
+    /// Closes the elements that are still open, and returns the text of the file.
     pub(super) fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.close();

@@ -5,8 +5,8 @@ mod exercise;
 
 use lexibus_codegen::source::Source;
 
-/// Compiles `bytes` as a file with this name, exports the result and renders the diagnostics. None of these steps may
-/// panic.
+/// Compiles `bytes` as a file with this name, generates Rust, exports and documentation, and renders the diagnostics.
+/// None of these steps may panic.
 pub fn everything(name: &str, bytes: &[u8]) {
     exercise::exercise(name, bytes);
 }

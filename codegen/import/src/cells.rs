@@ -48,7 +48,8 @@ pub(super) fn hexadecimal(text: &str, is_hex: bool) -> Option<i128> {
     is_number.then(|| i128::from_str_radix(&digits, 16).ok()).flatten()
 }
 
-/// Parses a decimal, hexadecimal or binary number. If `comma` is set, the decimal mark is a comma.
+/// Parses a decimal, hexadecimal or binary number. If `comma` is set, the comma in a number such as `1,234` is the decimal
+/// mark; otherwise, it separates thousands.
 pub(super) fn number(text: &str, comma: bool) -> Option<Number> {
     let text: String = text.trim().replace(['\u{a0}', '\u{202f}', '\'', '_'], "").replace(['−', '–'], "-");
     let (sign, digits) = match text.strip_prefix('-') {

@@ -160,7 +160,7 @@ fields! {
     Cite "cite" ["cite" "page" "page no" "manual page" "seite" "pagina" "pag"]
     /// Name of the register in the language of the manual.
     Orig "orig" ["orig" "original" "original name" "originalname" "nome originale" "local name"]
-    /// Number of consecutive registers that the row describes.
+    /// Number of times that the row is repeated at consecutive addresses.
     Count "count" ["repeat" "repeats" "instances" "number of instances" "array size" "array length" "elements"]
 }
 
@@ -354,7 +354,7 @@ impl<'a, I: Iterator<Item = (usize, &'a super::records::Cell)>> PositionOf for I
     }
 }
 
-/// Converts a title to lowercase with one space between words.
+/// Converts a title to lowercase words without punctuation, separated by single spaces.
 pub(super) fn normal(title: &str) -> String {
     let letters = title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { ' ' });
     let lower = letters.collect::<String>().to_lowercase();

@@ -274,7 +274,8 @@ impl Reader<'_, '_> {
         (None, None)
     }
 
-    /// Returns the index of the definition with these entries. Adds the definition if necessary.
+    /// Returns the index of the definition with the entries of `list`. Adds the definition if necessary. Reports and
+    /// leaves out entries that do not fit the type or occur twice. Returns `None` if no entry is left.
     pub fn define(&mut self, span: Span, list: &List, is_bits: bool, ty: Type, name: &str) -> Option<usize> {
         let mut entries: Vec<(String, String)> = Vec::new();
         let mut keys = HashSet::new();
@@ -342,7 +343,7 @@ fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(1.0)
 }
 
-/// Converts a truth value to a number.
+/// Converts a word for a truth value, such as `on` or `nein`, to 1 or 0.
 fn truth(text: &str) -> Option<Number> {
     let value = match text.to_lowercase().as_str() {
         "true" | "on" | "yes" | "enabled" | "ja" | "sì" | "si" | "ein" => 1,

@@ -28,7 +28,7 @@ pub(super) struct Space {
     pub is_first_known: bool,
     /// True if all values of more than 16 bits have the low word first.
     pub low_first: bool,
-    /// True if the bytes of all rows are swapped.
+    /// True if all rows except Boolean ones have swapped bytes.
     pub swap: bool,
 }
 

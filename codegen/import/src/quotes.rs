@@ -15,7 +15,7 @@ pub(super) fn swallows(records: &Records) -> bool {
     records.unclosed.is_some() || cells().any(|cell| cell.text.contains('\t') && cell.text.contains('\n'))
 }
 
-/// Splits the text from `start` into cells.
+/// Splits the text after the position `start` into lines and cells.
 pub(super) fn divide(source: &Source, file: FileId, start: usize) -> Records {
     let (text, mut at) = (source.text(), start);
     let (mut records, mut record) = (Records::default(), Record::default());

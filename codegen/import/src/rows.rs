@@ -165,7 +165,7 @@ fn is_index(printed: Address, second: Address) -> bool {
     second.is_hex && !printed.is_hex && second.first > printed.first && (0x1000..=0x9FFF).contains(&second.first)
 }
 
-/// Joins the lines of a text with spaces.
+/// Replaces each sequence of whitespace in a text, such as a line break, with one space, and trims the text.
 pub(super) fn tidy(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -336,7 +336,8 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Returns the bits that the row describes. Returns `None` if the row describes the whole register.
+    /// Returns the bits that the row describes. Returns `None` if the row describes a whole register, a coil, a discrete
+    /// input, an object or a parameter, or if its bits cannot be read.
     fn part(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<(u8, u8)> {
         // Only registers have parts; objects and parameters have none.
         let table =
@@ -459,8 +460,8 @@ impl Reader<'_, '_> {
         ty
     }
 
-    /// Compares the size of a type with the size of its row. The type becomes an array if the row size is a multiple of
-    /// the type size. Any other difference is reported.
+    /// Compares the size of a type with the size of its row, rounded to whole registers. The type becomes an array if the
+    /// row size is a multiple of the type size. Reports any other difference that the unit of the length does not explain.
     fn compare(&mut self, record: &Record, ty: &mut Type, size: u32) {
         let of_type = ty.size().unwrap_or(size);
         // A value that is smaller than a register occupies a whole register. A length column may contain bytes or bits
@@ -498,7 +499,8 @@ impl Reader<'_, '_> {
         by_function.or_else(|| table.filter(|table| table.is_read_only()).map(|_| "ro"))
     }
 
-    /// Returns the number of repetitions if the row is repeated.
+    /// Returns the number of repetitions, or `None` if the row is not repeated. Reports a cell that contains no number
+    /// from 1 to 1024.
     fn repetition(&mut self, record: &Record) -> Option<u32> {
         let cell = self.cell(record, Field::Count)?;
         let number = cells::number(&cell.text, false).and_then(Number::int);

@@ -4,14 +4,15 @@ use compact_str::format_compact;
 
 use lexibus_codegen::unique::Unique;
 
-/// Maximum number of characters of a file name, without the number that distinguishes equal names.
+/// Maximum number of characters of a file name, not counting the extension and the number that distinguishes equal
+/// names.
 const LONGEST: usize = 40;
 
 /// The file names of a folder, or the anchors of a page, without duplicates.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: Unique,
-    /// Prefix of the anchors in the page or element.
+    /// Prefix of all anchors: the anchor of the surrounding element and a dot, or nothing.
     prefix: String,
 }
 
@@ -21,7 +22,8 @@ impl Names {
         Names { prefix: format!("{anchor}."), ..Names::default() }
     }
 
-    /// Returns a file name for `text`. The name consists of lowercase letters, digits and `-`.
+    /// Returns an unused file name for `text`, without extension. The name consists of lowercase letters, digits and
+    /// `-`.
     pub fn file(&mut self, text: &str) -> String {
         let mut name = slug(text);
         name.truncate(LONGEST);
@@ -29,8 +31,8 @@ impl Names {
         self.once(if name.is_empty() { "device" } else { name }, '-')
     }
 
-    /// Returns an anchor for an element called `text`. The anchor contains only characters that need no escaping in a
-    /// link.
+    /// Returns an unused anchor for an element called `text`. The anchor contains only characters that need no escaping
+    /// in a link.
     pub fn anchor(&mut self, text: &str) -> String {
         let is_plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | ':');
         let name: String = text.trim().chars().map(|letter| if is_plain(&letter) { letter } else { '_' }).collect();
@@ -43,7 +45,7 @@ impl Names {
     }
 }
 
-/// Returns a text as lowercase letters, digits and `-`.
+/// Returns a text in lowercase, with one `-` for each run of characters other than ASCII letters and digits.
 pub(super) fn slug(text: &str) -> String {
     let mut name = String::new();
     for letter in text.chars().flat_map(char::to_lowercase) {

@@ -63,7 +63,7 @@ impl Section {
     }
 }
 
-/// A part of a device. The groups of a part share pages.
+/// A part of a device: a chapter, a process image or a range of objects. The groups of a part share pages.
 struct Part<'g> {
     title: String,
     /// The groups of the part, with their positions in the device.

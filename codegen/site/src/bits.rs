@@ -117,7 +117,7 @@ fn drawing(types: &[TypeDef], fields: &[BitFieldEntry], bits: u32, owner: &str) 
     Bits { rows, fields: self::fields(types, fields, owner) }
 }
 
-/// Returns the list of bit fields.
+/// Returns the fields of a bit field with their anchors and named values.
 fn fields(types: &[TypeDef], entries: &[BitFieldEntry], owner: &str) -> Vec<Field> {
     let mut fields: Vec<Field> = entries.iter().map(field).collect();
     let parts = fields.iter().map(|field| (field.number(), field.name.as_str(), field.is_conditional));
@@ -144,7 +144,7 @@ fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     Some(Cell::new(left, width, &field.name))
 }
 
-/// Returns the row of a bit field in the bit list, without anchor and named values.
+/// Returns the row of a field in the bit list, without anchor and named values.
 fn field(entry: &BitFieldEntry) -> Field {
     let (first, last) = (u32::from(entry.offset), u32::from(entry.offset) + u32::from(entry.bits).max(1) - 1);
     let mut facts = Vec::new();

@@ -46,7 +46,8 @@ fn pdo(device: &Device, pdo: &Pdo, usage: &Usage) -> Option<Json> {
     Some(data)
 }
 
-/// Returns the data that only a PDO on CANopen has. Granularity 0 means that the mapping is fixed (CiA 306).
+/// Returns the data that only a PDO on CANopen has. Returns `None` if its mapping cannot be changed, for example
+/// because the granularity is 0 (CiA 306), or if its COB-ID is unknown.
 fn on_canopen(device: &Device, pdo: &Pdo) -> Option<Json> {
     let communication = pdo.communication.as_ref()?;
     let granularity = device.canopen.as_deref()?.granularity.unwrap_or(1);
@@ -69,7 +70,8 @@ fn on_canopen(device: &Device, pdo: &Pdo) -> Option<Json> {
 
 /// Returns the data that only a PDO on EtherCAT has. The field `assignment` contains the index of the assignment
 /// object, and the PDOs that are assigned to the same sync manager by default. The field is `null` if the device does
-/// not allow a master to write the assignment, or if the PDO is not assigned by default.
+/// not allow a master to write the assignment, or if the PDO is not assigned by default. Returns `None` if the mapping
+/// cannot be changed, if the device is not an EtherCAT device, or if the description contains only a dictionary.
 fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
     if device.ethercat.is_none() || device.dictionary_only {
         return None;

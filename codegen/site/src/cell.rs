@@ -1,6 +1,6 @@
 //! A cell of a drawing. If the cell is wide enough, its label is the name of the field.
 
-/// Width of a letter in pixels.
+/// Approximate width of a letter in pixels.
 const LETTER: u32 = 7;
 
 /// A field in a drawing. A field that spans several rows has a cell in each row.

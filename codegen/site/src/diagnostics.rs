@@ -132,8 +132,8 @@ impl ShownDiagnostics {
         self.within(&[group.origin.span])
     }
 
-    /// Returns the diagnostics that begin within these spans. The number of diagnostics is limited because a table row
-    /// can represent thousands of items.
+    /// Returns the diagnostics that begin within these spans. The number of diagnostics per span is limited because a
+    /// table row can represent thousands of items.
     fn within(&self, spans: &[Span]) -> Vec<ShownDiagnostic> {
         let mut found: Vec<usize> = Vec::new();
         for span in spans.iter().filter(|span| !span.is_empty()) {

@@ -28,7 +28,7 @@ const MOST_GAP: u32 = 240;
 /// Distance between two lanes, and minimum distance between the column and the first lane.
 const LANE: u32 = 30;
 
-/// Width of a letter in pixels.
+/// Approximate width of a letter in pixels.
 const LETTER: u32 = 7;
 
 /// Horizontal distance of a straight arrow from the middle of the column.

@@ -7,7 +7,7 @@ use super::Page;
 
 /// Returns a page for the folder `latest` of each product folder. The page redirects to the first page of the newest
 /// revision. If the revisions have different names, the product has several folders, and there is a page for each of
-/// them.
+/// them. Returns no pages if the format has no redirections.
 pub(super) fn pages(devices: &[Listed], format: &dyn Pages) -> Vec<Page> {
     let (mut folders, mut products) = (BTreeMap::new(), HashMap::new());
     for device in devices {

@@ -54,7 +54,7 @@ pub(super) const PROCESS_DATA: &str = "Process data";
 pub(super) const ROOT: &str = "../../..";
 
 impl Frameset {
-    /// Returns the file names and titles of all pages.
+    /// Returns the file names and titles of the device's pages, followed by those of the shared pages.
     pub fn all(&self) -> Vec<&(String, String)> {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
@@ -183,7 +183,7 @@ impl Listed {
         identity.into_iter().chain(others).map(String::as_str).collect::<Vec<_>>().join(" ")
     }
 
-    /// Returns the path of the page with the device's process data.
+    /// Returns the path of the page with the device's process data, if there is such a page.
     pub fn process_data(&self) -> Option<&str> {
         self.pages.iter().find(|(_, title)| title == PROCESS_DATA).map(|(path, _)| path.as_str())
     }
@@ -197,7 +197,7 @@ impl Listed {
     }
 }
 
-/// Sorts devices by vendor, family, title and order code, newest revision first.
+/// Sorts devices by vendor, family, title, order code, revision (newest first) and file.
 pub(super) fn sort(devices: &mut [Listed]) {
     devices.sort_by_cached_key(|device| {
         let texts = [&device.vendor, &device.family, &device.title, &device.order_code].map(|text| text.to_lowercase());

@@ -13,7 +13,7 @@ pub(super) fn of_number(number: &str) -> String {
 
 /// Returns the anchors of the parts of an element. Each part consists of a number, a name, and a flag that is set if
 /// the meaning of the part depends on a condition. The anchor contains the name if the meaning depends on a condition
-/// or if several parts have the same number. Therefore, anchors do not depend on the order.
+/// or if several parts have the same number. Therefore, such an anchor does not depend on the order of the parts.
 pub(super) fn anchors(owner: &str, parts: &[(String, &str, bool)]) -> Vec<String> {
     let mut counts: HashMap<&str, usize> = HashMap::new();
     parts.iter().for_each(|(number, ..)| *counts.entry(number).or_default() += 1);

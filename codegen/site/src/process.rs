@@ -40,7 +40,7 @@ impl Frame {
         self.entries.iter().any(|entry| !entry.object.is_empty())
     }
 
-    /// Returns the entry in a cell of the byte grid.
+    /// Returns the entry in a cell of the byte grid, or `None` if the bits of the cell are unused.
     pub fn entry(&self, cell: &grid::Cell) -> Option<&Entry> {
         self.entries.get(cell.entry?)
     }

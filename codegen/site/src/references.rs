@@ -104,7 +104,7 @@ impl<'d> Targets<'d> {
         self.parts.get(&(id, part)).or_else(|| self.item(Some(id)))
     }
 
-    /// Returns the link to an element that a text mentions.
+    /// Returns the link to an element that a text mentions, if a page shows the element.
     pub fn mentioned(&self, mention: Mention) -> Option<&Link> {
         match mention {
             Mention::Item(id) => self.item(Some(id)),

@@ -36,7 +36,7 @@ impl Previous {
 #[derive(Debug)]
 pub(super) struct Comparison {
     pub title: String,
-    /// Names of both sides.
+    /// Names of the old and the new revision or description.
     pub old: String,
     pub new: String,
     pub changes: Vec<Change>,

@@ -38,7 +38,7 @@ pub(super) struct Index {
 #[derive(Clone, Debug)]
 struct Device {
     title: String,
-    /// Further searchable words: vendor, order code, identity.
+    /// Further searchable words, such as the vendor, the order code, the product code and the buses.
     words: String,
     /// The revision or file, followed by the note. The search shows this text if several devices have the same title.
     distinction: String,

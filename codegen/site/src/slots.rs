@@ -95,7 +95,7 @@ impl Assignment {
 /// [`Numbers`]. The value contains the positions of the modules.
 type Assigned = BTreeMap<(Vec<(u16, u16)>, Assignment), Vec<usize>>;
 
-/// Adds the module at position `at` in the list of all modules. A module without stated slots is possible in any slot.
+/// Adds the module at position `at` in the list of all modules. A module without stated slots can be in any slot.
 fn assign(assigned: &mut Assigned, at: usize, places: &SlotNumbers) {
     let is_anywhere = places.allowed.is_empty() && places.fixed.is_empty() && places.used.is_empty();
     let all = [
@@ -212,7 +212,7 @@ fn empty(device: &Device, assigned: &Assigned) -> Vec<SlotRow> {
     device.slots.iter().filter(|slot| !is_assigned[usize::from(slot.number)]).map(row).collect()
 }
 
-/// Returns the records of the submodules that an access point contains, and the blocks of its connect request.
+/// Returns the records of the submodules that an access point contains, and the vendor's blocks of its connect request.
 fn records(catalog: &Catalog, device: &Device, links: ModuleLinks<'_>) -> Vec<RecordRow> {
     let bytes = |length: u32| format!("{length} bytes");
     let mut rows = Vec::new();

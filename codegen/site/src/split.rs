@@ -7,12 +7,12 @@ use std::ops::Range;
 /// single element can be larger.
 pub(super) const SIZE: usize = 200_000;
 
-/// Number and size of the elements on a page.
+/// Number and total size of the elements on a page, with the maximum of each.
 #[derive(Debug)]
 pub(super) struct Fill {
     /// Maximum number of elements.
     most: usize,
-    /// Maximum size.
+    /// Maximum total size in bytes of HTML.
     limit: usize,
     count: usize,
     size: usize,

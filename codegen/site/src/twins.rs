@@ -45,7 +45,7 @@ pub(super) fn notes(catalog: &Catalog) -> Vec<Option<String>> {
     notes
 }
 
-/// Returns the texts of a device in a list.
+/// Returns the texts and numbers that a list of devices shows for a device.
 fn shown_texts<'d>(catalog: &'d Catalog, device: &'d Device) -> impl Eq + std::hash::Hash + 'd {
     let identity = &device.identity;
     let texts = [facts::device::title(device), &identity.order_code, &identity.vendor_name];

@@ -7,7 +7,7 @@ use crate::ir::{stated, BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeD
 use crate::source::Span;
 use crate::text::{brief, count_of, more, numbered};
 
-/// Maximum width of an enumerated field whose values all need a name.
+/// Maximum width in bits of an enumerated field in which every value must have a name.
 const MAX_LISTED_BITS: u8 = 4;
 
 pub(super) fn check(owner: Owner<'_>, diagnostics: &mut Diagnostics) {

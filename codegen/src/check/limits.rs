@@ -80,7 +80,7 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the limit that a number violates, as text for diagnostics.
+/// Returns the limit that a number violates, as text for diagnostics. Returns `None` if the number is within the limits.
 pub(super) fn beyond(item: &Item, number: i128) -> Option<String> {
     let (low, high) = item.limits.integers();
     let low = low.filter(|&low| number < low).map(|low| format!("minimum is {low}"));

@@ -9,10 +9,10 @@ use crate::ir::{stated, AxisStep, Device, Direction, Entries, Item, Mappable};
 use crate::source::Span;
 use crate::text::count_of;
 
-/// Number of data bits in a CAN frame.
+/// Maximum number of data bits in a CAN frame.
 pub(super) const CAN_BITS: u32 = 64;
 
-/// Returns the direction of the PDO that a mapping object defines.
+/// Returns the direction of the PDO that a mapping object defines, or `None` if the index is not that of a mapping object.
 pub(super) fn direction_of(mapping: u16) -> Option<Direction> {
     match mapping {
         0x1600..=0x17FF => Some(Direction::Receive),
@@ -49,7 +49,8 @@ pub(super) struct Mapped {
 }
 
 impl Mapped {
-    /// Parses a mapping value: index, sub-index and length. Returns `None` for dummy entries and empty entries.
+    /// Parses a mapping value: index, sub-index and length. Returns `None` for dummy entries, for empty entries, and for numbers
+    /// that do not fit 32 bits.
     pub fn word(word: i128, direction: Direction, span: Span) -> Option<Self> {
         let word = u32::try_from(word).ok()?;
         let (index, sub_index) = ((word >> 16) as u16, (word >> 8) as u8);
@@ -99,7 +100,7 @@ impl Mapped {
 }
 
 /// Returns the reason why an item cannot be mapped into PDOs with this direction. Either the access rights of the item
-/// prevent the mapping, or the item can be mapped only in the other direction.
+/// prevent the mapping, or the item can be mapped only in the other direction. Returns `None` if there is no such reason.
 pub(super) fn wrong_direction(item: &Item, direction: Direction) -> Option<String> {
     let (access, mappable, name) = (Mappable::by_access(item.access), item.mappable, pdo_name(direction));
     let (is_accessible, other) = match direction {

@@ -67,8 +67,8 @@ impl Mapping<'_> {
         }
     }
 
-    /// Returns the problem with the number of mapped objects in sub-index 0. This number may exceed neither the number
-    /// of sub-indices, nor the number of entries that were written since sub-index 0 was set to 0.
+    /// Returns the problem with the number of mapped objects in sub-index 0, or `None` if there is none. This number may exceed
+    /// neither the number of sub-indices, nor the number of entries that were written since sub-index 0 was set to 0.
     fn count(&mut self, index: u16, value: i128) -> Option<String> {
         if value == 0 {
             self.cleared.insert(index);

@@ -213,7 +213,8 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// Returns the name of a field in a message. An echo has the name of the copied field.
+/// Returns the name of a field in a message. An echo has the name of the copied field. Returns `None` for a field without a name,
+/// such as constant bytes.
 fn name(field: &MessageField) -> Option<&str> {
     match field {
         MessageField::Value(value) => Some(&value.item.name),

@@ -73,7 +73,8 @@ fn narrow_uses(uses: &[SubmoduleUse], of_owner: Limits, of_submodules: &mut [Lim
     }
 }
 
-/// Reports a module whose built-in submodules have more data than a device can exchange.
+/// Reports a module if the submodules that are fixed in its subslots have more data than a device that accepts the module can
+/// exchange.
 fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let (mut input, mut output) = (0u32, 0u32);

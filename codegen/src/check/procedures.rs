@@ -85,7 +85,7 @@ fn shown(item: Option<&Item>, value: &Value) -> String {
     }
 }
 
-/// Returns the reason why an item cannot have a value.
+/// Returns the reason why `number` is not a valid value of an item, or `None` if it is valid.
 fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
     let ty = owner.basic(item.ty);
     // Manuals often print negative numbers as bit patterns, such as 0xFFFF for -1.

@@ -7,7 +7,8 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
 use crate::text::count_of;
 
-/// Reports contradictions in the default PDO assignment.
+/// Reports PDOs whose sync manager is not described, and PDOs that are assigned by default but exclude each other. Also
+/// reports sync managers with too many or too long default PDOs.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let data = &context.device.process_data;
     for pdo in &data.pdos {

@@ -1,4 +1,4 @@
-//! Names of bits or values that are column titles by mistake.
+//! Names of bits or values that are probably column titles of the manual.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

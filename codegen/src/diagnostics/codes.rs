@@ -45,7 +45,7 @@ pub struct Code {
     pub explanation: &'static str,
 }
 
-/// Returns the code with this identifier or name, ignoring case.
+/// Returns the code with this identifier or name, ignoring case. Returns `None` if there is no such code.
 pub fn find(name: &str) -> Option<&'static Code> {
     CODES.iter().copied().find(|code| code.id.eq_ignore_ascii_case(name) || code.name.eq_ignore_ascii_case(name))
 }
@@ -921,8 +921,8 @@ codes! {
         name the column by its number: `--map reg=#2`."
     NET001 NETWORK_SYNTAX Error Deny "a network file cannot be parsed"
         "The file is not valid TOML or YAML, or its extension is not one of `.toml`, `.yml`, `.yaml` and `.cpj`. In \
-        YAML, Lexibus also rejects a key that occurs twice, because other tools silently use the last value. Correct \
-        the marked text."
+        YAML, Lexibus also rejects a key that occurs twice, because other tools silently use the last value. A YAML \
+        file can have at most 1,000,000 elements and 64 levels of nesting. Correct the marked text."
     NET002 UNKNOWN_NETWORK_KEY Lint Deny "a network file has an unknown key"
         "No section of the format has the key, so its value would have no effect. Correct the name of the key. If the \
         key is for another program, allow this code."
@@ -930,8 +930,9 @@ codes! {
         "Another section of the format has the key. In this section, its value would have no effect. Move the key to \
         the section that the message names."
     NET004 NETWORK_VALUE Error Deny "a value of a network file is invalid"
-        "The value has the wrong type or is out of range, or a required key is missing. The message states the \
-        expected value. Correct the value."
+        "The value has the wrong type or is out of range, or a required key is missing. Or the output files of two \
+        nodes would have the same name. In a `.cpj` file, the number of nodes can be wrong, or a second network can \
+        follow. Correct the value as the message states."
     NET005 NO_MASTER Lint Deny "a network has no master"
         "A CANopen network has one NMT master, which configures and starts the nodes. Without the section `master`, \
         Lexibus writes no files for the master. Add the section. If another program is the master, allow this code."
@@ -941,11 +942,12 @@ codes! {
         "Two devices with one node-ID both answer SDO requests and send the same CAN-IDs, which leads to bus errors. \
         Give each node its own node-ID."
     NET008 DESCRIPTION_NOT_FOUND Error Deny "the device description of a node is not found"
-        "Paths in a network file are relative to the folder of the network file. In `bus.yml`, they are also relative \
-        to `dcf_path`, and `@BUS_CONFIG_PATH@` is the folder of the network file. Correct the path."
+        "The file of a description or of an overlay does not exist, or the node declares no description. Paths in a \
+        network file are relative to the folder of the network file. In `bus.yml`, Lexibus searches the folder \
+        `dcf_path` first, and `@BUS_CONFIG_PATH@` is the folder of the network file. Correct the path."
     NET009 DESCRIPTION_UNUSABLE Error Deny "the device description of a node cannot be used"
-        "The description has errors, describes no CANopen device, or describes several devices. Check the description \
-        with `lexibus check`, or choose a device with `model`."
+        "The description cannot be read, has errors, describes no CANopen device, or describes several devices. Check \
+        the description with `lexibus check`, or choose a device with `model`."
     NET010 NO_SUCH_OBJECT Error Deny "a device does not have an object"
         "The description of the device has no object with this index, sub-index or name. The value or the key needs \
         this object: `heartbeat`, for example, needs the object 0x1017. Correct the address or the name, or add the \
@@ -953,50 +955,53 @@ codes! {
     NET011 SEVERAL_OBJECTS Error Deny "several objects have the same name"
         "The name is not unique in the description of the device. Write the path of the object and the sub-index \
         (`Object/Sub-index`), or the address."
-    NET012 PARAMETER_TYPE Error Deny "a value is not a value of the object's type"
-        "The value does not fit the data type of the object, has another unit than the object, or is not the name of a \
-        value. A number is a raw value. A text with a unit is a physical value (`\"15.5 rev/s\"`). Correct the value."
+    NET012 PARAMETER_TYPE Error Deny "a value does not fit its object"
+        "The value does not fit the data type or the resolution of the object, has another unit than the object, or is \
+        a text that names no value of the object. A number is a raw value. A text with a unit is a physical value \
+        (`\"15.5 rev/s\"`). Correct the value."
     NET013 PARAMETER_RANGE Lint Deny "a value is outside of the object's limits"
-        "The description states limits for the object, and the device probably aborts a write outside of them. Correct \
-        the value. If the limits in the description are wrong, correct them with an overlay."
+        "The description states limits for the object, and the device probably aborts the write of a value outside of \
+        them. Correct the value. If the limits in the description are wrong, correct them with an overlay."
     NET014 READ_ONLY_PARAMETER Lint Deny "a value is written to a read-only object"
         "The device aborts the write, so the node is not started. Remove the value. If the access rights in the \
         description are wrong, correct them with an overlay."
-    NET015 NO_SUCH_PDO Error Deny "a node does not have a PDO"
-        "The description has no communication object for the PDO, or no node sends the PDO that an RPDO receives. Use \
-        a PDO that the device has."
-    NET016 UNMAPPABLE_OBJECT Lint Deny "an object cannot be mapped"
-        "The description states that no PDO of this direction can map the object, or it has no such object. Or the type \
-        of the object has no fixed length, or another length than the entry. The device aborts the write of the \
-        mapping. Map another object. If the description is wrong, correct it with an overlay. A dummy entry (0x0001 to \
-        0x0007) reserves space. Only an RPDO can contain one, and `[DummyUsage]` lists the data types that the device \
-        supports."
+    NET015 NO_SUCH_PDO Error Deny "a PDO does not exist or is disabled"
+        "The description has no communication object for the PDO. Or an RPDO receives a TPDO that does not exist, that \
+        is disabled, or whose node does not exist. Use a PDO that the device has, and enable the TPDO that an RPDO \
+        receives."
+    NET016 UNMAPPABLE_OBJECT Lint Deny "an object cannot be mapped into a PDO"
+        "In the description, no PDO of this direction can map the object, or the object does not exist. Or the object \
+        has no fixed length, or another length than the mapping entry. The device aborts the write of the mapping. Map \
+        another object. If the description is wrong, correct it with an overlay. A dummy entry, such as 0x0005, is the \
+        index of a data type, and reserves space. Only an RPDO can contain dummy entries, and `[DummyUsage]` lists the \
+        data types that the device supports."
     NET017 PDO_LENGTH Lint Deny "a PDO has an invalid length"
-        "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the PDO that it receives, because the node \
-        then rejects the PDO (CiA 301, 7.2.2.5). Move objects to another PDO."
+        "A PDO on CAN has at most 64 bits. An RPDO must not be longer than the TPDO that it receives, because a node \
+        rejects a PDO with too few bytes (CiA 301, 7.2.2.5). Move objects to another PDO."
     NET018 PDO_WITHOUT_PARTNER Lint Warn "a TPDO has no receiver, or an RPDO has no sender"
         "The master exchanges no PDOs (`pdos = false`), and no other node receives the TPDO or sends the RPDO. A TPDO \
         without a receiver only adds bus load. Disable the PDO, or declare its receiver with `cob_id`."
     NET019 COB_ID_CONFLICT Lint Deny "two senders use the same CAN-ID"
         "Two nodes that send the same CAN-ID at the same time cause bus errors, and a receiver cannot distinguish \
-        their messages. SYNC, TIME and EMCY use CAN-IDs, too. Choose another `cob_id`, or use `auto`."
-    NET020 HEARTBEAT_TIME Lint Deny "a heartbeat or guard time cannot hold"
-        "The consumer time of a heartbeat must be longer than the producer time, and at most 65535 ms. A consumer of a \
-        node that sends no heartbeat always reports an error. A node cannot use heartbeat and node guarding at the \
-        same time (CiA 301, 7.2.8.3). Correct the times."
+        their messages. SYNC, TIME and EMCY use CAN-IDs, too. Lexibus also reports this code if no CAN-ID is free for \
+        `auto`. Choose another `cob_id`, or use `auto`."
+    NET020 HEARTBEAT_TIME Lint Deny "a heartbeat or node guarding is misconfigured"
+        "The consumer time of a heartbeat must be longer than the producer time, and at most 65535 ms. A consumer \
+        cannot monitor a node that sends no heartbeat, and needs a free entry of 0x1016. A node cannot use both \
+        heartbeat and node guarding (CiA 301, 7.2.8.3). Correct the times."
     NET021 BUS_LOAD Lint Deny "the bus load exceeds the bit rate"
-        "Lexibus adds the lengths of all cyclic frames with the largest number of stuff bits. A PDO with an inhibit \
-        time counts as sent each inhibit time, and a PDO with only an event timer as sent each event timer. PDOs \
-        without either have no bound and are left out. Increase the bit rate or the periods."
+        "Lexibus adds the lengths of all cyclic frames with the largest number of stuff bits. An event-driven PDO with \
+        an inhibit time counts once per inhibit time, and one with only an event timer counts once per event timer. \
+        Lexibus leaves out PDOs with neither, because their rate has no limit. Increase the bit rate or the periods."
     NET022 SYNC_PERIOD Lint Deny "the synchronous PDOs do not fit in the SYNC period"
         "SYNC and all synchronous PDOs together take longer than the SYNC period or the synchronous window. Or there \
         are synchronous PDOs, but no node sends SYNC. Declare a longer `sync_period`, or map fewer objects."
-    NET023 RESTRICTED_CAN_ID Lint Deny "a COB-ID has a CAN-ID that it cannot have"
+    NET023 RESTRICTED_CAN_ID Lint Deny "a COB-ID has a CAN-ID that is not allowed"
         "CiA 301 (7.3.5) reserves the CAN-IDs 0x000 to 0x07F, 0x101 to 0x180, 0x581 to 0x5FF, 0x601 to 0x67F, 0x6E0 to \
-        0x6FF and 0x701 to 0x7FF for NMT, SDO, heartbeat, node guarding, LSS and other uses. A CAN-ID above 0x7FF needs \
-        a frame with 29 bits, so bit 29 of the COB-ID must be 1. Choose another `cob_id`, or use `auto`."
+        0x6FF and 0x701 to 0x7FF for NMT, SDO, heartbeat, node guarding, LSS and other uses. A CAN-ID above 0x7FF has \
+        29 bits, so bit 29 of the COB-ID must be 1. Choose another `cob_id`, or use `auto`."
     NET024 MULTIPLEXED_NETWORK_PDO Lint Warn "a node has a multiplexed PDO"
-        "In the description, the number of mapped objects is 254 (SAM-MPDO) or 255 (DAM-MPDO): each frame carries the \
+        "The number of mapped objects is 254 (SAM-MPDO) or 255 (DAM-MPDO). Each frame of such a PDO carries the \
         address of its value, and the PDO has no mapping (CiA 301, 7.5.2.36). The master does not exchange such a PDO, \
         and the bus load and the DBC leave it out. Declare a mapping with `map`, or disable the PDO."
 }

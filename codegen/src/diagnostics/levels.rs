@@ -33,7 +33,7 @@ pub struct Levels {
 pub struct UnknownCode {
     /// Name for which no code exists.
     pub name: String,
-    /// Most similar identifier or name of an existing code.
+    /// Most similar identifier or name of an existing code; `None` if none is similar enough.
     pub suggestion: Option<&'static str>,
 }
 

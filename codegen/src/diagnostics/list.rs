@@ -14,7 +14,7 @@ use crate::source::{FileId, Span};
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     levels: Levels,
-    /// Spans in which the source allows a code.
+    /// Spans in which a register table or overlay allows a code (key `allow`).
     allowed: Allowed,
     /// Number of diagnostics in the list, by file and code.
     kept: HashMap<(FileId, &'static str), usize>,

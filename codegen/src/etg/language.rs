@@ -34,7 +34,7 @@ const LANGUAGES: [(u32, &str); 23] = [
 ];
 
 /// Returns the rank of a language for the choice of an element's main name. The name with the lowest rank is the main
-/// name: English (1033), then a name without a language, then other languages.
+/// name: English (1033), then a name without a language (no LCID, or LCID 0 or 1), then other languages.
 pub fn rank(lcid: Option<u32>) -> u8 {
     match lcid {
         Some(ENGLISH) => 0,

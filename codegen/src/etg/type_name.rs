@@ -139,7 +139,7 @@ fn array(name: &str) -> Option<Basic> {
     })
 }
 
-/// Returns the type with a common name of CiA 301 or C. Ignores case.
+/// Returns the type for a name that is common in CiA 301 or C, such as `UNSIGNED16` or `uint16_t`. Ignores case.
 fn alias(name: &str) -> Option<Type> {
     let upper = name.to_ascii_uppercase();
     let plain = upper.strip_suffix("_T").unwrap_or(&upper);
@@ -158,8 +158,8 @@ fn alias(name: &str) -> Option<Type> {
     })
 }
 
-/// Returns the basic type with this number in ETG.1000.6. Numbers up to 0x1B have the same meaning in CiA 301; greater
-/// numbers have another meaning or none.
+/// Returns the basic type with this number in ETG.1000.6, or `None` for any other number. Numbers up to 0x1B have the same
+/// meaning in CiA 301; greater numbers have another meaning there, or none.
 pub fn by_code(code: u32) -> Option<Basic> {
     Some(match code {
         0x1D => Basic::Type(Type::OctetString(Some(16))),

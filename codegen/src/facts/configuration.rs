@@ -108,7 +108,7 @@ impl Configuration {
         (!configuration.is_empty()).then_some(configuration)
     }
 
-    /// Returns whether there are no configured values. Values that are left out do not count.
+    /// Returns whether the configuration writes no values. Values that are left out do not count.
     fn is_empty(&self) -> bool {
         let phases = [&self.communication, &self.parameters, &self.mapping, &self.pdo_parameters];
         phases.into_iter().chain([&self.disable_pdos, &self.enable_pdos]).all(Vec::is_empty)
@@ -241,7 +241,8 @@ fn reason(group: &Group, item: &Item) -> Option<LeftOut> {
     }
 }
 
-/// Returns the setting that writes a value to an item. Returns `None` if the value does not fit the type of the item.
+/// Returns the setting that writes a value to an item. Returns `None` if the value does not fit the type of the item, if the value
+/// has no bytes in this type, or if the item has no object address.
 fn setting(item: &Item, value: &Value, types: &[TypeDef]) -> Option<Setting> {
     let ty: Type = types::basic(types, item.object_type());
     let bytes = match value {

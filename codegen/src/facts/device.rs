@@ -1,4 +1,4 @@
-//! Titles of devices, and modules that slots accept.
+//! Titles, families and buses of devices, and modules that slots accept.
 
 use super::number::hex32;
 use super::words::bus_names;

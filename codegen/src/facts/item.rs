@@ -43,7 +43,8 @@ pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
 
 /// Returns the meaning of a value: the name of an enumeration value, or the active flags and the fields of a bit field.
 /// Commas separate the flags and fields. The name of a field is followed by its number or by the name of its value:
-/// `Mode 3`, `Mode: Homing`. Returns `None` if the type names neither the value nor an active flag or field.
+/// `Mode 3`, `Mode: Homing`. Fields whose meaning depends on a condition are left out. Returns `None` if the type names neither the
+/// value nor an active flag or field.
 pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     let number = value.as_int()?;
     match &Owner::of_types(types).definition(ty)?.shape {

@@ -1,4 +1,4 @@
-//! Texts in Markdown: doc comments and pages.
+//! Escapes texts for the Markdown of doc comments and pages.
 
 /// Escapes a text so that Markdown shows it literally. Characters for which `keep` is false become spaces.
 pub fn escape(text: &str, keep: fn(char) -> bool) -> String {

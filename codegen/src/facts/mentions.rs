@@ -9,7 +9,7 @@ use crate::ir::{CodeRow, CodeTable, Device, Documentation, ItemId};
 pub enum Mention {
     /// An item.
     Item(ItemId),
-    /// The index of an object, with its first item.
+    /// The index of an object, and the first item of this object.
     Object(u16, ItemId),
     /// The position of a message.
     Message(usize),
@@ -137,7 +137,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 fn is_identifier(word: &str) -> bool {
     /// Names of networks and organizations that are spelled like identifiers.
     const PROPER_NAMES: [&str; 7] = ["CiA", "DeviceNet", "EtherCAT", "EtherNet", "POWERLINK", "PROFIBUS", "PROFINET"];
-    /// Minimum number of letters of an identifier in capitals. Shorter words in capitals are abbreviations.
+    /// Minimum number of letters of a word in capitals that counts as an identifier. Shorter words in capitals are abbreviations.
     const LONG: usize = 8;
     let has_digit = word.chars().any(|letter| letter.is_ascii_digit()) && word.chars().any(char::is_alphabetic);
     let mut pairs = word.chars().zip(word.chars().skip(1));

@@ -2,7 +2,7 @@
 
 use crate::ir::Numbers;
 
-/// Maximum number of allowed values in a sentence.
+/// Maximum number of allowed values that a sentence lists.
 pub const ALLOWED_SHOWN: usize = 16;
 
 /// Formats a byte or a sub-index: `0x0F`.

@@ -1,4 +1,4 @@
-//! Physical values with raw values.
+//! Conversion between raw values and physical values, and their notation in documentation.
 
 use crate::ir::{Limits, Quantity, Scale, Type, Value};
 
@@ -188,7 +188,7 @@ fn whole(number: f64) -> Option<i128> {
     (number.is_finite() && number.abs() < 1e30).then(|| number.round() as i128)
 }
 
-/// The exact raw value of a physical value with a linear scale.
+/// The exact raw value of a physical value with a linear scale, as a fraction.
 struct Ratio {
     numerator: i128,
     denominator: i128,
@@ -207,7 +207,7 @@ impl Ratio {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// Returns the nearest integer. Halves are rounded away from zero.
+    /// Returns the nearest integer, or `None` after an overflow. Halves are rounded away from zero.
     fn rounded(&self) -> Option<i128> {
         let (numerator, denominator) = (self.numerator.checked_abs()?, self.denominator.checked_abs()?);
         let raw = numerator.checked_mul(2)?.checked_add(denominator)?.checked_div(denominator.checked_mul(2)?)?;
@@ -234,7 +234,7 @@ impl Decimal {
         Some(Decimal { number: format!("{whole}{decimals}").parse().ok()?, places })
     }
 
-    /// Returns the number in units of 10^-`places`.
+    /// Returns the number in units of 10^-`places`, or `None` if the result is not an integer or overflows.
     fn scaled(&self, places: u32) -> Option<i128> {
         self.number.checked_mul(10_i128.checked_pow(places.checked_sub(self.places)?)?)
     }

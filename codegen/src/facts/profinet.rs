@@ -37,7 +37,7 @@ fn times(units: &Numbers) -> String {
     format!("{} ms", ranges(units, milliseconds))
 }
 
-/// Returns the first interface submodule of an access point.
+/// Returns the first interface submodule of an access point, or `None` if it has no interface.
 fn interface<'c>(catalog: &'c Catalog, device: &Device) -> Option<&'c Submodule> {
     let submodules = device.submodules.iter().filter_map(|used| catalog.submodules.get(used.submodule.0 as usize));
     submodules.into_iter().find(|submodule| submodule.kind == SubmoduleKind::Interface)

@@ -59,8 +59,8 @@ pub fn crc(bytes: &[u8]) -> u16 {
     })
 }
 
-/// Returns addresses with facts: `40102–40103 (holding; wire address 101–102; FC 3/16; low word first)`. `tables`
-/// contains the function codes that the device accepts.
+/// Returns the printed addresses of a binding, followed by facts about them: `40102–40103 (holding; wire address 101–102; FC 3/16;
+/// low word first)`. `tables` contains the function codes that the device accepts.
 pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> String {
     let mut facts = vec![register.space.title().to_owned(), format!("wire address {}", wire(register))];
     let functions: Vec<String> = functions(register, item, tables).iter().map(u8::to_string).collect();

@@ -17,7 +17,7 @@ pub fn name(types: &[TypeDef], ty: Type) -> String {
     basic(types, ty).with_length()
 }
 
-/// Returns the definition of a named type.
+/// Returns the definition of a named type, or `None` for any other type.
 pub fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
     match ty {
         Type::Named(TypeId(id)) => types.get(id as usize),

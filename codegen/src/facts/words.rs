@@ -100,7 +100,7 @@ pub fn capital(text: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// Returns the name of a bus in a sentence.
+/// Returns the name of a bus for use in a sentence.
 pub fn bus_name(bus: Bus) -> &'static str {
     match bus {
         Bus::CanOpen => "CANopen",
@@ -144,7 +144,7 @@ pub fn origin_name(origin: &FactOrigin) -> String {
     }
 }
 
-/// Returns the name of a fact in a sentence.
+/// Returns the noun for a fact, for use in a sentence: `access rights`.
 pub fn fact_name(fact: Fact) -> &'static str {
     match fact {
         Fact::Name => "name",
@@ -172,7 +172,7 @@ pub(crate) fn enumerated(names: &[&str]) -> String {
     }
 }
 
-/// Returns the special meaning of a raw value.
+/// Returns the special meaning of a raw value, or `None` if the value has no special meaning.
 fn sentinel<'i>(item: &'i Item, value: &Value) -> Option<&'i str> {
     let quantity = item.quantity.as_deref()?;
     quantity.sentinels.iter().find(|(sentinel, _)| sentinel == value).map(|(_, meaning)| meaning.as_str())
@@ -541,7 +541,7 @@ impl Words<'_> {
         format!("{facts} from {}{instead}.", self.escaped(&origin_name(origin)))
     }
 
-    /// Returns the origin of a description: `Description from CiA 402, 17.3.7.`
+    /// Returns the origin of a description, unless the description file is the origin: `Description from CiA 402, 17.3.7.`
     fn text_from(&self, documentation: &Documentation) -> Option<String> {
         let origin = documentation.text_from.as_deref()?;
         let name = self.escaped(&origin_name(origin));

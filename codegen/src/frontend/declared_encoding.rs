@@ -27,8 +27,8 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Returns the message of the diagnostic, and the encoding with which the file was decoded. This encoding is `None` if
-/// some bytes could not be decoded. Returns `None` if the bytes match the declared encoding.
+/// Returns the message of the diagnostic and the name of the encoding with which the file was decoded. The name is `None` if
+/// some bytes could not be decoded. The function returns `None` if the bytes match the declared encoding.
 fn mismatch(source: &Source) -> Option<(&'static str, Option<&'static str>)> {
     const ANOTHER: &str = "the file is not in its declared encoding";
     // The default encoding is UTF-8 (XML 1.0, 4.3.3).

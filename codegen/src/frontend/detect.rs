@@ -10,7 +10,7 @@ use crate::syntax::ini::{Document, Section};
 /// Number of bytes at the start of an XML file in which the compiler searches for the root element and its profile.
 pub const LOOK_AHEAD: usize = 64 * 1024;
 
-/// Recognizes a register table by its file name or its first key.
+/// Returns the format if the file name or the first key shows that the source is a register table.
 pub(super) fn table(source: &Source) -> Option<Format> {
     let start = source.text().trim_start();
     let by_name = source.name().rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("toml"));
@@ -20,23 +20,23 @@ pub(super) fn table(source: &Source) -> Option<Format> {
     (is_table && !start.is_empty()).then_some(Format::Table)
 }
 
-/// Recognizes a GSDML file.
+/// Returns the format if the source is a GSDML file.
 pub(super) fn gsdml(source: &Source) -> Option<Format> {
     (root_name(source)? == "ISO15745Profile" && is_gsdml(source.text())).then_some(Format::Gsdml)
 }
 
-/// Recognizes an XDD or XDC file.
+/// Returns the format if the source is an XDD or XDC file.
 pub(super) fn xdd(source: &Source) -> Option<Format> {
     matches!(root_name(source)?, "ISO15745ProfileContainer" | "ISO15745Profile").then_some(Format::Xdd)
 }
 
-/// Recognizes an ESI file, including files with only modules, a dictionary or diagnosis messages.
+/// Returns the format if the source is an ESI file. The file may contain only modules, a dictionary or diagnosis messages.
 pub(super) fn esi(source: &Source) -> Option<Format> {
     let roots = ["EtherCATInfo", "EtherCATInfoList", "EtherCATModule", "EtherCATDict", "EtherCATDiag"];
     roots.contains(&root_name(source)?).then_some(Format::Esi)
 }
 
-/// Recognizes an EDS or DCF file for CANopen.
+/// Returns the format if the source is an EDS or DCF file for CANopen.
 pub(super) fn eds(source: &Source) -> Option<Format> {
     if is_xml(source) {
         return None;

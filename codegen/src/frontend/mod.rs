@@ -15,7 +15,7 @@ mod read;
 pub mod table;
 #[cfg(feature = "xdd")]
 pub mod xdd;
-// Each format uses only a part of the reader base, so some items are unused if a format is disabled.
+// Each format uses only a part of the common XML reader, so some items are unused if a format is disabled.
 #[cfg(feature = "xml")]
 #[cfg_attr(not(all(feature = "esi", feature = "gsdml", feature = "xdd")), allow(dead_code, unused_imports))]
 mod xml;

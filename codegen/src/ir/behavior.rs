@@ -348,9 +348,9 @@ pub struct Quantity {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conversion {
-    /// Raw value of the example.
+    /// Raw value of the example; `None` = not given.
     pub raw: Option<i128>,
-    /// Physical value of the example.
+    /// Physical value of the example; `None` = not given.
     pub value: Option<f64>,
     /// Unit of the physical value, if it differs from the item's unit.
     pub unit: Option<CompactString>,

@@ -108,7 +108,7 @@ pub struct Doubt {
     pub says: String,
     /// The assumption that was made.
     pub chosen: String,
-    /// Reason why the assumption was chosen.
+    /// Reason for the assumption.
     pub why: String,
     /// Location of the ambiguity in the source.
     pub origin: Origin,

@@ -173,7 +173,7 @@ impl IdentityNumber {
 }
 
 impl Identity {
-    /// Returns an identity number.
+    /// Returns the vendor ID, product code or revision number; `None` = not given.
     pub fn number(&self, number: IdentityNumber) -> Option<u32> {
         match number {
             IdentityNumber::VendorId => self.vendor_id,
@@ -279,7 +279,7 @@ pub struct CanOpenSpans {
     pub tx_pdos: Span,
 }
 
-/// A segment of network variables (CiA 302-4).
+/// A segment of dynamic channels: network variables with the same data type and direction (CiA 302-4).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DynamicChannel {
@@ -287,7 +287,7 @@ pub struct DynamicChannel {
     pub data_type: u32,
     /// Direction as the source spells it.
     pub direction: CompactString,
-    /// Range of indices as the source spells it.
+    /// Range of indices as an EDS spells it; for CiA 311, in the form `0xA080-0xA0BF`.
     pub range: CompactString,
     /// Offset in the process image.
     pub offset: i64,

@@ -9,7 +9,7 @@ use crate::source::Origin;
 pub struct EtherCatSettings {
     /// Physical layer of each of up to four ports (`Physics`): Y = MII, K = LVDS, H = MII with Fast Hot Connect, blank = no port.
     pub physics: CompactString,
-    /// Name of the device family (`GroupType`).
+    /// Device family, by its key (`GroupType`).
     pub group: FamilyRef,
     /// Product code and revision of each device that engineering tools hide because of this description (`HideType`).
     pub hides: Vec<(Option<u32>, Option<u32>)>,
@@ -69,9 +69,9 @@ pub struct Fmmu {
 pub struct SyncUnit {
     /// Name of the sync unit.
     pub name: CompactString,
-    /// True if the sync unit needs a separate sync unit in the master (`SeparateSu`).
+    /// True if a master must not combine these process data with those of other devices in one sync unit (`SeparateSu`).
     pub separate: bool,
-    /// True if the sync unit needs a separate frame.
+    /// True if a master must exchange these process data in a separate frame (`SeparateFrame`).
     pub separate_frame: bool,
     /// True if the data of the sync unit depend on the input state (`DependOnInputState`).
     pub depends_on_input_state: bool,
@@ -85,7 +85,7 @@ pub struct SyncUnit {
 pub struct Mailbox {
     /// True if the device supports the data link layer of the mailbox (`DataLinkLayer`). This layer repeats lost messages.
     pub data_link_layer: bool,
-    /// True if the mailbox runs in real-time mode.
+    /// True if the mailbox runs in real-time mode (`RealTimeMode`).
     pub real_time: bool,
     /// ADS over EtherCAT (AoE), if supported.
     pub aoe: Option<Protocol>,
@@ -201,7 +201,7 @@ pub struct ClockMode {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClockTime {
-    /// Time in nanoseconds; 0 if the master calculates the time from the cycle time.
+    /// Time in nanoseconds. A cycle time of 0 means that a master calculates the time with [`ClockTime::factor`].
     pub nanoseconds: i32,
     /// Factor by which the cycle time is multiplied (for SYNC1, the cycle time of SYNC0); a negative number is a
     /// divisor.
@@ -240,7 +240,7 @@ pub struct SlotRules {
     pub group_pdo_increment: u16,
     /// True if a master writes the list of configured modules to 0xF030 (`DownloadModuleIdentList`).
     pub download_idents: bool,
-    /// True if a master writes the list of module addresses.
+    /// True if a master writes the list of module addresses (`DownloadModuleAddressList`).
     pub download_addresses: bool,
     /// State transition at which a master writes the lists; default `PS`.
     pub download_transition: CompactString,

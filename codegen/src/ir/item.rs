@@ -427,7 +427,7 @@ pub enum ObjectCode {
 }
 
 impl ObjectCode {
-    /// Returns the object code with this number.
+    /// Returns the object code with this number, or `None` for numbers other than 0, 2 and 5 to 9.
     pub fn from_number(number: i128) -> Option<Self> {
         Some(match number {
             0 => ObjectCode::Null,
@@ -454,7 +454,7 @@ impl ObjectCode {
         }
     }
 
-    /// Returns whether an object of this code has sub-indices.
+    /// Returns whether an object of this code has sub-indices above 0.
     pub fn has_subs(self) -> bool {
         matches!(self, ObjectCode::Array | ObjectCode::Record | ObjectCode::DefStruct)
     }

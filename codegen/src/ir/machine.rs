@@ -74,7 +74,7 @@ pub struct StateOutcome {
     pub documentation: Option<Box<Documentation>>,
 }
 
-/// The outcome of a command.
+/// An outcome of a command in one state.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

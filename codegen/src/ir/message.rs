@@ -29,7 +29,7 @@ pub struct Message {
     pub by_default: bool,
     /// The message that the device sends instead of the reply if it rejects the request.
     pub error: Option<MessageRef>,
-    /// Side effects of the message.
+    /// Side effects of the request on the device, as texts.
     pub side_effects: Vec<CompactString>,
     /// Conditions on items under which the device accepts the message.
     pub accepted_when: Vec<Condition>,
@@ -149,7 +149,8 @@ pub enum MessageField {
         /// Length of the parameter number in bits.
         bits: u8,
     },
-    /// The value of the parameter whose number precedes this field.
+    /// The value of the parameter whose number precedes this field. In a reply without a parameter number, the number is in the
+    /// request.
     ItemValue {
         /// The parameter space.
         space: SpaceRef,

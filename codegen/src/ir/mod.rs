@@ -13,7 +13,7 @@
 //! - A [`Message`] is a request of a command protocol, with its reply.
 //! - [`Module`]s and [`Submodule`]s extend a modular device. They belong to the catalog, because several devices may
 //!   accept the same modules.
-//! - [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are further parts of a manual.
+//! - [`CodeTable`]s list codes, such as alarms. [`StateMachine`]s and [`Procedure`]s describe states and sequences of steps.
 //!
 //! Most elements have an [`Origin`](crate::source::Origin) or a [`Span`](crate::source::Span). A [`Doubt`] describes an
 //! ambiguity in the source and the assumption that was made. Facts without a field in the IR are kept as

@@ -115,7 +115,7 @@ pub struct Pdo {
     pub fixed: bool,
     /// True if a master has to assign the PDO.
     pub mandatory: bool,
-    /// Sync manager of the PDO in the default assignment.
+    /// Sync manager to which the PDO is assigned by default; `None` = the PDO is not assigned by default.
     pub sync_manager: Option<u8>,
     /// Indices of the mapping objects whose PDOs cannot be assigned together with this PDO.
     pub excludes: Vec<u16>,
@@ -247,7 +247,7 @@ pub struct PdoCommunication {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PdoEntry {
-    /// Index of the mapped object; 0 for padding.
+    /// Index of the mapped object, or of the data type in a dummy entry; 0 for padding, and if the index is unknown.
     pub index: u16,
     /// Sub-index of the mapped object.
     pub sub_index: u8,
@@ -263,7 +263,8 @@ pub struct PdoEntry {
     pub item: Option<ItemId>,
     /// Name in the mapping, or the name of the mapped item if the mapping states no name.
     pub name: CompactString,
-    /// Type of the mapped item, or the type in the mapping.
+    /// Type of the mapped item. On EtherCAT, the type in the mapping if the item is unknown or its length differs from that of the
+    /// entry.
     pub ty: Type,
     /// True if the entry cannot be removed from the mapping (Fixed of ETG.2000).
     pub fixed: bool,
@@ -317,7 +318,7 @@ pub struct Oversampling {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PdoEntryKind {
-    /// An item of the device.
+    /// An item of the device or of a module.
     Item,
     /// An object that the source does not describe, as raw bits.
     Unknown,

@@ -109,7 +109,8 @@ impl Type {
         }
     }
 
-    /// Returns the name in CiA 301, with the maximum length of a string if known: `VISIBLE_STRING(25)`.
+    /// Returns the name of the type in CiA 301 or IEC 61158-6-10, with the maximum length of a string if known:
+    /// `VISIBLE_STRING(25)`. Returns a placeholder if the type has no such name.
     pub fn with_length(self) -> String {
         match self {
             Type::VisibleString(Some(length)) | Type::OctetString(Some(length)) | Type::UnicodeString(Some(length)) => {
@@ -151,7 +152,7 @@ impl Type {
         })
     }
 
-    /// Returns the minimum and the maximum of an integer type or BOOLEAN.
+    /// Returns the minimum and the maximum of an integer type or BOOLEAN, or `None` for any other type.
     pub fn integer_range(self) -> Option<(i128, i128)> {
         match self {
             Type::Boolean => Some((0, 1)),

@@ -16,7 +16,7 @@ pub struct ItemVariant {
     /// Type, if its width differs on some buses.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
-    /// Access rights, if they are restricted on some buses.
+    /// Access rights on these buses, if they are more restrictive than those of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
     /// Default value of the item on these models and buses.

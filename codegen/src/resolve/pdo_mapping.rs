@@ -11,7 +11,7 @@ use crate::source::Span;
 /// Maximum number of PDOs in each direction.
 const PDOS: u16 = 512;
 
-/// Adds the PDOs of all mapping objects.
+/// Adds the PDOs of all mapping objects of a CANopen device.
 pub(super) fn run(device: &mut Device, modules: &[Module]) {
     if device.canopen.is_none() {
         return;
@@ -134,8 +134,8 @@ pub(crate) enum MappingWord<'a> {
     Unreadable(&'a Value),
 }
 
-/// Returns the number of mapped objects in sub-index 0 of a mapping object. The values 254 and 255 mean a multiplexed
-/// PDO.
+/// Returns the number of mapped objects in sub-index 0 of a mapping object, or `None` if the number is unknown. The values 254
+/// and 255 mean a multiplexed PDO.
 pub(crate) fn announced_count(mapping: &Group) -> Option<i128> {
     mapping.sub(0).and_then(Item::initial).and_then(Value::as_int)
 }

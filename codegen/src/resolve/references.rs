@@ -31,7 +31,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     true
 }
 
-/// Resolves the references of devices to families. References to families without a name get no id.
+/// Resolves the references of EtherCAT devices to device families. A reference to a family that has no name gets no id.
 pub(super) fn families(catalog: &mut Catalog) {
     let named = (0..).zip(&catalog.families).filter(|(_, family)| !family.name.is_empty());
     let positions = Positions::of(named.map(|(position, family)| (position, &family.id)));

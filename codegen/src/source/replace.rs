@@ -135,7 +135,7 @@ fn decoded_offsets(charset: &'static Charset, bytes: &[u8], offsets: &[usize]) -
 mod tests {
     use super::*;
 
-    /// Replaces `12` by `new` in a file.
+    /// Replaces `12` with `new` in a file.
     fn fixed(bytes: &[u8], new: &str) -> Option<Vec<u8>> {
         let source = Source::new("x", bytes.to_vec());
         let start = source.text().find("12").unwrap();

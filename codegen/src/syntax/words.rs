@@ -3,7 +3,7 @@
 const ONES: u64 = u64::from_le_bytes([1; 8]);
 const HIGHS: u64 = ONES << 7;
 
-/// Returns eight bytes as a little-endian word.
+/// Returns eight bytes as a little-endian `u64`, or 0 if `bytes` does not contain exactly eight bytes.
 #[inline]
 pub(super) fn word(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes.try_into().unwrap_or_default())

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 ///
 /// # Errors
 ///
-/// Returns the output of the compiler.
+/// Returns the first 40 lines of the compiler's error output.
 #[allow(dead_code)] // Not every test program calls this function.
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), "2021", name, bindings)
@@ -19,7 +19,7 @@ pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
 ///
 /// # Errors
 ///
-/// Returns the output of the compiler.
+/// Returns the first 40 lines of the compiler's error output.
 #[allow(dead_code)]
 pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
     compile_with(Command::new("rustc"), "2021", name, bindings)
@@ -29,7 +29,7 @@ pub fn compile_by_rustc(name: &str, bindings: &str) -> Result<(), String> {
 ///
 /// # Errors
 ///
-/// Returns the output of the compiler.
+/// Returns the first 40 lines of the compiler's error output.
 #[allow(dead_code)] // Not every test program calls this function.
 pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
     compile_with(compiler(), edition, name, bindings)
@@ -54,7 +54,7 @@ fn compile_with(command: Command, edition: &str, name: &str, bindings: &str) -> 
 ///
 /// # Errors
 ///
-/// Returns the output of the compiler.
+/// Returns the error output of the compiler.
 #[allow(dead_code)]
 pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     let stem = stem();
@@ -82,7 +82,7 @@ pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
 ///
 /// # Errors
 ///
-/// Returns the output of Cargo.
+/// Returns the first 40 lines of Cargo's error output.
 #[allow(dead_code)]
 pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -114,7 +114,7 @@ pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
     output.status.success().then_some(()).ok_or_else(|| start(&String::from_utf8_lossy(&output.stderr)))
 }
 
-/// Compiles a crate up to its metadata, without generating machine code.
+/// Compiles a crate only to metadata, without generating machine code. Returns the error output if the compilation fails.
 fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Result<(), String> {
     let output = command
         .args(["--edition", edition, "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
@@ -135,17 +135,17 @@ fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Re
 ///
 /// # Errors
 ///
-/// Returns the output of rustdoc.
+/// Returns the first 40 lines of rustdoc's error output.
 #[allow(dead_code)] // Not every test program calls this function.
 pub fn document(name: &str, bindings: &[&str]) -> Result<(), String> {
     documented(name, bindings, |_| ())
 }
 
-/// Runs rustdoc on `bindings` and returns a page. `path` is relative to the page of the module.
+/// Runs rustdoc on `bindings` and returns a page as HTML. `path` is relative to the folder of the module.
 ///
 /// # Errors
 ///
-/// Returns the output of rustdoc, or the error if the page cannot be read.
+/// Returns the first 40 lines of rustdoc's error output, or the error if the page cannot be read.
 #[allow(dead_code)]
 pub fn page(name: &str, bindings: &str, path: &str) -> Result<String, String> {
     let read = |folder: &Path| std::fs::read_to_string(folder.join("bindings/outer_0/device").join(path));
@@ -187,7 +187,7 @@ fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -
 ///
 /// # Errors
 ///
-/// Returns the output of the compiler or the program.
+/// Returns the first 40 lines of the error output of the compiler or the program.
 #[allow(dead_code)]
 pub fn run(name: &str, text: &str) -> Result<(), String> {
     let stem = stem();
@@ -212,7 +212,7 @@ pub fn run(name: &str, text: &str) -> Result<(), String> {
     Err(format!("{name}:\n{}", start(&text)))
 }
 
-/// Returns the first 40 lines of a compiler's output.
+/// Returns the first 40 lines of an output.
 fn start(text: &str) -> String {
     text.lines().take(40).collect::<Vec<_>>().join("\n")
 }

@@ -104,7 +104,7 @@ fn same_text(oracle: &Value, value: &Value) -> bool {
     oracle.trim().chars().count() == value.chars().count() && oracle.trim().chars().zip(value.chars()).all(same)
 }
 
-/// The script's counts for an element of a file, and all mismatches with the compiler.
+/// The script's names and counts for an element of a file, and all mismatches with the compiler.
 struct Counts<'c> {
     oracle: &'c Value,
     /// Descriptions of all mismatches, which are reported together.

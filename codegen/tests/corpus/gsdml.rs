@@ -176,7 +176,8 @@ fn submodule(catalog: &Catalog, SubmoduleId(id): SubmoduleId) -> &Submodule {
     &catalog.submodules[id as usize]
 }
 
-/// Returns the built-in submodules of a device or module: virtual submodules, or interfaces and ports.
+/// Returns the built-in submodules of a device or module: the virtual submodules if `is_virtual` is true, otherwise interfaces and
+/// ports.
 fn built_in<'c>(
     catalog: &'c Catalog,
     uses: &'c [SubmoduleUse],

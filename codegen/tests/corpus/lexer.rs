@@ -201,7 +201,8 @@ fn every_file_has_the_sections_keys_and_values_that_another_parser_sees() {
     assert!(each > compared, "repeated sections and keys were lost: {each}, {compared}");
 }
 
-/// Gives corpus files unusual line ends, comment marks and indents, and compares the results again.
+/// Gives corpus files other line ends, a byte order mark, or white space around keys, values and headers, and compares the results
+/// again.
 #[test]
 fn other_line_ends_marks_and_indents_change_nothing() {
     let Some(files) = files() else { return };

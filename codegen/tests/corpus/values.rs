@@ -252,7 +252,7 @@ fn line_of(section: &Section, key: &str) -> u32 {
     section.get(key).map_or(section.headers[0], |fact| fact.line)
 }
 
-/// Returns the number of sub-indices that CompactSubObj implies.
+/// Returns the number of sub-indices that CompactSubObj implies, without sub-index 0.
 fn compact_count(section: &Section) -> i128 {
     section.number("compactsubobj").unwrap_or(0).clamp(0, 254)
 }
@@ -266,7 +266,8 @@ fn items_of(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let code = section.number("objecttype").unwrap_or(7);
     let is_value = match subs.is_empty() {
         true => !matches!(code, 6 | 8 | 9),
-        // E42: a VAR with sub-indices is treated as a RECORD. The section of a VAR with a data type describes sub-index 0.
+        // E42: a VAR with sub-indices is treated as a RECORD. If sub-index 0 has no section, the section of a VAR with a data type
+        // describes sub-index 0.
         false => code == 7 && section.text("datatype").is_some() && !subs.contains(&0),
     };
     if is_value {
@@ -277,7 +278,7 @@ fn items_of(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
 }
 
 /// Returns the type in a section (CiA 301, table of data types). Without DataType, returns DOMAIN if ObjectType is 2, and otherwise
-/// `None`.
+/// `None`. Also returns `None` if DataType is not a number.
 fn type_of(section: &Section) -> Option<Type> {
     if section.text("datatype").is_none() {
         return (section.number("objecttype") == Some(2)).then_some(Type::Domain);
@@ -377,8 +378,8 @@ impl Comparison<'_> {
         self.hold(fact, &code, Some(&allowed).filter(|allowed| allowed.is_some()));
     }
 
-    /// Compares SubNumber with the number of described sub-indices. Sub-index 0xFF is not counted. An object with a single
-    /// value has no SubNumber.
+    /// Compares SubNumber with the number of described sub-indices. Sub-index 0xFF is not counted. In an object with a single
+    /// value, SubNumber must be kept as an extension. With CompactSubObj, SubNumber may be 0.
     fn sub_number(&mut self, fact: &Fact, text: &str, target: Target<'_>) {
         if target.item.is_some() && !target.compact && target.group.items.len() == 1 {
             return self.extension(fact, target);
@@ -650,7 +651,7 @@ const SPELLINGS: [&str; 60] = [
     "\"abc\"", "5 ; five", "0x3ED ; a # b", "7 # seven", "rw",
 ];
 
-/// Tests all notations with all types, for each kind of value of an object. The test does not need the corpus.
+/// Tests all notations of values with all data types, in each key of an object. The test does not need the corpus.
 #[test]
 fn every_spelling_of_every_type_is_read_or_reported() {
     let mut text = String::from("[DeviceInfo]\nProductName=x\n");

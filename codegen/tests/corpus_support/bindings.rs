@@ -1,4 +1,4 @@
-//! Generates the bindings of all devices in the corpus. Equal bindings are tested only once.
+//! Tests the bindings of files in the corpus. Equal bindings are tested only once.
 
 use std::borrow::Cow;
 use std::collections::HashSet;

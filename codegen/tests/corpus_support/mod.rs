@@ -67,7 +67,7 @@ pub fn files() -> Option<Vec<File>> {
     Some(files)
 }
 
-/// Returns the descriptions of the current lane in all formats.
+/// Returns the descriptions of the current lane in all formats, or `None` if there is no corpus.
 pub fn all_files() -> Option<Vec<File>> {
     let lists: Option<Vec<Vec<File>>> = ["eds", "esi", "gsdml"].into_iter().map(files_of).collect();
     let files: Vec<File> = lists?.into_iter().flatten().collect();
@@ -85,13 +85,14 @@ pub fn is_read(format: &str, name: &str) -> bool {
     lane::is_full() || sample.contains(&format!("{format}/{name}"))
 }
 
-/// Returns the descriptions of the current lane in one format.
+/// Returns the descriptions of the current lane in one format, or `None` if there is no corpus.
 pub fn files_of(format: &str) -> Option<Vec<File>> {
     let files = whole(format)?;
     Some(files.into_iter().filter(|file| is_read(format, &file.name)).collect())
 }
 
-/// Returns all descriptions in one format, independent of the lane. Tests that select files themselves use this function.
+/// Returns all descriptions in one format, independent of the lane, or `None` if there is no corpus. Tests that select files
+/// themselves use this function.
 pub fn whole(format: &str) -> Option<Vec<File>> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder_of(format)?)
         .expect("the corpus is readable")
@@ -155,14 +156,15 @@ pub fn trimmed(text: &str) -> &str {
     text.trim_matches([' ', '\t'])
 }
 
-/// Parses a section header `[name] …`. Returns the name and the text after the bracket.
+/// Parses a section header `[name] …`. Returns the name and the text after the closing bracket, which may be missing. Returns
+/// `None` for other lines.
 pub fn header(line: &str) -> Option<(&str, &str)> {
     let rest = trimmed(line).strip_prefix('[')?;
     let (name, rest) = rest.split_once(']').unwrap_or((rest, ""));
     Some((trimmed(name), trimmed(rest)))
 }
 
-/// Parses an entry `Key=Value`. Returns `None` for comments and headers.
+/// Parses an entry `Key=Value`. Returns `None` for comments, headers and lines without `=`.
 pub fn entry(line: &str) -> Option<(&str, &str)> {
     let line = trimmed(line);
     if line.starts_with(['[', ';', '#']) {

@@ -37,7 +37,7 @@ fn unsigned(text: &str) -> Option<i128> {
     in_base(text, 10)
 }
 
-/// Returns the digits after `0x`.
+/// Returns the text after the prefix `0x` or `0X`, or `None` if this prefix is missing.
 pub fn hex_digits(text: &str) -> Option<&str> {
     text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
 }

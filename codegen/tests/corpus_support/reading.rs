@@ -29,18 +29,19 @@ impl Section {
         self.facts.get(key)?.last()
     }
 
-    /// Returns the valid value without a comment. Returns `None` if the value is empty (E05).
+    /// Returns the value of the last entry with a key, without a comment. Returns `None` if there is no such entry or the value is
+    /// empty (E05).
     pub fn text(&self, key: &str) -> Option<&str> {
         Some(cut(&self.get(key)?.value).0).filter(|text| !text.is_empty())
     }
 
-    /// Returns the valid value as a number.
+    /// Returns the value of the last entry with a key as a number, or `None` if there is no valid number.
     pub fn number(&self, key: &str) -> Option<i128> {
         plain(self.text(key)?)
     }
 }
 
-/// The part of a section name after the index.
+/// Kind of a section, which the part of its name after the index determines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     Object,

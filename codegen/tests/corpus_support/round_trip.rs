@@ -47,7 +47,7 @@ pub fn each_object(value: &mut Value, change: &mut impl FnMut(&mut serde_json::M
     }
 }
 
-/// Returns a description of the first difference between two JSON values.
+/// Returns a description of the first difference between two JSON values, or `None` if the values are equal.
 pub fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
     match (left, right) {
         (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {

@@ -9,7 +9,7 @@ use super::facts::{self, put, put_flag, put_some, Facts};
 const SIGNED: [(i128, u32); 8] =
     [(0x02, 8), (0x03, 16), (0x04, 32), (0x10, 24), (0x12, 40), (0x13, 48), (0x14, 56), (0x15, 64)];
 
-/// Returns the length of a signed type in bits.
+/// Returns the length of a signed type in bits, or `None` for other types.
 pub fn signed_bits(ty: i128) -> Option<u32> {
     SIGNED.iter().find(|(entry, _)| *entry == ty).map(|(_, bits)| *bits)
 }
@@ -45,7 +45,8 @@ pub fn is_relative(raw: &str) -> bool {
     matches!(number(cut(raw).0), Some(Number::NodeId(_)))
 }
 
-/// Returns the access rights. Ignores the case of the keywords in CiA 306 (E47). Any other text means `ro` (E48).
+/// Returns the access rights for a text of AccessType. Ignores the case of the keywords in CiA 306 (E47). Any other text means
+/// `ro` (E48).
 pub fn access(text: Option<&str>) -> &'static str {
     const KNOWN: [&str; 6] = ["ro", "wo", "rw", "rwr", "rww", "const"];
     let text = text.unwrap_or_default();
@@ -69,7 +70,7 @@ fn number_of(text: &str, section: &str, key: &str) -> Option<i128> {
     plain(cut(value_of(text, section, key)?).0)
 }
 
-/// Returns the device fact with the name `fact`.
+/// Returns the value of a device fact such as `bit rate`, or `None` if the file does not contain this fact.
 pub fn of_device(text: &str, fact: &str) -> Option<String> {
     let number = |key: &str| number_of(text, "DeviceInfo", key);
     match fact {

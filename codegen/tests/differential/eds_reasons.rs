@@ -46,7 +46,8 @@ impl Case<'_> {
         Case { reading: Reading::of(&text), text, peer, ours, node_id: given.unwrap_or(node_id) }
     }
 
-    /// Returns the section that describes an element. Elements have names such as `1018` and `1018:01`.
+    /// Returns the section that describes an object or sub-index, whose name is for example `1018` or `1018:01`. The section of the
+    /// object describes all sub-indices without a separate section.
     fn section(&self, element: &str) -> Option<&Section> {
         let (index, sub) = address(element)?;
         match sub {

@@ -61,7 +61,7 @@ impl<'a> Case<'a> {
     }
 }
 
-/// Returns the index and sub-index in the facts of an entry.
+/// Returns the index and sub-index in the facts of a PDO entry. A missing number means 0.
 fn address(facts: &Facts) -> Option<(u16, u8)> {
     let number = |fact: &str| facts.get(fact).map_or(Some(0), |number| number.parse::<u16>().ok());
     Some((number("index")?, u8::try_from(number("sub-index")?).ok()?))

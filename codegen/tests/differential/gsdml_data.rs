@@ -118,7 +118,7 @@ fn parameter(item: &Item, types: &[TypeDef]) -> Facts {
     facts
 }
 
-/// Returns the name of the value list of a type.
+/// Returns the name of the value list of a type, or `None` if the type has no value list.
 fn values(ty: Type, types: &[TypeDef]) -> Option<&str> {
     let Type::Named(id) = ty else { return None };
     let types = &types[id.0 as usize];

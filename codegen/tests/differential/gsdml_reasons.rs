@@ -45,7 +45,7 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
 }
 
-/// Returns whether a UTF-8 text was decoded as ISO 8859-1 because the file declares this encoding.
+/// Returns whether `peer` is the UTF-8 text `ours` decoded as ISO 8859-1, which the file declares as its encoding.
 fn is_misdeclared(peer: &str, ours: &str) -> bool {
     let bytes: Option<Vec<u8>> = peer.chars().map(|letter| u8::try_from(u32::from(letter)).ok()).collect();
     bytes.is_some_and(|bytes| bytes == ours.as_bytes())

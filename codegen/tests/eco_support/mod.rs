@@ -29,7 +29,7 @@ pub fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalog").devices[0]
 }
 
-/// Returns the lines of the manual without page markers.
+/// Returns the lines of the manual without page markers, or `None` if the manual is missing.
 pub fn manual() -> Option<Vec<String>> {
     let strip = |line: &str| match line.strip_prefix(MARKER) {
         Some(rest) => rest.split_once("|>").map_or("", |(_, text)| text).to_owned(),
@@ -38,7 +38,7 @@ pub fn manual() -> Option<Vec<String>> {
     Some(manual_text::text("eco-fieldbuses.it.txt")?.split('\n').map(strip).collect())
 }
 
-/// Returns the lines from `first` to `last`, each with its number.
+/// Returns the lines from `first` to `last` without surrounding white space, each with its number. Line numbers start at 1.
 pub fn lines(manual: &[String], first: usize, last: usize) -> impl Iterator<Item = (usize, &str)> {
     manual.iter().enumerate().take(last).skip(first - 1).map(|(at, text)| (at + 1, text.trim()))
 }
@@ -49,7 +49,7 @@ pub fn rows(name: &str) -> Option<Vec<Vec<String>>> {
     Some(text.lines().skip(1).map(|line| line.split('\t').map(str::to_owned).collect()).collect())
 }
 
-/// Returns the text of the notes on the manual.
+/// Returns the text of the notes on the manual, or `None` if the notes are missing.
 pub fn notes() -> Option<String> {
     manual_text::text("eco-fieldbuses.notes.md")
 }
@@ -67,7 +67,7 @@ pub fn object(device: &Device, index: u16, sub_index: u8) -> Option<&Item> {
     items(device).find(|item| item.object() == Some((index, sub_index)))
 }
 
-/// Returns the Modbus address of an item.
+/// Returns the Modbus address of an item, or `None` if the item has no register.
 pub fn address(item: &Item) -> Option<u16> {
     item.bindings.iter().find_map(|binding| match binding {
         Binding::Register(register) => Some(register.address),
@@ -121,7 +121,7 @@ pub fn item_cites(item: &Item, line: usize) -> bool {
     cites(item.documentation.as_deref(), line)
 }
 
-/// Returns all hexadecimal numbers with `0x` and exactly `digits` digits.
+/// Returns all hexadecimal numbers in `text` that have the prefix `0x` and exactly `digits` digits.
 pub fn hex_numbers(text: &str, digits: usize) -> Vec<u32> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices("0x") {

@@ -17,7 +17,8 @@ fn body(text: &str) -> String {
     lines.filter(is_formatted).flat_map(|line| [line, "\n"]).collect()
 }
 
-/// Compares code with the output of `prettyplease`. Returns the first different line as an error.
+/// Compares code with the output of `prettyplease`. Returns a syntax error, the first different line, or a different length as an
+/// error.
 pub fn canonical(name: &str, text: &str) -> Result<(), String> {
     let text = body(text);
     let parsed = syn::parse_file(&text).map_err(|error| format!("{name}: {error}"))?;

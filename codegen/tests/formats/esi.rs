@@ -117,7 +117,7 @@ fn large_files_are_read_in_time() {
 
 #[test]
 fn small_files_do_not_grow() {
-    // The file has a long array type and many objects of this type.
+    // The file has a record type that contains a long array, and many objects of this record type.
     let types =
         "<DataType><Name>A</Name><BaseType>USINT</BaseType><BitSize>2040</BitSize><ArrayInfo><LBound>1</LBound>\
                  <Elements>255</Elements></ArrayInfo></DataType>\

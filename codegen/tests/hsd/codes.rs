@@ -159,7 +159,7 @@ fn levels_of_inputs_are_the_printed_ones() {
     }
 }
 
-/// Compares the bit patterns of interpolation commands and of interpolation states.
+/// Compares the printed bit patterns of interpolation commands and interpolation states with the register table.
 #[test]
 fn patterns_of_interpolation_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };
@@ -211,7 +211,8 @@ fn bases_of_fractions_are_those_of_the_models() {
     }
 }
 
-/// Compares all cells of the table of commands and states. The manual prints the table in two halves.
+/// Compares all cells of the manual's table of commands and states with the register table. The manual prints the table in two
+/// halves.
 #[test]
 fn commands_and_states() {
     let Some(manual) = Manual::read() else { return };

@@ -156,7 +156,7 @@ fn defaults_of_both_chapters_agree() {
     assert_eq!((compared, wrong), (40, vec![("SM140", "KIQDLIMIN"), ("SM140", "KIQDLIMAX")]));
 }
 
-/// Converts a default to a physical value. If the raw value is a mantissa, the result also depends on its exponent.
+/// Converts a default to a physical value. If the raw value is a mantissa, uses the default of its exponent.
 fn physical_of(device: &Device, item: &Item, title: &str, model: &str, raw: f64) -> f64 {
     match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::Exponent { exponent, base: 2, fraction }) => {

@@ -26,7 +26,7 @@ pub struct Frame {
 pub struct Row {
     pub line: usize,
     pub number: String,
-    /// Cell in the column of the request. Empty if the request is shorter than the reply.
+    /// Cell in the column of the request. Empty if the request is shorter than the reply, or if the table has no such column.
     pub request: String,
     pub reply: String,
 }
@@ -123,7 +123,7 @@ pub enum Printed {
     Check,
     /// The word ETX without a number.
     End,
-    /// A byte of a 16-bit or 32-bit value.
+    /// The number of a byte within a 16-bit or 32-bit value. Byte 0 is the least significant one.
     Byte(usize),
     /// The number of a byte within a value, and the number of bytes in the value.
     Part(usize, usize),
@@ -131,7 +131,8 @@ pub enum Printed {
 }
 
 impl Printed {
-    /// Returns whether a byte of the table matches the printed byte.
+    /// Returns whether the printed byte matches `byte` of a frame that was created according to the register table. A value in
+    /// words matches no byte.
     pub fn is(&self, byte: &Byte, framing: &Framing) -> bool {
         match (self, byte) {
             (Printed::Constant(constant), Byte::Constant(byte)) => constant == byte,
@@ -147,7 +148,7 @@ impl Printed {
 /// Creates frames according to the register table, from the start byte to the end byte.
 pub struct Layout<'d> {
     pub device: &'d Device,
-    /// Lengths of the parameter values in order. The last length also applies to all further values.
+    /// Lengths of the parameter values in bytes, in order. All further values have two bytes.
     pub values: Vec<usize>,
     /// Number of repetitions of fields whose count is in another field.
     pub count: usize,
@@ -248,7 +249,8 @@ fn ordered(name: &str, size: usize, order: &[u8]) -> Vec<Byte> {
     (0..size).map(|at| Byte::Of(name.to_owned(), size - 1 - byte(at), size)).collect()
 }
 
-/// Returns the bytes of a frame on the wire, according to the framing. `value` returns the value bytes.
+/// Returns the bytes of a frame on the wire, according to the framing. `value` returns the byte with the given number in the value
+/// with the given name.
 pub fn wire(framing: &Framing, frame: &[Byte], value: &dyn Fn(&str, usize) -> u8) -> Vec<u8> {
     let data: Vec<u8> = frame[1..frame.len() - 2]
         .iter()

@@ -38,7 +38,7 @@ impl Manual {
         (from..=to).map(|number| (number, self.line(number)))
     }
 
-    /// Returns the table rows in a range of lines as line number and cells. Rulers are left out.
+    /// Returns the table rows in a range of lines as line number and cells. Separator rows such as `|---|---|` are left out.
     pub fn rows(&self, from: usize, to: usize) -> Vec<(usize, Vec<String>)> {
         self.lines(from, to).filter_map(|(number, line)| Some((number, cells(line)?))).collect()
     }
@@ -50,7 +50,7 @@ fn plain(cell: &str) -> String {
     marks.iter().fold(cell.to_owned(), |cell, mark| cell.replace(mark, "")).trim().to_owned()
 }
 
-/// Returns the cells of a table row. Returns `None` for a ruler or a line outside a table.
+/// Returns the cells of a table row. Returns `None` for a separator row such as `|---|---|`, and for a line outside a table.
 pub fn cells(line: &str) -> Option<Vec<String>> {
     let inner = line.trim().strip_prefix('|')?.strip_suffix('|')?;
     let cells: Vec<String> = inner.split('|').map(plain).collect();
@@ -71,7 +71,7 @@ pub fn message<'d>(device: &'d Device, name: &str) -> &'d Message {
     device.messages.iter().find(|message| message.name == name).unwrap_or_else(|| panic!("no message {name}"))
 }
 
-/// Returns the number of a parameter.
+/// Returns the parameter number of an item.
 pub fn code(item: &Item) -> u32 {
     let number = |binding: &Binding| match binding {
         Binding::Parameter(parameter) => Some(parameter.code),
@@ -80,7 +80,7 @@ pub fn code(item: &Item) -> u32 {
     item.bindings.iter().find_map(number).expect("a parameter")
 }
 
-/// Returns the number of the first manual line that `cite` contains. This line describes the row that has the citation.
+/// Returns the first line number in the citation `cite`. On this line, the manual describes the element that has the citation.
 pub fn line(cite: Option<&str>) -> usize {
     let first = cite.and_then(|cite| cite.split([',', '-']).next());
     first.and_then(|line| line.trim().parse().ok()).expect("a line")
@@ -94,7 +94,7 @@ pub fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
     }
 }
 
-/// Returns the item's name in the language of the manual.
+/// Returns the name in the language of the manual, or an empty text if there is none.
 pub fn original(names: &lexibus_codegen::ir::Texts) -> &str {
     names.first().map(|name| name.text.as_str()).unwrap_or_default()
 }

@@ -574,8 +574,9 @@ fn latch_words() {
     assert_eq!(compared, 20);
 }
 
-/// Returns whether the field `entry` of a latch word describes `value` and cites the line. A flag describes `value` if its bit is 1
-/// in `value`. An enumeration describes `value` if it has a name for the value of its bits.
+/// Returns whether the field `entry` of a latch word describes `value`. The flag, or the name of the enumeration value, must also
+/// cite the line. A flag describes `value` if its bit is the highest bit that is 1. An enumeration describes `value` if it has a
+/// name for the value of its bits.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
     let actual = i128::from(value >> entry.offset);
     match entry.meaning {
@@ -658,8 +659,8 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, la
     }
 }
 
-/// Compares the objects that the manual mentions. Section 3.3 of the notes on the manual counts 43 indices, not including 0x1704,
-/// and 41 pairs of index and sub-index.
+/// Compares the register table with the objects and the names of ASCII parameters in the manual. Section 3.3 of the notes on the
+/// manual counts 43 indices, not including 0x1704, and 41 pairs of index and sub-index.
 #[test]
 fn objects_and_parameters() {
     let compilation = table();

@@ -153,7 +153,7 @@ fn registers_without_the_printed_limits_say_why() {
     assert_eq!(differing, BTreeSet::from([5, 34, 42]));
 }
 
-/// Compares the addresses of each register on five buses with an extracted table.
+/// Compares the addresses of each register on five buses with a table that was extracted from the manual.
 #[test]
 fn one_register_is_one_item_on_five_buses() {
     let Some(rows) = rows("one_register_five_buses") else { return };

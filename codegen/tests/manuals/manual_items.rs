@@ -76,7 +76,7 @@ const ITEMS: &[(&str, How)] = &[
     ("28", Finding("item-28-name-of-an-old-and-a-new-register", &["TAB007"])),
     ("29", Finding("item-29-names-misspelled-in-texts", &["TAB025"])),
     ("29", Doubt(&[(464, "Axis 1 Posact"), (3082, "Rtouchprobepos2pos")])),
-    // The rows of registers never print the sub-index of their objects.
+    // In the rows of registers, the manual never prints the sub-index of the objects.
     ("30", Doubt(&[(464, "2000:01"), (2129, "0x2000")])),
     // Section 4.3: conflicts of types, access rights and ranges.
     ("31", Finding("items-31-32-34-36-overview-against-the-box", &["TAB021", "TAB024"])),

@@ -38,7 +38,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Counts the types in `found`. Checks that the counts agree with the functions and implementations in `text`.
+    /// Counts the types in `found`, except imported types. Checks that the counts agree with the functions and implementations in
+    /// `text`.
     fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
         let of = |kind: TypeKind| found.iter().filter(|one| one.kind == kind && one.shared.is_none()).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
@@ -76,8 +77,8 @@ pub fn needed(text: &str) -> String {
     out
 }
 
-/// Returns the statements that check all types in the bindings of `catalog`, and the number of types of each kind. The bindings
-/// are in the module `MODULE`.
+/// Returns the statements that check all types in the bindings of `catalog`, and the number of types of each kind. `MODULE`
+/// is a placeholder for the module of the bindings.
 pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts) {
     let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
     let mut counts = Counts::of(&found, text, name);
@@ -115,12 +116,12 @@ impl Found<'_> {
         path(&self.modules, self.name)
     }
 
-    /// Returns the path of the definition.
+    /// Returns the path of the type's definition.
     fn definition(&self) -> String {
         path(self.shared.as_ref().unwrap_or(&self.modules), self.name)
     }
 
-    /// Returns the statement that checks process data or a record.
+    /// Returns the statements that check process data or a record.
     fn check(&self, title: &str, layout: &Layout, fields: &[(&str, &str)]) -> String {
         let name = format!("MODULE::{}", self.path());
         let arm = |(at, (field, ty)): (usize, &(&str, &str))| format!("{at} => value.{field} = {}, ", self.value(ty));

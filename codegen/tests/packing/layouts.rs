@@ -9,9 +9,9 @@ use lexibus_codegen::ir::{
 /// A sequence of adjacent bits in packed data.
 #[derive(Clone, Copy)]
 pub struct Piece {
-    /// First bit, counted from the start of the data.
+    /// Position of the first bit, counted from the start of the data.
     at: u32,
-    /// First bit within the value. `None` means that the bits are reserved and 0.
+    /// Position of the first bit within the value. `None` means that the bits are reserved and 0.
     of: Option<u32>,
     bits: u32,
 }
@@ -24,7 +24,7 @@ pub struct Layout {
     pub number: Option<(&'static str, u16)>,
     pub bits: u32,
     fields: Vec<Vec<Piece>>,
-    /// Default data of a record.
+    /// Default data of a record; empty for process data.
     default: Vec<u8>,
 }
 
@@ -236,8 +236,8 @@ fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec
     }
 }
 
-/// Returns the pieces of a big-endian number that starts in `byte`. In the last byte, `shift` bits below the number do not belong
-/// to it. `of` is the position of the number's lowest bit within the value.
+/// Returns the pieces of a big-endian number that starts in `byte`. In the last byte, the lowest `shift` bits do not belong to
+/// the number. `of` is the position of the number's lowest bit within the value.
 fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     let end = shift + bits;
     let last = byte + (end - 1) / 8;
@@ -257,7 +257,7 @@ fn time(byte: u32) -> Vec<Piece> {
     pieces
 }
 
-/// Returns the basic type on which a type is based.
+/// Returns the basic type on which a type is based, or `Opaque` if there is none.
 fn base(types: &[TypeDef], ty: Type) -> Type {
     let Type::Named(id) = ty else { return ty };
     match types.get(id.0 as usize).map(|definition| &definition.shape) {

@@ -1,4 +1,4 @@
-//! Creates random values for the messages in generated code. Reads the text line by line.
+//! Creates the statements that check the messages in generated code with random values. Reads the text line by line.
 
 use std::collections::HashMap;
 
@@ -27,7 +27,7 @@ impl<'t> Messages<'t> {
         self.titles.get(message).copied().unwrap_or_default()
     }
 
-    /// Returns the macro call that checks a message. `MODULE` is a placeholder for the module of the bindings.
+    /// Returns the statement that checks a message. `MODULE` is a placeholder for the module of the bindings.
     pub fn call(&self, title: &str, message: &str, path: &str, has_node: bool) -> String {
         let value = |name: &str| random(name, &self.structs, self.rules.get(name).copied());
         let constant = |name: &str| self.constants.get(name).copied().unwrap_or_default();

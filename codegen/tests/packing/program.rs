@@ -64,7 +64,7 @@ type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
 /// Field number that selects no field.
 const NONE: usize = usize::MAX;
 
-/// Bit positions of a type.
+/// Expected layout of a type.
 struct Layout {
     title: &'static str,
     bits: usize,
@@ -135,8 +135,8 @@ macro_rules! process_data {
     }};
 }
 
-/// Checks process data. Unpacking and packing must keep the bits of all fields and clear all other bits. Setting a field must
-/// change only its bits. Unpacking too few bytes must be an error.
+/// Checks packing, unpacking and setting the fields of process data. Unpacking and packing must keep the bits of all fields and
+/// clear all other bits. Setting a field must change only its bits. Unpacking too few bytes must be an error.
 fn process_data(layout: &Layout, change: Change<'_>) {
     let (title, mask, zeros) = (layout.title, layout.mask(), vec![0; layout.len()]);
     let changed = |data: &[u8], at, raw| change(data, at, raw).unwrap_or_else(|error| panic!("{title}: {error}"));

@@ -56,7 +56,7 @@ fn the_target_is_the_operating_state() {
     let chain = ["off >up ready", "ready >up operating", "operating >down halted", "operating > alarm"];
     let states = ["off", "ready", "operating", "halted", "alarm"];
     let faults = "faults = [\"alarm\"]";
-    // The states "halted" and "alarm" are farther from the state after power-on.
+    // The states "halted" and "alarm" are not the target, although they are farther from the state after power-on than "operating".
     assert_eq!(initial_and_target(faults, &states, &chain), path("Off", "Operating"));
     // The order of the states does not matter.
     assert_eq!(

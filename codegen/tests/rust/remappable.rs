@@ -32,7 +32,7 @@ fn device(granularity: &str, count: &str, entry: &str, cob_id: &str) -> String {
 
 const COB_ID: &str = "AccessType=rw\nDefaultValue=$NODEID+0x200";
 
-/// Returns the modules that `lexibus::pdo!` reads. The code must compile.
+/// Returns the part of the generated code that `lexibus::pdo!` reads, or `None` if there is none. The code must compile.
 fn modules(eds: String) -> Option<String> {
     let options = Options::default();
     let text = check(Source::new("device.eds", eds.into()), &options).rust(&options.rust).expect("bindings");

@@ -164,7 +164,7 @@ fn further_axes_are_completed_where_they_exist() {
     assert_eq!(type_name(&two, 0x6841, 0), "Statusword");
     assert_eq!(item(&two, 0x6840, 0).ty, item(&two, 0x6040, 0).ty);
     assert_eq!(type_name(&two, 0x6860, 0), "ModesOfOperation");
-    // In a device without the control word 0x6840, object 0x6860 does not belong to a second axis.
+    // In a device without the controlword 0x6840, object 0x6860 does not belong to a second axis.
     let one = device(&drive(&axis("6842", "6843", "6860")));
     assert_eq!(type_name(&one, 0x6860, 0), "INTEGER8");
 }
@@ -176,7 +176,7 @@ fn devices_of_other_profiles_are_no_drives() {
     assert_eq!(type_name(&device(&other), 0x1000, 0), "DeviceType", "for any profile");
     let untold = drive("").replace("0x00020192", "0");
     assert_eq!(type_name(&device(&untold), 0x6040, 0), "Controlword");
-    // An object with a signed type is not a control word.
+    // An object with a signed type is not a controlword.
     let numbers = untold.replace("Control\nDataType=6", "Control\nDataType=3");
     assert_eq!(type_name(&device(&numbers), 0x6040, 0), "INTEGER16");
     assert_eq!(type_name(&device(&numbers), 0x6060, 0), "INTEGER8");

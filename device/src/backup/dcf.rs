@@ -17,7 +17,7 @@ use crate::description::Description;
 pub struct DcfFile {
     /// Content of the file.
     pub text: String,
-    /// Values that a DCF cannot express. A register-table backup (TOML) contains them.
+    /// Values that a DCF cannot express. A backup as TOML contains them.
     pub lost: Vec<Skipped>,
 }
 
@@ -25,7 +25,7 @@ pub struct DcfFile {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DcfError {
-    /// The device has no CANopen objects.
+    /// The description is not for CANopen.
     NoObjects,
 }
 
@@ -38,11 +38,12 @@ impl fmt::Display for DcfError {
 impl Error for DcfError {}
 
 impl Backup {
-    /// Returns the backup as a DCF of the device. The file contains the whole description, and can replace it.
+    /// Returns the backup as a DCF of the device. The file contains the whole description, and can replace the
+    /// description file.
     ///
     /// # Errors
     ///
-    /// Fails if the device has no CANopen objects.
+    /// Fails if `description` is not for CANopen.
     pub fn dcf(&self, description: &Description) -> Result<DcfFile, DcfError> {
         if description.network() != Network::CanOpen {
             return Err(DcfError::NoObjects);
@@ -54,7 +55,8 @@ impl Backup {
         Ok(DcfFile { text, lost })
     }
 
-    /// Returns the catalog of the description with the values of the backup as configured values.
+    /// Returns the catalog of the description with the values of the backup as configured values. Other configured
+    /// values are removed.
     pub(crate) fn configured(&self, description: &Description) -> Catalog {
         let values = self.values();
         let mut catalog = description.catalog().clone();
@@ -76,7 +78,7 @@ impl Backup {
         catalog
     }
 
-    /// Reads the DCF again, and returns the values that it doesn't contain.
+    /// Reads the DCF again, and returns the values of the backup that it doesn't contain.
     fn lost(&self, text: &str, description: &Description) -> Vec<Skipped> {
         let source = Source::new("backup.dcf", text.as_bytes().to_vec());
         let catalog = check(source, &Options::default()).catalog;
@@ -86,7 +88,7 @@ impl Backup {
         let is_lost = |entry: &&super::Entry| again.get(&entry.address) != Some(&&entry.value);
         let lost = self.entries.iter().filter(is_lost);
         lost.filter_map(|entry| description.at(entry.address))
-            .map(|parameter| Skipped::failed(&parameter, "a DCF cannot express the value"))
+            .map(|parameter| Skipped::failed(&parameter, "a DCF cannot express the value; use the format TOML"))
             .collect()
     }
 }

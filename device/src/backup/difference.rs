@@ -12,7 +12,7 @@ use crate::description::Description;
 pub struct Difference {
     /// Address of the parameter as text.
     pub address: String,
-    /// Name and path of the parameter.
+    /// Path of the parameter.
     pub name: String,
     /// Value in the first backup, with its unit; `None` if the first backup doesn't contain the parameter.
     pub old: Option<String>,
@@ -27,8 +27,8 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Returns the differences between two backups of devices with the same description, in the order of the first backup.
-/// Values relative to the node-ID are compared as formulas.
+/// Returns the differences between two backups of devices with the same description. Parameters that only the second
+/// backup contains come last. Values relative to the node-ID are compared as formulas.
 #[must_use]
 pub fn difference(description: &Description, old: &Backup, new: &Backup) -> Vec<Difference> {
     let text = |entry: &Entry, value: &Value| {

@@ -12,7 +12,7 @@ use crate::parameter::Parameter;
 /// The saved parameters of a device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Backup {
-    /// Node-ID or Modbus address of the device.
+    /// Node-ID or Modbus server address of the device.
     pub node_id: Option<u8>,
     /// Saved values, in the order of the description.
     pub entries: Vec<Entry>,
@@ -27,7 +27,7 @@ pub struct Entry {
     pub address: Address,
     /// Address as text.
     pub address_text: String,
-    /// Name and path of the parameter.
+    /// Path of the parameter.
     pub name: String,
     /// The value. A value that depends on the node-ID is a formula.
     pub value: Value,
@@ -44,11 +44,11 @@ impl Entry {
 pub struct Skipped {
     /// Address of the parameter as text.
     pub address: String,
-    /// Name and path of the parameter.
+    /// Path of the parameter.
     pub name: String,
-    /// Reason in words.
+    /// Reason as text.
     pub reason: String,
-    /// True if the parameter should have been saved or restored, but the access failed.
+    /// True if the parameter should be part of the backup or restore, but cannot be saved or restored.
     pub is_failure: bool,
 }
 
@@ -82,7 +82,7 @@ impl Backup {
         !self.skipped.iter().any(|skipped| skipped.is_failure)
     }
 
-    /// Returns the configured values of a description: those of a DCF or XDC.
+    /// Returns the configured values of a description, such as the values in a DCF or XDC.
     #[must_use]
     pub fn of_description(description: &Description) -> Self {
         let device = description.device();

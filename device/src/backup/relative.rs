@@ -5,15 +5,16 @@ use lexibus_codegen::ir::Value;
 
 use crate::parameter::Parameter;
 
-/// Bits of a COB-ID with 11 bits that contain the node-ID in the predefined connection set (CiA 301 7.3.3).
+/// Bits of an 11-bit COB-ID that contain the node-ID in the predefined connection set (CiA 301 7.3.3).
 const NODE: i128 = 0x7F;
 /// Function codes of emergency messages and of the PDOs 1 to 4 in the predefined connection set.
 const FUNCTIONS: [i128; 9] = [0x080, 0x180, 0x200, 0x280, 0x300, 0x380, 0x400, 0x480, 0x500];
 /// Bits 30 and 31, which are flags.
 const FLAGS: i128 = 0xC000_0000;
 
-/// Returns a value relative to the node-ID of the device, if the value depends on it: a value whose default value is a
-/// formula, or a COB-ID of the predefined connection set.
+/// Returns a formula with `$NODEID` if the value depends on the node-ID of the device; otherwise, returns the value. A
+/// value depends on the node-ID if it equals the formula that is its default value, or if it is a COB-ID of the
+/// predefined connection set.
 pub(super) fn relative(parameter: &Parameter<'_>, value: Value, node_id: u8) -> Value {
     let node = i128::from(node_id);
     let Some(number) = value.as_int() else { return value };

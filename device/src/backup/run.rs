@@ -14,7 +14,7 @@ use crate::protection::Protection;
 /// Options of a backup.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Node-ID or Modbus address of the device.
+    /// Node-ID or Modbus server address of the device.
     pub node_id: Option<u8>,
     /// Addresses of parameters that are saved although they are protected or volatile.
     pub include: Vec<Address>,
@@ -22,8 +22,8 @@ pub struct Options {
 
 /// Reads the parameters that belong to a backup. Nothing is written.
 ///
-/// Parameters that the device refuses to transfer are in [`Backup::skipped`]. Such a backup is not
-/// [complete](Backup::is_complete).
+/// [`Backup::skipped`] lists the writable parameters that were not saved. If one of them should have been saved, the
+/// backup is not [complete](Backup::is_complete).
 ///
 /// # Errors
 ///
@@ -43,7 +43,7 @@ pub fn backup(
     Ok(backup)
 }
 
-/// Returns the reason why a writable parameter doesn't belong to a backup.
+/// Returns the reason why a writable parameter doesn't belong to a backup, or `None` if it does.
 fn exclusion(parameter: &Parameter<'_>) -> Option<String> {
     let refusal = parameter.read_refusal().map(|refusal| refusal.to_string());
     let protection = parameter.protection().filter(|protection| !is_setting(*protection));
@@ -73,7 +73,9 @@ fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mu
             };
             backup.entries.push(Entry::new(parameter, value));
         }
-        Ok(None) => backup.skipped.push(Skipped::failed(parameter, "the bytes are not a value of the type")),
+        Ok(None) => {
+            backup.skipped.push(Skipped::failed(parameter, "the device sent bytes that are not a value of the type"))
+        }
         Err(failure) if failure.is_missing() && is_optional(parameter) => {
             backup.skipped.push(Skipped::new(parameter, "the device doesn't have the parameter"));
         }
@@ -83,7 +85,8 @@ fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mu
     Ok(())
 }
 
-/// Returns whether some devices lack the parameter, such as entries above the number of mapped objects.
+/// Returns whether the device can lack the parameter: a mapping entry above the number of mapped objects, an optional
+/// parameter, or a parameter of some models or versions.
 fn is_optional(parameter: &Parameter<'_>) -> bool {
     let is_mapping = parameter
         .address()
@@ -92,7 +95,8 @@ fn is_optional(parameter: &Parameter<'_>) -> bool {
     is_mapping || parameter.item().is_optional || parameter.item().availability.is_some()
 }
 
-/// Reads a value, again after a timeout.
+/// Reads a value, with up to three attempts if the device doesn't reply. Returns `None` if the bytes are not a value of
+/// the type.
 pub(crate) fn read(
     parameter: &Parameter<'_>,
     connection: &mut impl Connection,

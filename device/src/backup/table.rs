@@ -69,7 +69,7 @@ impl Backup {
     }
 }
 
-/// Returns a value in the notation of TOML. The value is raw.
+/// Returns a raw value in the notation of TOML.
 fn written(parameter: &Parameter<'_>, value: &Value) -> String {
     match value {
         Value::Bool(value) => value.to_string(),
@@ -94,7 +94,7 @@ fn entry(row: &toml::Value, description: &Description) -> Result<Entry, TableErr
     let is_named =
         |name: &str| parameter.path().eq_ignore_ascii_case(name) || parameter.name().eq_ignore_ascii_case(name);
     if let Some(name) = text("name").filter(|name| !is_named(name)) {
-        return Err(TableError(format!("{parameter}: the backup has the name `{name}` for this address")));
+        return Err(TableError(format!("{parameter}: the backup states another name for this address: `{name}`")));
     }
     let value = row.get("value").ok_or_else(|| TableError(format!("{parameter}: the value is missing")))?;
     Ok(Entry::new(&parameter, parsed(&parameter, value)?))

@@ -1,4 +1,4 @@
-//! Connections over a Modbus line, which also read the device identification.
+//! Modbus connections over TCP or a serial line that can read the device identification.
 
 use lexibus::clients::modbus::tokio_modbus::bytes::Bytes;
 use lexibus::clients::modbus::tokio_modbus::{Request, Response};
@@ -11,7 +11,7 @@ use crate::failure::Failure;
 /// Number of objects in the basic device identification: vendor name, product code, revision.
 const BASIC: usize = 3;
 
-/// A connection over a Modbus line.
+/// A Modbus connection over TCP or a serial line.
 pub(super) struct LineConnection<L>(pub ModbusConnection<ModbusClient<L>>);
 
 impl<L: sync::Client> Connection for LineConnection<L> {
@@ -30,7 +30,7 @@ impl<L: sync::Client> Connection for LineConnection<L> {
     fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
         let unsupported = |reason: &str| Failure::Unsupported(reason.to_owned());
         let (mut objects, mut first) = (Vec::new(), 0);
-        // Each reply contains at least one object.
+        // Each reply contains at least one object, so three requests are enough.
         for _ in 0..BASIC {
             // Function 43, read device identification, basic (MODBUS Application Protocol V1.1b3, 6.21).
             let request = Request::try_from(Bytes::copy_from_slice(&[0x2B, 0x0E, 0x01, first]));
@@ -38,7 +38,9 @@ impl<L: sync::Client> Connection for LineConnection<L> {
             let reply =
                 self.0.client().context().call(request).map_err(|error| ModbusError::Bus(error).into_failure())?;
             let reply = reply.map_err(|exception| ModbusError::Exception(exception).into_failure())?;
-            let Response::ReadDeviceIdentification(reply) = reply else { return Err(unsupported("unexpected reply")) };
+            let Response::ReadDeviceIdentification(reply) = reply else {
+                return Err(unsupported("the device sent an unexpected reply"));
+            };
             objects.extend(reply.device_id_objects.iter().map(|object| (object.id, text(&object.value))));
             if !reply.more_follows {
                 break;
@@ -49,7 +51,7 @@ impl<L: sync::Client> Connection for LineConnection<L> {
     }
 }
 
-/// Returns a text without padding.
+/// Returns the text of an object without padding (spaces and zero bytes).
 fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).trim_matches(['\0', ' ']).to_owned()
 }

@@ -34,7 +34,9 @@ impl BusAddress {
             }
             BusAddress::Rtu { path, bit_rate, parity, stop_bits } => {
                 if address == 0 {
-                    return Err(Failure::Bus("address 0 is a broadcast, to which no device replies".to_owned()));
+                    return Err(Failure::Bus(
+                        "server address 0 is the broadcast address, to which no device replies".to_owned(),
+                    ));
                 }
                 let line = tokio_serial::new(path, *bit_rate)
                     .parity(match parity {
@@ -60,12 +62,12 @@ fn resolve(host: &str) -> Result<SocketAddr, Failure> {
     address.ok_or_else(|| Failure::Bus(format!("cannot resolve the host {host}")))
 }
 
-/// Returns the requests that a device accepts.
+/// Returns the functions and the request lengths that a device accepts.
 fn limits(tables: &[ModbusTable]) -> Limits {
     let of = |space: RegisterSpace, standard: TableLimits| {
         let Some(table) = tables.iter().find(|table| table.space == space) else { return standard };
         TableLimits {
-            // A client keeps only references to static lists.
+            // `TableLimits` needs a static list.
             functions: Box::leak(table.functions.clone().into_boxed_slice()),
             max_read: table.max_read.unwrap_or(standard.max_read),
             max_write: table.max_write.unwrap_or(standard.max_write),

@@ -26,14 +26,14 @@ impl<C> ModbusConnection<C> {
     }
 }
 
-/// An error of a Modbus client that may contain an exception code.
+/// An error of a Modbus client that can be converted to a [`Failure`].
 pub trait ModbusFailure {
     /// Converts the error.
     fn into_failure(self) -> Failure;
 }
 
-/// Returns the failure for an exception code. With the codes 5 (acknowledge) and 11 (gateway target failed to respond), the device may
-/// have executed the request.
+/// Returns the failure for an exception code. The codes 5 (acknowledge) and 11 (gateway target device failed to
+/// respond) count as a timeout, because the device may have executed the request.
 fn exception_of(code: u8) -> Failure {
     match code {
         5 | 11 => Failure::Timeout,
@@ -90,7 +90,7 @@ where
     }
 }
 
-/// Returns the number of bytes that the registers contain.
+/// Returns the number of bytes of the registers or coils.
 fn capacity(register: &Register) -> usize {
     match register.table {
         RegisterTable::Coil | RegisterTable::DiscreteInput => usize::from(register.count).div_ceil(8),

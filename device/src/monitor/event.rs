@@ -7,12 +7,13 @@ use serde::Serialize;
 /// An event on the bus.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Event {
-    /// Node that sent the message, or to which it was sent. `None` if the message is for all nodes.
+    /// Node that sent the message, or to which it was sent. `None` if the message belongs to no single node, such as
+    /// SYNC or an NMT command to all nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<u8>,
     /// Kind of the event.
     pub kind: EventKind,
-    /// The event in words.
+    /// The event as text.
     pub text: String,
     /// Values with their names.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -36,7 +37,7 @@ pub struct Named {
 pub enum EventKind {
     /// An NMT command.
     Nmt,
-    /// A heartbeat, a boot-up message or an answer of node guarding.
+    /// A heartbeat, a boot-up message or a reply of node guarding.
     State,
     /// A SYNC message.
     Sync,
@@ -48,7 +49,7 @@ pub enum EventKind {
     Pdo,
     /// A message of an SDO transfer.
     Sdo,
-    /// A message of layer setting services.
+    /// An LSS message (layer setting services).
     Lss,
 }
 
@@ -76,7 +77,7 @@ impl Event {
 }
 
 impl fmt::Display for Event {
-    /// Writes one line: `node 5: TPDO 1: Statusword = 0x0237`.
+    /// Writes one line: `node 5: TPDO 2: Position actual value = -2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.node {
             Some(node) => write!(f, "node {node}: {}", self.text)?,

@@ -20,7 +20,8 @@ pub struct Interpreter<'d> {
 }
 
 impl<'d> Interpreter<'d> {
-    /// Creates an interpreter for nodes with these node-IDs and descriptions. Messages of other nodes have no names.
+    /// Creates an interpreter for nodes with these node-IDs and descriptions. PDOs of other nodes are not interpreted,
+    /// and their other messages are shown without names.
     pub fn new(nodes: impl IntoIterator<Item = (u8, &'d Description)>) -> Self {
         let nodes: Vec<_> = nodes.into_iter().collect();
         let pdos = Pdos::new(&nodes);
@@ -32,12 +33,13 @@ impl<'d> Interpreter<'d> {
         self.nodes.iter().find(|(id, _)| *id == node).map(|(_, description)| *description)
     }
 
-    /// Returns the event of a frame, or `None` if no description declares the COB-ID and CiA 301 doesn't predefine it.
+    /// Returns the event of a frame. Returns `None` for remote frames, for PDOs that no description declares, and for
+    /// frames that are no message of CiA 301 or LSS.
     pub fn interpret(&mut self, frame: &CanFrame) -> Option<Event> {
         if frame.is_remote() {
             return None;
         }
-        // A description can use a predefined COB-ID for another purpose.
+        // PDOs come first, because a description can use a predefined COB-ID for a PDO.
         self.pdos.event(frame).or_else(|| self.service(frame)).or_else(|| sdo::event(self, frame))
     }
 

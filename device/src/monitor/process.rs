@@ -8,7 +8,7 @@ use super::event::{Event, EventKind, Named};
 use crate::description::Description;
 use crate::parameter::Parameter;
 
-/// Bits of a COB-ID that are not part of the identifier: disabled, no RTR.
+/// Bits of a COB-ID that are not part of the identifier: bit 31 (disabled) and bit 30 (no RTR).
 const FLAGS: u32 = 0xC000_0000;
 
 /// The PDOs of all nodes by COB-ID.
@@ -40,12 +40,12 @@ impl<'d> Pdos<'d> {
             description.device().process_data.pdos.iter().filter_map(|pdo| Known::new(*node, description, pdo))
         });
         let mut list: Vec<Known<'d>> = known.collect();
-        // The sender of a PDO is more informative than its receivers.
+        // If a TPDO and RPDOs have the same COB-ID, the event names the TPDO and its node, which sent the frame.
         list.sort_by_key(|known| known.title.starts_with("RPDO"));
         Self { list }
     }
 
-    /// Returns the event of a PDO.
+    /// Returns the event of a PDO, or `None` if no PDO has the COB-ID of the frame.
     pub(super) fn event(&self, frame: &CanFrame) -> Option<Event> {
         let known = self.list.iter().find(|known| known.id == frame.id())?;
         let values = known.fields.iter().filter_map(|field| field.named(frame.data())).collect();
@@ -54,7 +54,8 @@ impl<'d> Pdos<'d> {
 }
 
 impl<'d> Known<'d> {
-    /// Returns a PDO with the COB-ID of a configuration file, or otherwise the default COB-ID.
+    /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if it
+    /// has no COB-ID.
     fn new(node: u8, description: &'d Description, pdo: &Pdo) -> Option<Self> {
         let communication = pdo.communication.as_ref()?;
         let item = description.object(communication.index, 1).map(|parameter| parameter.item());
@@ -86,7 +87,8 @@ impl Field<'_> {
         Some(Named { address: self.parameter.address_text(), name: self.parameter.name(), value })
     }
 
-    /// Returns the bits of the field, from bit 0 of the first byte on.
+    /// Returns the bits of the field, or `None` if the frame is too short. The first bit of the field is bit 0 of the
+    /// first byte.
     fn bytes(&self, data: &[u8]) -> Option<Vec<u8>> {
         let (first, end) = (self.offset as usize, (self.offset + self.bits) as usize);
         if end > 8 * data.len() {

@@ -6,13 +6,13 @@ use lexibus::{AbortCode, Object};
 use super::event::{Event, EventKind, Named};
 use super::interpreter::Interpreter;
 
-/// First COB-IDs of SDO replies and SDO requests.
+/// COB-IDs of SDO replies and SDO requests without the node-ID.
 const REPLIES: u32 = 0x580;
 const REQUESTS: u32 = 0x600;
 /// Command specifier of an abort.
 const ABORT: u8 = 4;
 
-/// Returns the event of an SDO message.
+/// Returns the event of an SDO message, or `None` if the frame is no SDO message on a default channel.
 pub(super) fn event(interpreter: &Interpreter<'_>, frame: &CanFrame) -> Option<Event> {
     let of = |first: u32| frame.id().checked_sub(first).filter(|node| (1..=0x7F).contains(node)).map(|node| node as u8);
     let (node, is_request) = of(REPLIES).map(|node| (node, false)).or_else(|| of(REQUESTS).map(|node| (node, true)))?;

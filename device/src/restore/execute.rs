@@ -17,11 +17,13 @@ pub enum Status {
     Written,
     /// The device refused the value, or a condition of the description doesn't hold. The old value remains.
     Refused(WriteError),
-    /// The bus failed or the device didn't reply. The device has either the old or the new value.
+    /// The bus failed, the device didn't reply, or it refused one of several Modbus requests for the value. The device
+    /// has the old value, the new value, or a part of the new value.
     Uncertain(Failure),
     /// The condition for this write could not be checked, because the bus failed or the device didn't reply. Nothing was sent.
     NotSent(Failure),
-    /// The restore ended before this write. The old value remains, unless an earlier write changed it.
+    /// The restore ended before this write, or another write of the same PDO failed. The old value remains, unless an
+    /// earlier write changed it.
     NotWritten,
 }
 
@@ -42,14 +44,15 @@ impl fmt::Display for Status {
 pub struct Outcome<'d> {
     /// The state of every write, in the order of the plan.
     pub states: Vec<(Write<'d>, Status)>,
-    /// Written parameters that have another value afterwards, with the value or the failure in words.
+    /// Written parameters that have another value afterwards, or whose value the device refuses to return, with the
+    /// value or the failure as text.
     pub mismatches: Vec<(Write<'d>, String)>,
     /// Number of confirmed values that could not be read back, because the bus failed or the device didn't reply.
     pub unconfirmed: usize,
 }
 
 impl Outcome<'_> {
-    /// Returns whether the device has all values of the plan.
+    /// Returns whether the device confirmed all writes and has the written values afterwards.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.mismatches.is_empty()
@@ -65,13 +68,13 @@ impl Outcome<'_> {
 }
 
 impl fmt::Display for Outcome<'_> {
-    /// Writes one line for each write that was not confirmed, and a summary.
+    /// Writes one line for each write that was not confirmed and for each mismatch, and then a summary.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (write, status) in self.states.iter().filter(|(_, status)| *status != Status::Written) {
             writeln!(f, "{write}: {status}")?;
         }
         for (write, actual) in &self.mismatches {
-            writeln!(f, "{write}: the device has another value after the write: {actual}")?;
+            writeln!(f, "{write}: written, but the device returns another value or an error: {actual}")?;
         }
         if self.unconfirmed > 0 {
             writeln!(f, "{} written values could not be read back", self.unconfirmed)?;
@@ -83,10 +86,10 @@ impl fmt::Display for Outcome<'_> {
 impl<'d> Plan<'d> {
     /// Writes the values, and then reads them back.
     ///
-    /// `proceed` is called before each write. If it returns false, the restore ends, and the remaining values are not
-    /// written. The restore also ends if the bus fails or the device doesn't reply. A value that the device refuses
-    /// doesn't end the restore, but the remaining values of its PDO are not written. After a restore that ended early, the written values are read back too, because the device may have
-    /// restarted.
+    /// `proceed` is called before each write that is attempted. If it returns false, the restore ends, and the
+    /// remaining values are not written. The restore also ends if the bus fails or the device doesn't reply. A value
+    /// that the device refuses doesn't end the restore, but the remaining values of its PDO are not written. After a
+    /// restore that ended early, the written values are read back too, because the device may have restarted.
     pub fn execute(
         &self,
         connection: &mut impl Connection,
@@ -119,7 +122,8 @@ fn attempt(write: &Write<'_>, connection: &mut impl Connection) -> Status {
     }
     match connection.write(write.parameter().address(), write.bytes()) {
         Ok(()) => Status::Written,
-        // A value of several registers may be sent with several requests, of which the first ones may have succeeded.
+        // The client may send a value of several registers in several requests. The requests before the refused one
+        // succeeded.
         Err(failure @ Failure::Exception(_)) if is_of_several_registers(write) => Status::Uncertain(failure),
         Err(failure) if failure.is_refusal() => Status::Refused(failure.into()),
         Err(failure) => Status::Uncertain(failure),
@@ -130,8 +134,8 @@ fn is_of_several_registers(write: &Write<'_>) -> bool {
     matches!(write.parameter().address(), Address::Register(register) if register.count > 1)
 }
 
-/// Reads the written values back. Returns those that differ from the last write of their address, and the number of values that could
-/// not be read. If the device didn't reply to a read, it may have restarted, so all values are read again.
+/// Reads the written values back. Returns those that differ from the last write to their address, and the number of
+/// values that could not be read. If a read gets no reply, the device may have restarted, so all values are read again.
 fn read_back<'d>(
     states: &[(Write<'d>, Status)],
     connection: &mut impl Connection,
@@ -152,7 +156,8 @@ fn read_back<'d>(
     result
 }
 
-/// Reads values once. Ends if the device doesn't reply to two reads.
+/// Reads values once. Stops after two reads without a reply or with a bus failure, and counts the remaining values as
+/// not read.
 fn read_all<'d>(writes: &[&Write<'d>], connection: &mut impl Connection) -> (Vec<(Write<'d>, String)>, usize) {
     const MOST_FAILURES: usize = 2;
     let (mut mismatches, mut failures) = (Vec::new(), 0);

@@ -13,13 +13,15 @@ use crate::parameter::Parameter;
 use crate::protection::Protection;
 use crate::write::Write;
 
-/// Returns the writes of a CANopen device in the order of CiA 301: PDOs are disabled, the communication parameters and
-/// all other parameters are written, then the mappings and the parameters of PDOs, and PDOs are enabled again. Other devices get the
-/// values in the order of the description. Protected parameters that the caller named come last, and of these, node-ID and bit rate.
+/// Returns the writes in the order in which the device gets them. On CANopen, this is the order of CiA 301: disable
+/// PDOs, write the communication parameters and all other parameters, write the mappings and the parameters of PDOs,
+/// enable PDOs. On Modbus, it is the order of the description. Protected parameters that the caller named come after
+/// these, first those that don't set the node-ID or the bit rate.
 ///
-/// A PDO is written as a whole or not at all: if a value is missing or was refused, the PDO keeps its configuration.
+/// A PDO is written as a whole or not at all: if a value of the PDO is missing or was refused, none of its values are
+/// written.
 ///
-/// `writes` contains the checked writes by address. Also returns the values that this order leaves out.
+/// `writes` contains the checked writes by address. The second list contains the values that this order leaves out.
 pub(super) fn ordered<'d>(
     description: &'d Description,
     backup: &Backup,
@@ -51,7 +53,6 @@ pub(super) fn ordered<'d>(
     for (parameter, setting) in settings.into_iter().filter(|(_, setting)| !is_incomplete(setting.object.0)) {
         ordered.extend(write(parameter, setting, node_id));
     }
-    ordered.sort_by_key(|write| rank(&write.parameter()));
     for write in &ordered {
         writes.remove(&write.parameter().address());
     }
@@ -68,10 +69,12 @@ pub(super) fn ordered<'d>(
             left_out.push(Skipped::new(&write.parameter(), reason(&configuration, address)));
         }
     }
+    ordered.sort_by_key(|write| rank(&write.parameter()));
     (ordered, left_out)
 }
 
-/// Returns the index of the communication parameters of the PDO to which an object belongs.
+/// Returns the index of the communication parameters of the PDO to which an object belongs, or `None` if it belongs to
+/// no PDO.
 pub(super) fn pdo(index: u16) -> Option<u16> {
     match index {
         0x1400..=0x15FF | 0x1800..=0x19FF => Some(index),
@@ -80,8 +83,8 @@ pub(super) fn pdo(index: u16) -> Option<u16> {
     }
 }
 
-/// Returns a number for sorting: protected parameters come last, and of these, those that change the address of the device. The order
-/// of the objects of a PDO doesn't change.
+/// Returns a number for sorting: protected parameters come after all others, and the node-ID and the bit rate come
+/// last. Objects of PDOs count as not protected, so that their order doesn't change.
 fn rank(parameter: &Parameter<'_>) -> u8 {
     let is_of_pdo = parameter.address().object().is_some_and(|object| pdo(object.index).is_some());
     match parameter.protection().filter(|_| !is_of_pdo) {
@@ -98,7 +101,7 @@ fn reason(configuration: &Configuration, address: Address) -> &'static str {
     match found {
         Some((_, LeftOut::NotMapped)) => "the sub-index is above the number of mapped objects",
         Some((_, reason)) => reason.text(),
-        None => "the value has no place in the order of writes",
+        None => "no step of the restore writes this parameter",
     }
 }
 
@@ -108,7 +111,8 @@ fn phases(configuration: &Configuration) -> impl Iterator<Item = &Setting> {
     [disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos].into_iter().flatten()
 }
 
-/// Converts a setting. The node-ID is added to the number of a formula.
+/// Converts a setting to a write. Adds the node-ID if the setting is a formula. Returns `None` if the node-ID is
+/// unknown or the bytes are not a value of the type.
 fn write<'d>(parameter: Parameter<'d>, setting: &Setting, node_id: Option<u8>) -> Option<Write<'d>> {
     let ty = parameter.basic();
     let value = encoding::value(&setting.bytes, ty)?;

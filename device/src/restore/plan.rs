@@ -35,7 +35,7 @@ impl<'d> Plan<'d> {
             match (protection, Write::new(parameter, entry.value.clone(), node_id)) {
                 (Some(protection), _) => refused.push(Skipped::new(&parameter, protection)),
                 (None, Ok(write)) => drop(writes.insert(entry.address, write)),
-                // Files of configuration tools contain the values of read-only parameters too.
+                // Files of configuration tools contain the values of read-only parameters too, so this is no failure.
                 (None, Err(WriteError::ReadOnly)) => refused.push(Skipped::new(&parameter, WriteError::ReadOnly)),
                 (None, Err(error)) => refused.push(Skipped::failed(&parameter, error)),
             }

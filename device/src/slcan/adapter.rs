@@ -16,7 +16,8 @@ const MIN_TIMEOUT: Duration = Duration::from_millis(1);
 const MAX_TIMEOUT: Duration = Duration::from_secs(86_400);
 /// Maximum time for the reply to a command. Some adapters send no replies.
 const REPLY: Duration = Duration::from_millis(200);
-/// Time without received bytes after which an adapter has sent all replies and frames of a channel that was open.
+/// If no byte arrives for this time, the adapter has sent all pending replies, and all frames of a channel that was
+/// open.
 const SILENCE: Duration = Duration::from_millis(100);
 
 /// A serial line with timeouts.
@@ -42,11 +43,11 @@ impl SerialLine for Box<dyn SerialPort> {
 pub(crate) struct Adapter<L: SerialLine> {
     line: L,
     decoder: Decoder,
-    /// True if the line contains the beginning of a frame, whose end was not written.
+    /// True if only the beginning of the last frame was written to the line.
     is_cut: bool,
 }
 
-/// Opens the channel of a CAN adapter. Sets its bit rate, given in kbit/s, if there is one.
+/// Opens the channel of a CAN adapter. If `bit_rate` is given, sets the bit rate of the CAN bus in kbit/s first.
 pub(crate) fn open(path: &str, bit_rate: Option<u16>) -> io::Result<impl CanPort<Error = io::Error>> {
     let line = serialport::new(path, LINE_RATE).timeout(REPLY).open()?;
     let mut adapter = Adapter::new(line);
@@ -76,7 +77,8 @@ impl<L: SerialLine> Adapter<L> {
         self.command(b"O\r", "the adapter refuses to open the channel")
     }
 
-    /// Discards received bytes until the adapter is silent.
+    /// Discards received bytes until the adapter sends nothing for [`SILENCE`], but for about five times [`SILENCE`] at
+    /// most.
     fn discard(&mut self) -> io::Result<()> {
         let end = Instant::now() + 5 * SILENCE;
         while self.read(SILENCE)? > 0 && Instant::now() < end {}
@@ -119,7 +121,7 @@ impl<L: SerialLine> Adapter<L> {
         }
     }
 
-    /// Writes bytes until `end`. Returns the number of written bytes.
+    /// Writes bytes until all are written or until `end`. Returns the number of written bytes.
     fn write(&mut self, bytes: &[u8], end: Option<Instant>) -> io::Result<usize> {
         let mut written = 0;
         while written < bytes.len() {
@@ -136,7 +138,8 @@ impl<L: SerialLine> Adapter<L> {
         Ok(written)
     }
 
-    /// Ends the line of a frame that was cut. An adapter refuses an incomplete frame. Returns `false` if the line is still full.
+    /// Ends the line of a frame that was written only in part, so that the adapter refuses the incomplete frame.
+    /// Returns `false` if the serial line accepted no byte until `end`.
     fn end_line(&mut self, end: Option<Instant>) -> io::Result<bool> {
         if self.is_cut {
             self.is_cut = self.write(b"\r", end)? == 0;
@@ -174,7 +177,7 @@ impl<L: SerialLine> CanPort for Adapter<L> {
     ) -> io::Result<Option<CanFrame>> {
         let end = Instant::now().checked_add(patience);
         self.end_line(Some(Instant::now()))?;
-        // Number of bytes that had arrived at the end of the patience. Later bytes are left for the next call.
+        // Number of unread bytes when `patience` was over. Bytes that arrive later are left for the next call.
         let mut last = None;
         loop {
             while let Some(frame) = self.decoder.next_frame() {
@@ -202,7 +205,7 @@ mod tests {
 
     use super::*;
 
-    /// A serial line that accepts a number of bytes, and on which `noise` arrives continuously.
+    /// A serial line that accepts `free` bytes, and from which `noise` can be read without end.
     #[derive(Default)]
     struct Fake {
         free: usize,

@@ -10,17 +10,17 @@ use super::session::Run;
 use crate::connection::Connection;
 use crate::failure::Failure;
 
-/// Communication objects that CiA 301 defines and that reading doesn't change.
+/// Indices of communication objects that CiA 301 defines and that a read doesn't change.
 const STANDARD: std::ops::RangeInclusive<u16> = 0x1000..=0x1029;
 
 /// First indices of the lists of PDO parameters and PDO mappings.
 const LISTS: [u16; 4] = [0x1400, 0x1600, 0x1800, 0x1A00];
-/// Number of missing objects of a list after which the search of the list ends.
+/// Number of consecutive missing objects after which the search of a list ends.
 const GAP: u16 = 4;
-/// Number of objects of a list.
+/// Maximum number of objects in a list.
 const LIST_LENGTH: u16 = 0x200;
 
-/// Searches objects that the description doesn't declare.
+/// Searches for objects and sub-indices that the description doesn't declare, and checks the numbers of entries.
 pub(super) fn check<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let groups = run.description.device().groups.iter();
     let declared: BTreeSet<u16> = groups.filter_map(|group| group.index()).collect();
@@ -52,7 +52,7 @@ fn check_list<C: Connection>(run: &mut Run<'_, C>, first: u16, declared: &BTreeS
     Ok(())
 }
 
-/// Reads an undeclared object. Returns whether it exists.
+/// Reads an undeclared object, and reports it if it exists. Returns whether it exists.
 fn check_object<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<bool, Failure> {
     check_entry(run, index, 0, "the description doesn't declare this object")
 }
@@ -67,7 +67,7 @@ fn check_entry<C: Connection>(run: &mut Run<'_, C>, index: u16, sub: u8, message
     Ok(true)
 }
 
-/// Checks the number of entries of all declared objects. The numbers of the error history and of mappings change.
+/// Checks the number of entries of all declared objects, except the error history and mappings, whose number changes.
 fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let description = run.description;
     for group in &description.device().groups {
@@ -83,7 +83,7 @@ fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Compares the number of entries of an object with the description, and searches undeclared entries.
+/// Compares the number of entries of an object with the description, and searches for undeclared entries.
 fn check_count<C: Connection>(run: &mut Run<'_, C>, group: &Group, index: u16) -> Result<(), Failure> {
     /// Sub-index of the structure of an object (CiA 301 7.4.5). It isn't an entry.
     const STRUCTURE: u8 = 0xFF;

@@ -14,13 +14,13 @@ use crate::parameter::Parameter;
 pub enum FindingKind {
     /// The description declares the parameter, but the device doesn't have it.
     Missing,
-    /// The device has the object, but the description doesn't declare it.
+    /// The device has the object or sub-index, but the description doesn't declare it.
     Extra,
     /// A fact of the device differs from the description.
     Different,
     /// The device didn't transfer the value.
     Unreadable,
-    /// The fact cannot be verified without a write, or the parameter must not be read.
+    /// The fact cannot be verified, for example because the parameter must not be read.
     Unverifiable,
     /// The value differs from the default value. This is no deviation.
     Changed,
@@ -63,7 +63,7 @@ impl fmt::Display for FindingKind {
     }
 }
 
-/// A fact that an overlay can state, as the device showed it.
+/// The fact about the device that an overlay can state.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Found {
@@ -81,16 +81,16 @@ pub enum Found {
     Other,
 }
 
-/// A finding about a parameter.
+/// A finding about a parameter, an undeclared object or the whole device.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// Kind of the finding.
     pub kind: FindingKind,
-    /// Address of the parameter.
+    /// Address of the parameter or object, or `identity` for the identity of a Modbus device.
     pub address: String,
-    /// Name and path of the parameter; empty for an object that the description doesn't declare.
+    /// Path of the parameter; empty for an undeclared object and for the whole device.
     pub name: String,
-    /// What is different, in words.
+    /// The fact that differs, or the reason for the finding, as text.
     pub message: String,
     /// What the description declares.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -101,7 +101,7 @@ pub struct Finding {
     /// SDO abort code, if the device sent one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub abort_code: Option<u32>,
-    /// The fact as an overlay can state it.
+    /// The fact that an overlay can state.
     #[serde(skip)]
     pub found: Found,
 }
@@ -157,7 +157,7 @@ impl Finding {
 }
 
 impl fmt::Display for Finding {
-    /// Writes one line: `missing: 0x2001:00 Speed: the device has no such object`.
+    /// Writes one line: `different: 0x6083:00 Profile acceleration: length: declared UNSIGNED32, found 2 bytes`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.kind, self.address)?;
         if !self.name.is_empty() {

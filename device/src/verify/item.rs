@@ -125,7 +125,7 @@ fn check_bytes<C: Connection>(run: &mut Run<'_, C>, parameter: &Parameter<'_>, b
     }
 }
 
-/// Returns the length of the value in words, if it isn't a length of the type.
+/// Returns the length of the value as text, or `None` if the type allows this length.
 fn wrong_length(ty: Type, expected: Option<usize>, length: usize) -> Option<String> {
     let maximum = match ty {
         Type::VisibleString(maximum) | Type::OctetString(maximum) => maximum,
@@ -140,9 +140,9 @@ fn wrong_length(ty: Type, expected: Option<usize>, length: usize) -> Option<Stri
     is_wrong.then(|| format!("{length} byte{}", if length == 1 { "" } else { "s" }))
 }
 
-/// Returns the deviation of a value from the description.
+/// Returns the deviation of a value from the description, or `None` if there is none.
 fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) -> Option<Finding> {
-    // A value that doesn't fit the type is a mistake of the description.
+    // A declared value that doesn't fit the type is a mistake in the description, and is not compared.
     let fits = |value: &Value| parameter.encode(value, node_id.or(Some(1))).is_some();
     if let Some(expected) = expected(parameter).filter(fits) {
         let expected = node_id.map_or_else(|| expected.clone(), |node_id| expected.resolved(node_id));
@@ -165,7 +165,7 @@ fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) ->
     is_unknown.then(|| different(parameter, "value").compared("one of the listed values", parameter.text(value)))
 }
 
-/// Returns the value that the device must have: an identity number, a constant, or the device type.
+/// Returns the value that the device must have if the parameter is an identity number, a constant, or the device type.
 fn expected(parameter: &Parameter<'_>) -> Option<Value> {
     let object = parameter.address().object();
     let identity = &parameter.description().device().identity;
@@ -175,7 +175,7 @@ fn expected(parameter: &Parameter<'_>) -> Option<Value> {
         _ => None,
     };
     let is_fixed = object.is_some_and(|object| matches!(object.index, 0x1000 | 0x1018));
-    // The numbers of entries are checked together with the undeclared entries, and the mappings as a whole.
+    // The number of entries is checked in `extra`, and mappings are checked as a whole in `mapping`.
     let is_mapping = object.is_some_and(|object| mapping::is_mapping(object.index));
     let is_fixed =
         !is_number_of_entries(parameter) && !is_mapping && (is_fixed || parameter.access() == Access::Constant);
@@ -192,7 +192,7 @@ fn identity_number(identity: &Identity, sub_index: u8) -> Option<u32> {
     }
 }
 
-/// Compares the identity numbers whose sub-indices the description doesn't declare.
+/// Compares the identity numbers that the description states, but for which it declares no sub-index of 0x1018.
 pub(super) fn check_identity<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     const IDENTITY: u16 = 0x1018;
     let description = run.description;
@@ -216,7 +216,8 @@ fn is_number_of_entries(parameter: &Parameter<'_>) -> bool {
     has_entries && parameter.address().object().is_some_and(|object| object.sub_index == 0)
 }
 
-/// Returns whether two values are equal. REAL32 values of a description have more digits than the device has.
+/// Returns whether two values are equal. Real numbers are compared as REAL32, because a description can state more
+/// digits than the device stores.
 pub(super) fn is_same(one: &Value, other: &Value) -> bool {
     let is_close = |one: f64, other: f64| one as f32 == other as f32;
     one == other
@@ -224,7 +225,7 @@ pub(super) fn is_same(one: &Value, other: &Value) -> bool {
         || matches!((one, other), (Value::Real(one), Value::Real(other)) if is_close(*one, *other))
 }
 
-/// Lists a value that differs from the default value.
+/// Returns a finding if the value of a writable parameter differs from its default value.
 fn changed(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) -> Option<Finding> {
     let default = parameter.default().filter(|_| parameter.access().writable())?;
     let default = node_id.map_or_else(|| default.clone(), |node_id| default.resolved(node_id));

@@ -62,7 +62,7 @@ fn check_mapping<C: Connection>(run: &mut Run<'_, C>, group: &Group) -> Result<(
     Ok(())
 }
 
-/// Reads a mapping. Returns `None` if it cannot be read; the check of its entries reports the reason.
+/// Reads a mapping. Returns `None` if it cannot be read; `item::check` reports the reason.
 fn read<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<Option<Vec<Entry>>, Failure> {
     /// Maximum number of entries. Greater numbers select a multiplexed PDO.
     const MAX_ENTRIES: u8 = 64;
@@ -88,7 +88,7 @@ fn read<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<Option<Vec<En
     Ok(Some(entries))
 }
 
-/// Returns the mapping that the description declares.
+/// Returns the mapping that the description declares, or `None` if it declares no complete mapping.
 fn declared(group: &Group) -> Option<Vec<Entry>> {
     let number = |sub_index: u8| group.sub(sub_index)?.initial().and_then(Value::as_int);
     let count = u8::try_from(number(0)?).ok()?;
@@ -103,7 +103,7 @@ fn text(entries: &[Entry]) -> String {
     }
 }
 
-/// Returns the reason why the device cannot have this entry according to the description.
+/// Returns the reason why the entry contradicts the description, or `None` if it doesn't.
 fn wrong_entry<C>(run: &Run<'_, C>, mapping: u16, entry: Entry) -> Option<String> {
     /// Indices of data types, which dummy entries map (CiA 301 7.4.7).
     const DUMMIES: std::ops::RangeInclusive<u16> = 1..=0x1F;

@@ -7,9 +7,10 @@ use super::report::Report;
 use crate::quote::quoted;
 
 impl Report {
-    /// Returns an overlay with the facts that the device showed, or `None` if no finding changes the description.
+    /// Returns an overlay with the deviations that an overlay can express, or `None` if there are none.
     ///
-    /// The type of a value follows from its length, and is unsigned. Facts that an overlay cannot state are comments.
+    /// Each row has the finding as a comment. The length of a value determines its type: an unsigned integer up to 8
+    /// bytes, or else `bytes`. The type of an undeclared object that cannot be read is `?`.
     #[must_use]
     pub fn overlay(&self) -> Option<String> {
         let rows: Vec<(&Finding, String)> =
@@ -58,7 +59,7 @@ fn row(finding: &Finding) -> Option<String> {
     }
 }
 
-/// Returns the unsigned type with this length, or bytes.
+/// Returns an unsigned integer type up to 8 bytes, or else `bytes`. Returns `None` for length 0.
 fn type_of(bytes: usize) -> Option<String> {
     match bytes {
         0 => None,

@@ -20,7 +20,8 @@ pub struct Report {
     pub changed: Vec<Finding>,
     /// Number of parameters that were read or whose access rights were confirmed.
     pub read: usize,
-    /// Number of readable parameters whose write access was not verified, because nothing is written.
+    /// Number of parameters that were read and are declared as writable. Their write access was not verified, because
+    /// nothing is written.
     pub unverified_writes: usize,
 }
 
@@ -45,14 +46,15 @@ impl Report {
         self.findings.iter().filter(|finding| finding.kind == kind).count()
     }
 
-    /// Returns the number of parameters that cannot be verified. Other facts of the device have no name.
+    /// Returns the number of parameters that cannot be verified. Findings about the whole device, which have no name,
+    /// don't count.
     fn unverifiable_parameters(&self) -> usize {
         let is_parameter = |finding: &&Finding| finding.kind == FindingKind::Unverifiable && !finding.name.is_empty();
         self.findings.iter().filter(is_parameter).count()
     }
 
-    /// Returns the report as text, with one line per finding and a summary. `shows_changed` lists the values that differ
-    /// from their default value.
+    /// Returns the report as text, with one line per finding and a summary. If `shows_changed` is true, the text also
+    /// lists the values that differ from their default value.
     #[must_use]
     pub fn text(&self, shows_changed: bool) -> String {
         let mut text = String::new();

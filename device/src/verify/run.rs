@@ -15,7 +15,7 @@ use crate::failure::Failure;
 ///
 /// # Errors
 ///
-/// Fails if the bus fails, or if the device doesn't reply to five consecutive requests.
+/// Fails if the bus fails, or if five consecutive reads get no reply. Each read has three attempts.
 pub fn verify(
     description: &Description,
     connection: &mut impl Connection,

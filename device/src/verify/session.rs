@@ -10,7 +10,7 @@ use crate::description::Description;
 use crate::failure::{retried, Failure};
 use crate::parameter::Parameter;
 
-/// Number of consecutive timeouts after which the comparison ends.
+/// Number of consecutive reads without a reply after which the comparison ends. Each read has three attempts.
 const MOST_TIMEOUTS: usize = 5;
 
 /// Options of a comparison.
@@ -18,8 +18,8 @@ const MOST_TIMEOUTS: usize = 5;
 pub struct Options {
     /// Node-ID of a CANopen device, for values that depend on it.
     pub node_id: Option<u8>,
-    /// Indices in which undeclared objects are searched, in addition to the communication objects of CiA 301. Reading an
-    /// undeclared object may have effects that are unknown.
+    /// Ranges of indices in which to search for undeclared objects, in addition to 0x1000 to 0x1029 and the PDO
+    /// parameters and mappings. Reading an undeclared object may have unknown effects.
     pub search: Vec<RangeInclusive<u16>>,
 }
 
@@ -44,14 +44,14 @@ impl<'r, C: Connection> Run<'r, C> {
         self.report.findings.push(finding);
     }
 
-    /// Reads a parameter. The outer error ends the comparison, because the bus failed or the device doesn't reply any
-    /// more.
+    /// Reads a parameter. The inner error is a failed read. The outer error ends the comparison, because the bus failed
+    /// or the device doesn't reply any more.
     pub fn read(&mut self, parameter: &Parameter<'_>) -> Result<Result<Vec<u8>, Failure>, Failure> {
         let result = retried(|| parameter.read(self.connection).map(|reading| reading.bytes));
         self.checked(result)
     }
 
-    /// Reads an object that the description may not declare.
+    /// Reads an object, even if the description doesn't declare it.
     pub fn read_object(&mut self, index: u16, sub_index: u8) -> Result<Result<Vec<u8>, Failure>, Failure> {
         let address = crate::address::Address::Object(lexibus::Object::new(index, sub_index));
         let result = retried(|| self.connection.read(address, 0));
@@ -73,7 +73,7 @@ impl<'r, C: Connection> Run<'r, C> {
     }
 }
 
-/// Lists a fact that cannot be verified.
+/// Creates a finding about a fact that cannot be verified.
 pub(super) fn unverifiable(parameter: &Parameter<'_>, message: &str) -> Finding {
     Finding::of(parameter, FindingKind::Unverifiable, message)
 }

@@ -1,5 +1,5 @@
-//! Backups and comparisons with the CANopen descriptions of the corpus. A simulated device behaves exactly as the description
-//! declares.
+//! Backups, restores and comparisons with the CANopen descriptions of the corpus, and a simulated device that behaves
+//! exactly as the description declares.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use lexibus_device::{Address, Connection, Description, Failure, Network, Paramet
 
 const NODE: u8 = 5;
 
-/// A device with the default values of its description.
+/// A simulated device with the objects and the initial values of its description.
 struct Mirror {
     values: BTreeMap<Object, Vec<u8>>,
     write_only: Vec<Object>,
@@ -35,7 +35,8 @@ impl Mirror {
     }
 }
 
-/// Returns the bytes of the identity, of the initial value, or of a value within the limits.
+/// Returns the bytes of the value that the simulated device has: the identity number, the initial value, or else a
+/// value within the limits.
 fn initial(parameter: &Parameter<'_>) -> Vec<u8> {
     let identity = &parameter.description().device().identity;
     let object = parameter.address().object();
@@ -80,7 +81,7 @@ impl Connection for Mirror {
     }
 }
 
-/// Returns the names of the EDS, DCF and XDD files: those of the sample, or in the full lane all files of the corpus.
+/// Returns the names of the EDS, DCF and XDD files: a sample, or all files of the corpus if `LEXIBUS_LANE` is `full`.
 fn names() -> Vec<String> {
     if std::env::var("LEXIBUS_LANE").is_ok_and(|lane| lane == "full") {
         let folder = std::fs::read_dir(repository("../shared/corpus/eds")).into_iter().flatten().flatten();
@@ -92,7 +93,7 @@ fn names() -> Vec<String> {
     list.lines().filter(|line| line.starts_with("eds/")).map(str::to_owned).collect()
 }
 
-/// Returns the descriptions of one CANopen device.
+/// Returns the descriptions of the files in [`names`] that describe exactly one CANopen device.
 fn descriptions() -> Vec<(String, Description)> {
     let read = |name: &str| {
         let source = Source::read(&repository("../shared/corpus").join(name)).ok()?;
@@ -106,7 +107,7 @@ fn descriptions() -> Vec<(String, Description)> {
     found
 }
 
-/// Returns what is wrong with the functions for a description.
+/// Runs `verify`, `backup` and `restore` for a description, and returns their wrong results.
 fn faults(description: &Description) -> Vec<String> {
     let mut device = Mirror::new(description);
     let options = VerifyOptions { node_id: Some(NODE), ..VerifyOptions::default() };

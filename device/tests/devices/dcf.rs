@@ -12,7 +12,7 @@ const EDS: &str =
     [ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
     [2000]\nParameterName=Value\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=0\nPDOMapping=1\n";
 
-/// A device whose values with four bytes are 7, and whose other values are 1.
+/// A device whose 4-byte values are 7 and whose other values are 1.
 struct Sevens;
 
 impl Connection for Sevens {

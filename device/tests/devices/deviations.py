@@ -22,7 +22,7 @@ WRITE_ONLY = 0x06010001
 DEVICE_STATE = 0x08000022
 GENERAL = 0x08000000
 
-# Time that a slow answer takes, in seconds. It is longer than the timeout of the test.
+# Delay of a slow reply in seconds. It is longer than the timeout of the test.
 SLOW = 0.8
 
 

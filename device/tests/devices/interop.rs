@@ -19,7 +19,8 @@ use serde_json::{json, Value};
 const NODE: u8 = 5;
 const TIMEOUT: Duration = Duration::from_millis(500);
 
-/// Starts a script with a CANopen node at one end of a cable. Returns the bus at the other end.
+/// Starts a script that simulates a CANopen node at one end of a cable. Returns the cable, the script and the address
+/// of the bus at the other end, or `None` without Python.
 fn node(script: &str) -> Option<(Cable, Script, BusAddress)> {
     let python = python()?;
     let cable = Cable::open();
@@ -37,7 +38,8 @@ fn compare(description: &Description, bus: &BusAddress) -> Report {
     verify(description, &mut connection, &options).expect("a report")
 }
 
-/// The script puts deviations into its node, and returns the address at which each has to be found.
+/// The script changes its node so that it deviates from the EDS, and returns the kind and the address of each
+/// deviation.
 #[test]
 fn each_deviation_is_found_and_no_other() {
     let Some((_cable, mut script, bus)) = node("device/tests/devices/deviations.py") else { return };
@@ -60,7 +62,7 @@ fn each_deviation_is_found_and_no_other() {
     check_overlay(&report, &bus);
 }
 
-/// With the overlay, only the deviations remain that an overlay cannot state.
+/// Checks that with the overlay, `verify` reports only the deviations that an overlay cannot express.
 fn check_overlay(report: &Report, bus: &BusAddress) {
     let overlay = report.overlay().expect("an overlay");
     let options = lexibus_codegen::compile::Options {
@@ -90,8 +92,8 @@ fn save(description: &Description, connection: &mut impl Connection) -> Backup {
     backup
 }
 
-/// Changes every parameter of a backup, restores the backup through its file, and returns the parameters that did not accept another
-/// value.
+/// Changes all parameters of a backup, restores the backup from its file, and returns the parameters that did not
+/// accept another value.
 fn changed_and_restored(description: &Description, connection: &mut impl Connection) -> Vec<String> {
     let saved = save(description, connection);
     let parameters = saved.entries.iter().filter_map(|entry| description.at(entry.address));

@@ -48,7 +48,7 @@ Closed = { reg = 10, type = "u16", writable = [0, 4] }
 1 = "automatic"
 "#;
 
-/// A device with registers or objects that records the accesses.
+/// A device with registers or objects that records all reads and writes.
 #[derive(Default)]
 struct Recorder {
     is_canopen: bool,
@@ -138,7 +138,7 @@ fn a_drive_keeps_its_commands_modes_targets_and_identity_on_the_bus() {
     assert_eq!(protection("Rcanbaud"), Some(Protection::BitRate));
 }
 
-/// Names of the parameters that a function read.
+/// Returns the names of the parameters at these addresses.
 fn names(description: &Description, addresses: &[Address]) -> Vec<String> {
     addresses.iter().filter_map(|address| description.at(*address)).map(|parameter| parameter.name()).collect()
 }
@@ -190,7 +190,7 @@ fn a_restore_writes_only_values_that_are_listed_and_unprotected() {
     assert!(plan.execute(&mut device, &mut |_| true).is_complete());
     assert_eq!(names(&description, &device.writes), ["Plain"]);
     assert_eq!(plan.refused.len(), 5, "{plan}");
-    // Each protected parameter has to be named.
+    // A restore writes only the protected parameters that the caller names.
     let baud = description.find("CAN baud rate").expect("a parameter").address();
     let plan = Plan::new(&description, &saved, Some(1), &[baud]);
     assert_eq!((plan.writes.len(), plan.refused.len()), (2, 4), "{plan}");
@@ -234,14 +234,14 @@ fn files_that_are_no_backups_are_refused() {
     assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plan\", value = 1 }]").contains("did you mean"));
     let other = "lexibus-backup = 1\nparameters = [{ address = \"0\", name = \"Gain\", value = 1 }]";
     assert!(error(other).contains("has the name `Gain`"));
-    // A value outside the type is refused by the plan and not written.
+    // The plan refuses a value that doesn't fit the type.
     let text = "lexibus-backup = 1\nparameters = [{ name = \"Plain\", value = 70000 }]";
     let saved = Backup::from_toml(text, &description).expect("a backup");
     let plan = Plan::new(&description, &saved, None, &[]);
     assert!(plan.writes.is_empty() && plan.refused[0].is_failure, "{plan}");
 }
 
-/// Items of a Modbus device that are also objects on another bus have the protection of the objects.
+/// If an item of a Modbus device is also an object on another bus, it has the protection of the object.
 #[test]
 fn registers_that_are_also_commands_of_a_drive_are_protected() {
     let description = dictionary("eco.toml", Network::Modbus);
@@ -264,6 +264,24 @@ fn the_address_of_the_device_is_written_last() {
     let mut device = Recorder::default();
     assert!(Plan::new(&description, &saved, None, &included).execute(&mut device, &mut |_| true).is_complete());
     assert_eq!(names(&description, &device.writes), ["Plain", "Zero", "Slave_address"]);
+}
+
+/// On CANopen, a command that the user named is written before the node-ID and the bit rate, too.
+#[test]
+fn the_node_id_and_the_bit_rate_are_written_last() {
+    let description = flags();
+    let entries = ["Node-ID", "CAN baud rate", "Program control", "Plain"]
+        .map(|name| format!("{{ name = \"{name}\", value = 1 }}"))
+        .join(", ");
+    let saved =
+        Backup::from_toml(&format!("lexibus-backup = 1\nparameters = [{entries}]"), &description).expect("a backup");
+    let included = ["Node-ID", "CAN baud rate", "Program control"]
+        .map(|name| description.find(name).expect("a parameter").address());
+    let mut device = Recorder { is_canopen: true, ..Recorder::default() };
+    assert!(Plan::new(&description, &saved, Some(1), &included).execute(&mut device, &mut |_| true).is_complete());
+    let written = names(&description, &device.writes);
+    assert_eq!(written[..2], ["Plain", "Program control"], "{written:?}");
+    assert_eq!(written.len(), 4);
 }
 
 const PDO: [(&str, &str); 3] = [("0x1800:01", "\"$NODEID+0x180\""), ("0x1A00:00", "1"), ("0x1A00:01", "0x60640020")];

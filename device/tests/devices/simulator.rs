@@ -29,7 +29,8 @@ fn save(description: &Description, connection: &mut impl Connection) -> Backup {
     backup(description, connection, &options()).expect("a backup")
 }
 
-/// Writes another valid value to each parameter of the backup, and returns how many parameters accepted it.
+/// Writes another valid value to each parameter of the backup that is not protected, and returns how many parameters
+/// accepted it.
 fn change_all(description: &Description, saved: &Backup, connection: &mut impl Connection) -> usize {
     let parameters = saved.entries.iter().filter_map(|entry| description.at(entry.address));
     let restored = parameters.filter(|parameter| parameter.protection().is_none());
@@ -82,7 +83,7 @@ fn both_formats_contain_the_whole_backup() {
     assert_eq!(dcf.lost, []);
     let read = Backup::of_description(&described("backup.dcf", &dcf.text, Network::CanOpen));
     assert_eq!(read, Backup { skipped: Vec::new(), ..saved });
-    // The COB-ID of TPDO 1 is relative, so the backup fits any node-ID.
+    // The COB-ID of TPDO 1 is relative to the node-ID, so the backup fits any node-ID.
     assert!(toml.contains("address = \"0x1800:01\"") && toml.contains("\"$NODEID+0x180\""), "{toml}");
     assert!(dcf.text.contains("ParameterValue=$NODEID+0x180"));
 }
@@ -130,7 +131,7 @@ fn protected_parameters_are_restored_only_if_they_are_named() {
 #[test]
 fn modbus_parameters_are_saved_and_restored() {
     let description = dictionary("aec-vector-step.toml", Network::Modbus);
-    // Some values of the drive are longer than a request of the Modbus specification.
+    // Some values of the drive are longer than the maximum length of a request in the Modbus specification.
     let mut device = Device::new(vector_step::ENTRIES).with_modbus_limits(60_000, 60_000);
     let mut connection = ModbusConnection::new(device.client::<Modbus>());
     let saved = save(&description, &mut connection);
@@ -283,7 +284,7 @@ fn a_restore_over_a_faulty_bus_reports_every_value() {
     assert!(complete > 0 && failed > 20, "{complete} complete, {failed} failed");
 }
 
-/// Checks the reported states against the values of the device.
+/// Checks that the reported states agree with the values of the device.
 fn check_states(outcome: &Outcome<'_>, device: &Device, text: &str) {
     let last = |address: Address| {
         let mut same = outcome.states.iter().filter(|(write, _)| write.parameter().address() == address);
@@ -335,7 +336,7 @@ fn values_of_other_tools_without_a_place_are_left_out() {
     assert!(outcome.is_complete(), "{outcome}");
 }
 
-/// A connection that fails at one of its accesses.
+/// A connection on which one access fails.
 struct Faulty<C> {
     inner: C,
     fault: AccessFault,
@@ -421,7 +422,9 @@ fn an_object_of_another_axis_is_not_unknown() {
         |address: &str| stepper.find(address).map(|parameter| parameter.to_string()).map_err(|error| error.to_string());
     let first = found("0x6081").expect("an object of the first axis");
     let message = |address: &str, axis: u8| {
-        format!("`{address}` is an object of axis {axis}, but only objects of the first axis can be accessed: {first}")
+        format!(
+            "`{address}` is an object of axis {axis}, but only objects of the first axis can be accessed, here {first}"
+        )
     };
     assert_eq!(found("0x6881"), Err(message("0x6881", 2)));
     assert_eq!(found("0x7081"), Err(message("0x7081", 3)));

@@ -7,7 +7,7 @@ use lexibus_codegen::source::Span;
 use super::sync_producers::{fastest, sync_producers, SyncProducer};
 use crate::model::{can_id, Network, NetworkPdo, EXTENDED};
 
-/// Cyclic frames of one sender.
+/// Cyclic frames with one CAN-ID from one sender.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traffic {
     /// Name of the frames: `TPDO 1 of axis1`.
@@ -16,7 +16,7 @@ pub struct Traffic {
     pub service: String,
     /// Node-ID of the sender; that of the master for PDOs that the master sends.
     pub sender: u8,
-    /// CAN-ID, with bit 29 if it has 29 bits.
+    /// CAN-ID. Bit 29 is set if the CAN-ID has 29 bits.
     pub can_id: u32,
     /// Frames per second.
     pub rate: f64,
@@ -31,7 +31,7 @@ pub struct Traffic {
 pub struct BusLoad {
     /// All cyclic frames.
     pub traffic: Vec<Traffic>,
-    /// Names of PDOs that are sent at any rate, because they have neither an inhibit time nor an event timer.
+    /// Names of PDOs whose rate has no limit, because they have neither an inhibit time nor an event timer.
     pub unbounded: Vec<String>,
     /// Bit rate in bit/s.
     pub bit_rate: u32,
@@ -43,7 +43,7 @@ impl BusLoad {
         self.traffic.iter().fold(0.0, |sum, traffic| sum + traffic.rate * f64::from(traffic.bits))
     }
 
-    /// Returns the load as text: `bus load of cyclic frames: 8.0 % of 500 kbit/s`, and the PDOs that are sent at any rate.
+    /// Returns the load as text: `bus load of cyclic frames: 8.0 % of 500 kbit/s`, and the PDOs whose rate has no limit.
     pub fn summary(&self) -> String {
         let (percent, rate) = (self.ratio() * 100.0, self.bit_rate / 1000);
         let unbounded = match self.unbounded.as_slice() {
@@ -54,7 +54,7 @@ impl BusLoad {
         format!("bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
     }
 
-    /// Returns the load as a part of the bit rate: 1.0 is a full bus.
+    /// Returns the load as a fraction of the bit rate: 1.0 is a full bus.
     pub fn ratio(&self) -> f64 {
         self.bits_per_second() / f64::from(self.bit_rate)
     }
@@ -63,9 +63,10 @@ impl BusLoad {
 /// Returns the maximum number of bits of a data frame with `bytes` bytes, including stuff bits and the interframe space
 /// (ISO 11898-1).
 pub fn frame_bits(can_id: u32, bytes: u32) -> u32 {
-    // Bits that can be stuffed: from the start of frame to the CRC. At worst, each fourth bit after the first is followed by a stuff bit.
+    // Bits that can be stuffed: from the start of frame to the CRC. In the worst case, a stuff bit follows every fourth bit after
+    // the first.
     let stuffed = if can_id & EXTENDED == 0 { 34 } else { 54 } + 8 * bytes;
-    // CRC delimiter, acknowledge slot and delimiter, end of frame, interframe space.
+    // Stuff bits never occur in these fields: CRC delimiter, acknowledge slot and delimiter, end of frame, interframe space.
     const UNSTUFFED: u32 = 1 + 2 + 7 + 3;
     stuffed + (stuffed - 1) / 4 + UNSTUFFED
 }
@@ -118,7 +119,8 @@ fn per_second(milliseconds: u16) -> f64 {
     1000.0 / f64::from(milliseconds)
 }
 
-/// Returns the maximum number of PDOs per second, or `None` if it has no bound.
+/// Returns how many times per second a PDO is sent at most, or `None` if its rate has no limit. `sync` is the number of SYNCs per
+/// second.
 fn rate(pdo: &NetworkPdo, sync: f64) -> Option<f64> {
     match (pdo.syncs(), pdo.inhibit_time, pdo.event_timer) {
         (Some(syncs), ..) => Some(sync / f64::from(syncs)),
@@ -144,12 +146,12 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     let found =
         Diagnostic::new(&codes::BUS_LOAD, load_at(network), message).help("use longer periods or a higher bit rate");
     let note = |traffic: &&Traffic| {
-        format!("{}: {:.1} frames per second of {} bits", traffic.name, traffic.rate, traffic.bits)
+        format!("{}: {:.1} frames per second, {} bits each", traffic.name, traffic.rate, traffic.bits)
     };
     diagnostics.push(largest.iter().take(3).map(note).fold(found, Diagnostic::note));
 }
 
-/// Returns the location of the bit rate, or of the master.
+/// Returns the location of the bit rate or, if the file declares none, of the master.
 fn load_at(network: &Network) -> Span {
     network.bit_rate_at.or(network.master.as_ref().map_or(Span::MISSING, |master| master.span))
 }
@@ -160,8 +162,8 @@ mod tests {
 
     #[test]
     fn frames_have_the_length_of_the_literature() {
-        // Davis et al., "Controller Area Network schedulability analysis: refuted, revisited and revised", 2007: 55 + 10 s bits
-        // with 11-bit identifiers, 80 + 10 s with 29-bit identifiers.
+        // Davis et al., "Controller Area Network schedulability analysis: refuted, revisited and revised", 2007: a frame with s
+        // data bytes has at most 55 + 10 s bits with an 11-bit identifier, and 80 + 10 s bits with a 29-bit identifier.
         for bytes in 0..=8 {
             assert_eq!(frame_bits(0x181, bytes), 55 + 10 * bytes);
             assert_eq!(frame_bits(EXTENDED | 0x181, bytes), 80 + 10 * bytes);

@@ -10,7 +10,7 @@ use super::restricted;
 use super::sync_producers::sync_producers;
 use crate::model::{can_id, Network, NetworkNode, NetworkPdo, DISABLED};
 
-/// Bits of a COB-ID that contain the CAN-ID and its length.
+/// Bits of a COB-ID that contain the CAN-ID, and the bit that states its length.
 const CAN_ID: u32 = 0x3FFF_FFFF;
 
 /// A sender of messages with a COB-ID that can be configured.
@@ -22,7 +22,8 @@ struct Sender {
 }
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
-    // COB-IDs of services that the file does not set are not checked, because many descriptions state a wrong EMCY.
+    // Services whose COB-ID the file does not set are not reported, because many descriptions state a wrong COB-ID of EMCY. The
+    // COB-IDs that the file sets are compared with them.
     let (unplaced, placed): (Vec<Sender>, Vec<Sender>) =
         services(network).into_iter().partition(|sender| sender.span.is_empty());
     let mut senders = BTreeMap::new();
@@ -51,7 +52,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
 
 fn conflict(sender: &Sender, other: &Sender) -> Diagnostic {
     let can_id = can_id(sender.cob_id);
-    let message = format!("the CAN-ID 0x{can_id:X} of {} is also that of {}", sender.name, other.name);
+    let message = format!("{} and {} use the same CAN-ID 0x{can_id:X}", sender.name, other.name);
     let found = Diagnostic::new(&codes::COB_ID_CONFLICT, sender.span, message);
     let found = if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
     found.help("choose another `cob_id`, or use `auto`")
@@ -65,7 +66,7 @@ fn of_pdo((node, pdo): (&NetworkNode, &NetworkPdo)) -> Sender {
     Sender { cob_id: pdo.cob_id, name, span: place(node, pdo) }
 }
 
-/// Returns the location of a PDO: its number in the file, or the name of its node.
+/// Returns the location of a PDO in the file: its COB-ID, its section, or the name of its node.
 pub(super) fn place(node: &NetworkNode, pdo: &NetworkPdo) -> Span {
     pdo.cob_id_at.or(pdo.span).or(node.name.span)
 }

@@ -1,4 +1,4 @@
-//! Times of heartbeats and of node guarding that cannot hold.
+//! Checks the times of heartbeats and node guarding.
 
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
             );
         }
         if node.heartbeat.value != 0 && node.guard_time != 0 && node.life_time_factor != 0 {
-            let message = format!("`{}` uses heartbeat and node guarding", node.name.value);
+            let message = format!("`{}` uses both heartbeat and node guarding", node.name.value);
             let found = Diagnostic::new(&codes::HEARTBEAT_TIME, node.heartbeat.span.or(node.name.span), message);
             diagnostics.push(found.help("set the guard time or the heartbeat to 0"));
         }
@@ -41,7 +41,7 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
     if producer == 0 {
         return;
     }
-    let of = format!("the consumer time of the heartbeat of {who} is {consumer} ms");
+    let of = format!("the consumer time for the heartbeat of {who} is {consumer} ms");
     if consumer <= producer.into() {
         let found = Diagnostic::new(&codes::HEARTBEAT_TIME, multiplier.span.or(span), of);
         diagnostics.push(
@@ -53,7 +53,7 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
     }
 }
 
-/// Reports values of 0x1016 for nodes that send no heartbeat, or send it too rarely.
+/// Reports entries of 0x1016 for nodes that do not exist, that send no heartbeat, or that send it too rarely.
 fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostics) {
     let written: BTreeSet<(u16, u8)> = node.writes.iter().map(|write| write.object).collect();
     for object in written.range((0x1016, 1)..=(0x1016, u8::MAX)) {
@@ -63,22 +63,22 @@ fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostic
             continue;
         }
         let problem = match heartbeat_of(network, producer) {
-            // Another program is the master, and can have any node-ID.
+            // The master is another program, which can have any node-ID.
             None if network.master.is_none() => continue,
             None => format!("no node has the node-ID {producer}"),
             Some((_, _, computed)) if time == computed => continue,
             Some((name, 0, _)) => format!("{name} sends no heartbeat"),
-            Some((name, sent, _)) if u32::from(sent) >= time => format!("{name} sends its heartbeat each {sent} ms"),
+            Some((name, sent, _)) if u32::from(sent) >= time => format!("{name} sends its heartbeat every {sent} ms"),
             Some(_) => continue,
         };
-        let message = format!("`{}` expects a heartbeat of node {producer} each {time} ms", node.name.value);
+        let message = format!("`{}` expects a heartbeat from node {producer} every {time} ms", node.name.value);
         let span = node.values().set_at(*object).or(node.name.span);
         diagnostics.push(Diagnostic::new(&codes::HEARTBEAT_TIME, span, message).label(problem));
     }
 }
 
-/// Returns name and heartbeat of a node or of the master, and the consumer time of the master's heartbeat, which is checked with the
-/// master.
+/// Returns the name and the heartbeat producer time of a node or of the master. The last number is the computed consumer time for
+/// the master's heartbeat, which is checked with the master. It is 0 for other nodes.
 fn heartbeat_of(network: &Network, id: u8) -> Option<(String, u16, u32)> {
     if let Some(master) = network.master.as_ref().filter(|_| id == network.master_id()) {
         let computed = consumer_time(master.heartbeat.value, master.heartbeat_multiplier.value) & 0xFFFF;

@@ -1,4 +1,4 @@
-//! PDOs that no node receives or sends, and PDOs that are shorter than their receiver expects.
+//! PDOs that no node receives or sends, and PDOs with a wrong length.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Direction;
@@ -34,7 +34,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports PDOs that the file maps and that are too long, and RPDOs that are longer than the TPDO that they receive.
+/// Reports PDOs to which the network file maps more than 64 bits, and RPDOs that are longer than the TPDO that they receive.
 fn lengths(network: &Network, diagnostics: &mut Diagnostics) {
     for node in &network.nodes {
         for pdo in node.pdos.iter().filter(|pdo| pdo.bits() > MAX_BITS) {
@@ -51,7 +51,7 @@ fn lengths(network: &Network, diagnostics: &mut Diagnostics) {
         let Some((sender, tpdo)) = sender.filter(|(_, tpdo)| tpdo.bytes() < rpdo.bytes()) else { continue };
         let (whole, sent) = (rpdo.bytes(), tpdo.bytes());
         let message = format!(
-            "{} of `{}` maps {whole} bytes, but {} of `{}` has {sent}",
+            "{} of `{}` maps {whole} bytes, but {} of `{}` maps only {sent}",
             rpdo.title(),
             node.name.value,
             tpdo.title(),

@@ -7,7 +7,7 @@ use lexibus_codegen::source::Span;
 
 use crate::model::EXTENDED;
 
-/// CAN-IDs with 11 bits that are restricted, and for what (CiA 301 7.3.5).
+/// Restricted CAN-IDs with 11 bits, each range with its use (CiA 301 7.3.5).
 const RESTRICTED: [(RangeInclusive<u32>, &str); 8] = [
     (0x000..=0x000, "NMT"),
     (0x001..=0x07F, "other uses"),
@@ -19,8 +19,8 @@ const RESTRICTED: [(RangeInclusive<u32>, &str); 8] = [
     (0x780..=0x7FF, "LSS and other uses"),
 ];
 
-/// Returns the fault of a COB-ID whose CAN-ID is restricted, or has more than 11 bits although bit 29 is 0. `name` is the name of the
-/// messages.
+/// Returns a diagnostic if the CAN-ID of a COB-ID is restricted, or has more than 11 bits although bit 29 is 0. `name` is the name
+/// of the messages.
 pub(super) fn fault(cob_id: u32, name: &str, span: Span) -> Option<Diagnostic> {
     if cob_id & EXTENDED != 0 {
         return None;

@@ -18,7 +18,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports synchronous PDOs that take longer than the SYNC period.
+/// Reports SYNC and synchronous PDOs that together take longer than the synchronous window or, without a window, the SYNC period.
 fn period(
     network: &Network,
     producer: &SyncProducer,
@@ -43,11 +43,11 @@ fn period(
     }
 }
 
-/// Reports a declared synchronous PDO if no node sends SYNC.
+/// Reports the first synchronous PDO of the network file, because no node sends SYNC.
 fn without_sync(synchronous: &[(&NetworkNode, &NetworkPdo)], diagnostics: &mut Diagnostics) {
     if let Some((node, pdo)) = synchronous.iter().find(|(_, pdo)| !pdo.span.is_empty()) {
         let message = format!("{} of `{}` is synchronous, but no node sends SYNC", pdo.title(), node.name.value);
         let found = Diagnostic::new(&codes::SYNC_PERIOD, place(node, pdo), message);
-        diagnostics.push(found.help("declare `sync_period` of the master, or another `transmission`"));
+        diagnostics.push(found.help("declare `sync_period` of the master, or use another `transmission`"));
     }
 }

@@ -21,7 +21,7 @@ pub(super) struct SyncProducer {
     pub window: u32,
     /// True if the frames contain a counter.
     pub has_counter: bool,
-    /// Location of the period, or name of the node.
+    /// Location of the period, of the COB-ID, or of the node's name.
     pub span: Span,
 }
 

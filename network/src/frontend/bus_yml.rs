@@ -201,18 +201,18 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> DeclaredNetwor
     network
 }
 
-/// Returns whether the section `defaults` can be repeated for each node. Reports a section that is too long.
+/// Returns whether the section `defaults` is short enough to be repeated for each node. Reports a section that is too long.
 fn is_repeatable(reader: &mut Reader<'_>, defaults: &Entry, nodes: usize) -> bool {
     let (elements, _) = extent(&defaults.value);
     let is_repeatable = elements.saturating_mul(nodes) <= MAX_ELEMENTS;
     if !is_repeatable {
-        let message = format!("`defaults` has more than {MAX_ELEMENTS} elements, repeated for {nodes} nodes");
+        let message = format!("`defaults`, repeated for {nodes} nodes, has more than {MAX_ELEMENTS} elements");
         reader.diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, defaults.key.span, message));
     }
     is_repeatable
 }
 
-/// Returns a node of the section `nodes` with the entries of `defaults` that it does not have.
+/// Returns a node of the section `nodes`, and adds the entries of `defaults` whose keys the node does not have.
 fn with_defaults(reader: &mut Reader<'_>, node: &Node, defaults: &[Entry]) -> Node {
     let mut entries = reader.entries(node, NODE.name).to_vec();
     let is_missing = |default: &&Entry| entries.iter().all(|entry| entry.key.value != default.key.value);
@@ -243,7 +243,7 @@ fn mapped(reader: &mut Reader<'_>, node: &Node) -> Option<At<ObjectName>> {
     address(reader, table)
 }
 
-/// Returns the address in the keys `index` and `sub_index`.
+/// Returns the address in the keys `index` and `sub_index`. Without `sub_index`, the sub-index is 0.
 fn address(reader: &mut Reader<'_>, table: Table<'_>) -> Option<At<ObjectName>> {
     if table.get("index").is_none() {
         reader.missing(table, "index");
@@ -291,7 +291,7 @@ mod tests {
             (network.nodes[0].parameters.len(), messages)
         };
         assert_eq!(of(1000, 100), (1000, Vec::new()));
-        let message = "`defaults` has more than 1000000 elements, repeated for 1000 nodes".to_owned();
+        let message = "`defaults`, repeated for 1000 nodes, has more than 1000000 elements".to_owned();
         assert_eq!(of(1000, 1000), (0, vec![message]));
     }
 }

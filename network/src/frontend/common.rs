@@ -1,4 +1,4 @@
-//! Keys that all formats with tables have in common, under the names of each format.
+//! Reads the keys that `network.toml` and `bus.yml` have in common. The names of some of these keys differ.
 
 use super::object_name::object_name;
 use super::reader::{Reader, Table};
@@ -65,7 +65,7 @@ fn error_behavior(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<At<(u8, u8)>
     entries.iter().filter_map(entry).collect()
 }
 
-/// Returns the number that a key contains, or reports the key.
+/// Returns the number from 1 to `maximum` that is the name of a key, or reports the key.
 fn numbered(reader: &mut Reader<'_>, entry: &Entry, what: &str, maximum: u16) -> Option<u16> {
     let number = entry.key.parse().ok().filter(|number| (1..=maximum).contains(number));
     if number.is_none() {
@@ -148,7 +148,7 @@ fn cob_id(reader: &mut Reader<'_>, pdo: Table<'_>) -> Option<At<DeclaredCobId>> 
     Some(At::new(DeclaredCobId::Number(number.value), number.span))
 }
 
-/// Reads `auto`, or `node.tpdo1`.
+/// Parses the text of a COB-ID: `auto`, or a TPDO such as `node.tpdo1`.
 fn sender(text: &str) -> Option<DeclaredCobId> {
     if text == "auto" {
         return Some(DeclaredCobId::Automatic);
@@ -158,7 +158,7 @@ fn sender(text: &str) -> Option<DeclaredCobId> {
     Some(DeclaredCobId::Of(node.to_owned(), number))
 }
 
-/// Reads the name of an object.
+/// Reads a text with the address or name of an object.
 pub(crate) fn named_object(reader: &mut Reader<'_>, node: &Node) -> Option<At<ObjectName>> {
     reader.text_of(node).map(|text| At::new(object_name(&text.value), text.span))
 }

@@ -53,9 +53,9 @@ fn entries(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Vec<
         if let Some(name) = text.strip_prefix('[').and_then(|text| text.strip_suffix(']')) {
             is_topology = name.eq_ignore_ascii_case("Topology");
             if !is_topology && name.to_ascii_lowercase().starts_with("topology") {
-                let message = format!("the network `{name}` is not read");
+                let message = format!("Lexibus reads only the network in `[Topology]`, not the one in `[{name}]`");
                 let found = Diagnostic::new(&codes::NETWORK_VALUE, span(0, text.len()), message);
-                diagnostics.push(found.help("write each network in a separate file with the section `[Topology]`"));
+                diagnostics.push(found.help("write each network to a separate file, in the section `[Topology]`"));
             }
         } else if let Some((key, value)) = text.split_once('=').filter(|_| is_topology && !text.starts_with(';')) {
             let (from, value) = (text.len() - value.trim_start().len(), value.trim());

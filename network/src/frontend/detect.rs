@@ -43,7 +43,7 @@ fn has_nodes(root: &Node) -> bool {
     matches!(&root.content, Content::Table(entries) if entries.iter().any(|entry| entry.key.value == "nodes"))
 }
 
-/// Reads a network file. Returns `None` if its format or its syntax is not recognized.
+/// Reads a network file. Reports an unknown extension or a syntax error, and then returns `None`.
 pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Option<DeclaredNetwork> {
     let Some(format) = Format::of_name(source.name()) else {
         let message = "the file is not a network file";

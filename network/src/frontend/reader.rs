@@ -14,7 +14,7 @@ const MAX_NAMED: usize = 12;
 /// Reads the tables of one file.
 pub(crate) struct Reader<'d> {
     pub diagnostics: &'d mut Diagnostics,
-    /// All sections of the format. A key that is in the wrong table is looked up here.
+    /// All sections of the format, in which a misplaced key is looked up.
     pub sections: &'static [&'static Section],
 }
 
@@ -36,7 +36,7 @@ impl<'n> Table<'n> {
 }
 
 impl Reader<'_> {
-    /// Returns the entries of a table, or reports any other value.
+    /// Returns the entries of a table. Reports any other value, and returns no entries.
     pub fn entries<'n>(&mut self, node: &'n Node, name: &str) -> &'n [Entry] {
         match &node.content {
             Content::Table(entries) => entries,

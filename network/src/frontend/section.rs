@@ -31,15 +31,15 @@ pub(crate) enum Form {
     Flag,
     /// A text.
     Text,
-    /// A text with a maximum length in bytes, which is not empty.
+    /// A text with 1 byte up to a maximum number of bytes.
     ShortText(usize),
     /// A list of texts.
     Texts,
     /// A table that is described by a section.
     Table(&'static Section),
-    /// A table whose values all are described by a section.
+    /// A table whose values are tables described by the same section, such as `nodes`.
     Named(&'static Section),
-    /// A table of any keys with single values.
+    /// A table with arbitrary keys and single values.
     Values,
     /// A list of objects.
     Objects,

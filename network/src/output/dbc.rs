@@ -12,7 +12,7 @@ use super::dbc_names::{Name, Names, MASTER};
 use super::dbc_text::{encoded, text};
 use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo, EXTENDED};
 
-/// Name of no node.
+/// Name that a DBC contains if the sender is unknown or there is no receiver.
 const NOBODY: &str = "Vector__XXX";
 
 /// Returns a DBC with a message for each PDO, in Windows-1252.
@@ -35,7 +35,7 @@ pub fn dbc(network: &Network) -> Vec<u8> {
     encoded(&out.text(&nodes))
 }
 
-/// Returns the RPDOs that no node sends. RPDOs with one CAN-ID are one message.
+/// Returns the RPDOs that no node sends. Of several RPDOs with the same CAN-ID, returns the first, because they are one message.
 fn sent_by_others(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
     let mut known: HashSet<u32> = network.pdos(Direction::Transmit).map(|(_, pdo)| pdo.can_id()).collect();
     network.pdos(Direction::Receive).filter(|(_, pdo)| known.insert(pdo.can_id())).collect()
@@ -64,7 +64,7 @@ struct Dbc {
 }
 
 impl Dbc {
-    /// Writes the attribute with the whole name of an element, if its short name differs.
+    /// If the short name of an element differs from its whole name, writes the attribute with the whole name.
     fn long_name(&mut self, kind: &str, element: &str, name: &Name) {
         if name.long != name.short {
             let _ = writeln!(self.attributes, "BA_ \"System{kind}LongSymbol\" {element} \"{}\";", name.long);
@@ -118,7 +118,7 @@ fn message(
     out.messages.push('\n');
 }
 
-/// A mapped object with its first bit.
+/// A mapped object with the position of its first bit.
 struct Signal<'n> {
     node: &'n NetworkNode,
     item: &'n Item,
@@ -157,7 +157,8 @@ fn signal(out: &mut Dbc, id: u32, names: &mut Names, signal: &Signal<'_>, receiv
     }
 }
 
-/// Returns the type of a mapped object. If the mapping has another length than a real number, the bits have no known meaning.
+/// Returns the type of a mapped object. A real number that is mapped with a wrong length becomes an unsigned integer, because its
+/// bits have no known meaning.
 fn mapped_type(ty: Type, bits: u8) -> Type {
     match (ty, bits) {
         (Type::Real32, 32) | (Type::Real64, 64) => ty,
@@ -182,7 +183,8 @@ fn comment(item: &Item, entry: &MappedObject) -> String {
     }
 }
 
-/// Returns factor and offset of the physical value. A scale that is not linear cannot be expressed.
+/// Returns factor and offset of the physical value. They are 1 and 0 for a scale that is not linear, because a DBC cannot express
+/// it.
 fn scale(item: &Item) -> (f64, f64) {
     match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::Linear { factor, offset }) => (*factor, *offset),

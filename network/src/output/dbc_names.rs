@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-/// Maximum length of a name. Longer names are in an attribute.
+/// Maximum length of a name. The whole of a longer name is in an attribute.
 const MAX_NAME: usize = 32;
 
 /// Maximum length of a name in an attribute.
@@ -25,7 +25,8 @@ pub(super) struct Name {
 pub(super) struct Names(HashSet<String>);
 
 impl Names {
-    /// Returns the name for a text: letters, digits and `_`. A number makes the whole name unique, and another number the short name.
+    /// Returns the name for a text: letters, digits and `_`. If a name is already in use, a number makes it unique. The whole name
+    /// and the short name can have different numbers.
     pub fn unique(&mut self, text: &str) -> Name {
         let whole = identifier(text);
         let long = self.free(&whole, MAX_LONG_NAME);

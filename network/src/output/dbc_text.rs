@@ -24,19 +24,19 @@ const SPELLINGS: [(&str, &str); 21] = [
     ("∞", "inf"),
     ("Δ\u{2206}", "Delta"),
     ("\u{200B}\u{FEFF}", ""),
-    // No escape exists for these characters.
+    // DBC strings have no escape for a backslash.
     ("\\", "/"),
 ];
 
-/// Digits and signs of exponents, and of indices.
+/// Superscript and subscript digits and signs.
 const EXPONENTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻";
 const INDICES: &str = "₀₁₂₃₄₅₆₇₈₉₊₋";
 
-/// The same characters on the line.
+/// The digits and signs of the lists above as normal characters, in the same order.
 const ON_LINE: &str = "0123456789+-";
 
-/// Returns the text of a string without the quotation marks. Characters that Windows-1252 does not have are spelled with other
-/// characters (`min⁻¹`: `min^-1`, `Ω`: `Ohm`), or become `?`.
+/// Returns a text as the content of a DBC string, without the quotation marks. Characters that Windows-1252 does not have are
+/// spelled with other characters (`min⁻¹`: `min^-1`, `Ω`: `Ohm`), or become `?`.
 pub(super) fn text(text: &str) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -53,7 +53,7 @@ pub(super) fn text(text: &str) -> String {
     out
 }
 
-/// Returns an exponent as it is, or on the line if Windows-1252 does not have all its characters.
+/// Returns an exponent unchanged, or as `^` and normal characters if Windows-1252 does not have all its characters.
 fn of_exponent(exponent: &str) -> String {
     match exponent.chars().all(exists) {
         true => exponent.to_owned(),
@@ -76,7 +76,7 @@ fn of_letter(letter: char) -> String {
     }
 }
 
-/// Returns the character on the line for one of the characters of a list.
+/// Returns the normal character for a character of `list`, or `None` if the list does not contain the character.
 fn on_line(list: &str, letter: char) -> Option<&'static str> {
     let at = list.chars().position(|other| other == letter)?;
     ON_LINE.get(at..=at)
@@ -88,7 +88,7 @@ fn exists(letter: char) -> bool {
     !is_missing
 }
 
-/// Returns a file in Windows-1252. All its strings must be those of [`text`].
+/// Returns a file in Windows-1252. All strings of the file must be results of [`text`].
 pub(super) fn encoded(file: &str) -> Vec<u8> {
     WINDOWS_1252.encode(file).0.into_owned()
 }

@@ -20,8 +20,8 @@ impl OutputFile {
     }
 }
 
-/// Returns all output files of a network: for each node a DCF, and a concise DCF if the node is configured; the DCF of the master, and
-/// its concise DCF; a DBC; and a Rust module.
+/// Returns all output files of a network: for each node a DCF, a Rust module, and a concise DCF if values are written to the node;
+/// for a master its DCF, and a concise DCF if the master writes values to itself; a DBC; and the Rust module of the network.
 pub fn files(network: &Network) -> Vec<OutputFile> {
     let mut files = Vec::new();
     for node in &network.nodes {

@@ -33,8 +33,8 @@ pub fn master_dcf(network: &Network) -> Option<String> {
     eds::export(&catalog, &catalog.devices[0], options).map(|exported| exported.text)
 }
 
-/// Returns the values that the master writes to itself: serial number, and expected versions and numbers of the nodes. Index and
-/// sub-index come first.
+/// Returns the values other than 0 that the master writes to its own objects, each with index and sub-index: its serial number, and
+/// the expected software identifications, revision numbers and serial numbers of the nodes.
 pub fn master_writes(network: &Network) -> Vec<((u16, u8), u32)> {
     let Some(master) = &network.master else { return Vec::new() };
     let mut writes = vec![((0x1018, 4), master.identity[3])];
@@ -176,7 +176,7 @@ fn manager(network: &Network, master: &DeclaredMaster) -> Vec<Group> {
     groups
 }
 
-/// Returns an array with a file for each of some nodes.
+/// Returns an array of domains for all node-IDs. The domains of `nodes` refer to the files that `file` returns.
 fn domains<'n>(
     index: u16,
     name: &str,
@@ -214,7 +214,8 @@ fn pdos(network: &Network) -> Vec<Group> {
 }
 
 impl Network {
-    /// Returns the PDOs that the master exchanges: TPDOs of the nodes that it receives, or RPDOs that it sends.
+    /// Returns the PDOs that the master exchanges. With `Transmit`, they are the TPDOs of the nodes, which the master receives;
+    /// with `Receive`, the RPDOs that the master sends.
     pub fn exchanged(&self, direction: Direction) -> Vec<(&NetworkNode, &NetworkPdo)> {
         match direction {
             Direction::Receive => self.sent_by_master(),
@@ -249,10 +250,11 @@ fn communication_object(pdo: &NetworkPdo, number: u16) -> Group {
     group
 }
 
-/// Places of mapped objects in the master's object dictionary.
+/// For each mapped object of a node, the address of its data in the master's object dictionary.
 type Places = HashMap<(u16, u8), (u16, u8)>;
 
-/// Returns the object with the data of a PDO. A later PDO of the same node maps the same data.
+/// Returns the object with the data of a PDO. Objects of the node that an earlier PDO maps share the data of that PDO. Returns
+/// `None` if no data remain.
 fn place(node: &NetworkNode, pdo: &NetworkPdo, index: u16, places: &mut Places) -> Option<Group> {
     let is_received = pdo.direction == Direction::Transmit;
     let (access, kind) = if is_received { (Access::ReadWriteOutput, "RPDO") } else { (Access::ReadWriteInput, "TPDO") };

@@ -68,7 +68,7 @@ pub(super) fn array(index: u16, fields: Fields<'_>, default: Option<u32>, count:
     };
     let number = with_default(item(index, 0, ("NrOfObjects", U8, Access::ReadOnly)), count);
     let items = std::iter::once(number).chain((1..=count).map(element)).collect();
-    // Elements that the file describes together are written together, with CompactSubObj.
+    // Because all elements have the same origin, the export writes them together, with CompactSubObj.
     let origin = Origin { line: 1, ..Origin::default() };
     let mut group = Group { name: name.into(), items, origin, ..Group::object(index, ObjectCode::Array) };
     group.items.iter_mut().for_each(|item| item.origin = origin);

@@ -132,7 +132,7 @@ fn documentation(text: &mut String, network: &Network, nodes: &[Named<'_>]) {
     );
 }
 
-/// Returns a text that cannot leave its line or its cell.
+/// Returns a text without the characters that would end a comment line or a table cell, or that Markdown interprets.
 fn one_line(text: &str) -> String {
     lexibus_codegen::text::printable(text).replace(['|', '`', '[', ']', '<', '>'], " ").trim().to_owned()
 }
@@ -151,7 +151,7 @@ fn implementation(text: &mut String, network: &Network, named: &Named<'_>) {
     );
 }
 
-/// Returns the expression of a node's boot.
+/// Returns the Rust expression of a node's constant `BOOT`.
 fn boot(network: &Network, named: &Named<'_>) -> String {
     let Named { node, module, .. } = named;
     let mut text = format!("Boot::new({})", error_control(node));
@@ -188,7 +188,7 @@ fn boot(network: &Network, named: &Named<'_>) -> String {
     text
 }
 
-/// Time in ms for the boot-up message of a node, if the network file states none.
+/// Timeout in ms for the boot-up message of a node if the network file declares no `boot_time`.
 const BOOT_TIME: u32 = 5000;
 
 fn error_control(node: &NetworkNode) -> String {

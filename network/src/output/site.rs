@@ -64,7 +64,7 @@ fn shown_node(title: &str, node: &NetworkNode) -> Node {
     }
 }
 
-/// Returns a value with its unit, the name of the value, or the name of the mapped object.
+/// Returns a value as text with its unit, followed by its meaning in parentheses: the name of the value or of the mapped object.
 fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     let (value, types) = (value.resolved(node.id), &node.device().types);
     let text = item::value(item, &value, types);
@@ -81,7 +81,7 @@ fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     }
 }
 
-/// Returns the name of an object: `Interpolation time period / Interpolation time index` for an entry of an object with several.
+/// Returns the name of an object: `Interpolation time period / Interpolation time index` if the object has several entries.
 fn name(node: &NetworkNode, index: u16, sub_index: u8) -> String {
     let entry = node.item((index, sub_index)).map(|item| item.name.as_str()).unwrap_or_default();
     match node.device().object(index).filter(|group| group.items.len() > 1) {

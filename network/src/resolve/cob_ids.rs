@@ -64,10 +64,11 @@ impl CobIds {
             self.0.insert(key(node, declared), cob_id);
             return;
         }
-        let found = Diagnostic::new(&codes::NO_SUCH_PDO, *span, format!("no node `{sender}` sends TPDO {number}"));
+        let found =
+            Diagnostic::new(&codes::NO_SUCH_PDO, *span, format!("TPDO {number} of `{sender}` is missing or disabled"));
         diagnostics.push(match similar(sender, nodes.iter().map(DescribedNode::name)) {
             Some(name) if name != sender => found.help(format!("write `{name}.tpdo{number}`")),
-            _ => found.help(format!("declare TPDO {number} of `{sender}`")),
+            _ => found.help(format!("declare and enable TPDO {number} of `{sender}`")),
         });
     }
 
@@ -76,7 +77,7 @@ impl CobIds {
         self.0.get(&(node.to_owned(), direction, number)).copied().unwrap_or(DISABLED)
     }
 
-    /// Returns the COB-ID of a TPDO.
+    /// Returns the COB-ID of an enabled TPDO, without the flags of a TPDO.
     fn sent(&self, name: &str, number: u16, nodes: &[DescribedNode<'_>]) -> Option<u32> {
         let node = nodes.iter().find(|node| node.name() == name)?;
         let cob_id = self.last(node, Direction::Transmit, number).filter(|cob_id| cob_id & DISABLED == 0)?;
@@ -110,12 +111,12 @@ fn key(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Key {
     (node.name().to_owned(), direction(declared), declared.number.value)
 }
 
-/// Returns the COB-IDs of the services of a node except PDOs. Bit 31 is set if the service is disabled.
+/// Returns the COB-IDs of SYNC, TIME, SDO and EMCY of a node. Bit 31 is set if the service is disabled.
 fn services(node: &DescribedNode<'_>) -> Vec<u32> {
     let values = node.values();
     let time = node.declared.time_cob_id.as_ref().map(|time| time.value);
     let consumed = [values.number((0x1005, 0)), values.number((0x1012, 0)), time];
-    // Bit 31 of TIME means that the node receives TIME.
+    // In the COB-ID of TIME, bit 31 means that the node receives TIME, not that TIME is disabled.
     let consumed = consumed.into_iter().flatten().map(|cob_id: u32| cob_id & !DISABLED);
     let sdo = values.device.groups.iter().filter_map(Group::index).filter(|index| (0x1200..0x1300).contains(index));
     let sdo = sdo.flat_map(|index| [1, 2].map(|sub_index| values.number((index, sub_index))));
@@ -144,8 +145,8 @@ fn predefined(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     Some((u32::from(number) * 0x100 + first + u32::from(node.id)) | flags(node, declared))
 }
 
-/// Returns the flags that an automatic COB-ID takes from the description: a device that does not answer RTR can refuse a COB-ID without
-/// this bit (CiA 301 7.5.2.37).
+/// Returns the flags that an automatic COB-ID takes from the description: a device that does not answer RTR can abort the write of
+/// a COB-ID without bit 30 (CiA 301 7.5.2.37).
 fn flags(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> u32 {
     match pdo(node.initial(), direction(declared), declared.number.value) {
         Some(pdo) if declared.is_tpdo => pdo.cob_id & NO_RTR,

@@ -27,7 +27,7 @@ pub(super) fn check(node: &NetworkNode, diagnostics: &mut Diagnostics) {
 }
 
 fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) -> Option<Diagnostic> {
-    // Data types are gaps.
+    // An index below 0x1000 is a data type, which leaves a gap.
     if entry.index < 0x1000 {
         return None;
     }
@@ -45,7 +45,8 @@ fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) 
         Direction::Transmit => able.tpdo,
     };
     if !is_able {
-        let label = format!("the description states PDO mapping and access rights `{}`", item.access.name());
+        let label =
+            format!("the description does not allow this (PDO mapping, access rights `{}`)", item.access.name());
         return found(unmappable(item, object, pdo.direction), label);
     }
     let bits = mapped_bits(item, &device.types)?;
@@ -61,5 +62,5 @@ fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) 
 /// Returns the message for an object that no PDO of a direction can map.
 pub(super) fn unmappable(item: &Item, object: (u16, u8), direction: Direction) -> String {
     let pdo = if direction == Direction::Receive { "an RPDO" } else { "a TPDO" };
-    format!("{} cannot be mapped in {pdo}", title(item, object))
+    format!("{} cannot be mapped into {pdo}", title(item, object))
 }

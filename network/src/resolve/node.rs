@@ -84,7 +84,7 @@ fn writes(
     writer.writes
 }
 
-/// Returns the path of the node's concise DCF, as the master finds it.
+/// Returns the path under which the master finds the node's concise DCF.
 fn upload_file(declared: &DeclaredNode) -> String {
     let folder = declared.upload_folder.as_ref().map(|folder| expanded(&folder.value, &mut Vec::new()));
     let file = format!("{}.bin", file_stem(&declared.name.value));
@@ -109,7 +109,8 @@ fn described(device: &Device, id: u8) -> Vec<Write> {
     settings.map(write).collect()
 }
 
-/// Returns the expected identity. Numbers in the header of the description take precedence over the object 0x1018.
+/// Returns the expected identity. A revision number or serial number of the network file takes precedence over the header of the
+/// description, and the header takes precedence over the object 0x1018.
 fn identity(declared: &DeclaredNode, values: Values<'_>) -> [u32; 4] {
     let of_object = |sub_index| values.number((0x1018, sub_index)).unwrap_or(0);
     let header = &values.device.identity;

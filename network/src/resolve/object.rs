@@ -8,7 +8,8 @@ use lexibus_codegen::text::similar;
 use crate::declared::ObjectName;
 use crate::syntax::At;
 
-/// Returns the item that a file names, with its address. Reports an item that the device does not have.
+/// Returns the item that a file names, with its address. Reports an item that the device does not have, and a name that is not
+/// unique.
 pub(crate) fn find<'d>(
     device: &'d Device,
     object: &At<ObjectName>,
@@ -68,7 +69,8 @@ fn shown(device: &Device) -> String {
     }
 }
 
-/// Returns the names of an item: its name, and the path of its object and its name.
+/// Returns the names by which a file can refer to an item: its name, and the names of its object and of the item, separated by a
+/// slash.
 fn names<'d>(group: &'d Group, item: &'d Item) -> [String; 2] {
     [item.name.to_string(), format!("{}/{}", group.name, item.name)]
 }

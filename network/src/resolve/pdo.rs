@@ -15,7 +15,7 @@ use crate::declared::{DeclaredNode, DeclaredPdo, ObjectName};
 use crate::model::{MappedObject, NetworkPdo, DISABLED};
 use crate::syntax::At;
 
-/// Writes the PDOs that the file declares.
+/// Writes the PDOs that the file declares. Reports PDOs that the device does not have.
 pub(super) fn write(node: &DeclaredNode, cob_ids: &CobIds, writer: &mut Writer<'_>) {
     let pdos = pdos(writer.initial());
     for declared in &node.pdos {
@@ -59,8 +59,9 @@ fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut
     }
 }
 
-/// Writes transmission type and timers that differ from the description or that it does not state. Timers of the other side of an RPDO or TPDO belong to the
-/// master, and are not written to the node.
+/// Writes the declared transmission type, timers and SYNC start value if they differ from the description or if the description
+/// does not state them. The timers and the SYNC start value of an RPDO's sender, and the deadline of a TPDO's receiver, belong to
+/// the master and are not written to the node.
 fn parameters(pdo: &NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
     let index = pdo.index();
     writer.change((index, 2), declared.transmission.as_ref());
@@ -91,7 +92,7 @@ fn write_mapping(pdo: &NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &m
     }
 }
 
-/// Returns the entry for an object. Reports an object without a fixed length.
+/// Returns the mapping entry for an object. Reports an object that the device does not have, and one without a fixed length.
 fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>) -> Option<MappedObject> {
     if let ObjectName::Address(code @ 1..=0x1B, 0) = object.value {
         return dummy(direction, code, object.span, writer);
@@ -106,8 +107,8 @@ fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>
     Some(MappedObject { index: address.0, sub_index: address.1, bits: u8::try_from(bits?).ok()? })
 }
 
-/// Returns the entry for a data type, which reserves space in an RPDO (CiA 301 7.4.7). Reports a data type that a PDO of this
-/// direction or this device cannot map.
+/// Returns the mapping entry for a data type, which reserves space in an RPDO (CiA 301 7.4.7). Reports a data type that has no
+/// fixed length, that a PDO of this direction cannot map, or that this device does not support.
 fn dummy(direction: Direction, code: u16, span: Span, writer: &mut Writer<'_>) -> Option<MappedObject> {
     let Some(bits) = Type::from_cia301(code.into()).and_then(Type::bits) else {
         let message = format!("the data type {} has no fixed length, so it cannot be a dummy entry", hex16(code));

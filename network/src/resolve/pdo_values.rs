@@ -1,4 +1,4 @@
-//! PDOs as the values of a device state them.
+//! Reads PDOs from the values of a device's objects.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Direction;
@@ -83,7 +83,7 @@ pub(super) fn pdo(values: Values<'_>, direction: Direction, number: u16) -> Opti
     })
 }
 
-/// Returns the kind of a multiplexed PDO if the number of mapped objects is the code of one (CiA 301 7.5.2.36).
+/// Returns the kind of multiplexed PDO that a number of mapped objects stands for, or `None` for other numbers (CiA 301 7.5.2.36).
 fn multiplexed_name(count: u8) -> Option<&'static str> {
     match count {
         254 => Some("SAM-MPDO"),
@@ -92,7 +92,7 @@ fn multiplexed_name(count: u8) -> Option<&'static str> {
     }
 }
 
-/// Reports the multiplexed PDOs of a node, which the output files do not contain.
+/// Reports the multiplexed PDOs of a node. The master does not exchange them, and the DBC does not contain them.
 pub(super) fn report_multiplexed(
     node: &DeclaredNode,
     pdos: &[NetworkPdo],
@@ -102,8 +102,11 @@ pub(super) fn report_multiplexed(
     for pdo in pdos.iter().filter(|pdo| pdo.cob_id & DISABLED == 0 && pdo.entries.is_empty()) {
         let count = values.number((pdo.index() + 0x200, 0));
         let Some(name) = count.and_then(multiplexed_name) else { continue };
-        let message =
-            format!("{} of `{}` is multiplexed ({name}), so the network leaves it out", pdo.title(), node.name.value);
+        let message = format!(
+            "{} of `{}` is multiplexed ({name}), so Lexibus leaves it out of the network",
+            pdo.title(),
+            node.name.value
+        );
         let found = Diagnostic::new(&codes::MULTIPLEXED_NETWORK_PDO, pdo.span.or(node.name.span), message);
         let kind = if pdo.direction == Direction::Transmit { "tpdo" } else { "rpdo" };
         let help = format!("declare `map` in `{kind}.{}`, or disable the PDO with `enabled = false`", pdo.number);

@@ -47,16 +47,16 @@ fn consumes(nodes: &[DeclaredNode], name: &str) -> bool {
     nodes.iter().any(|node| node.name.value == name && node.consumes_heartbeat)
 }
 
-/// Reports nodes whose output files would have the names of other files. Returns the locations of their names.
+/// Reports nodes whose output files would have the names of other output files. Returns the locations of the names of these nodes.
 fn check_names(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
     let mut known = BTreeMap::from([("master".to_owned(), Span::MISSING), ("network".to_owned(), Span::MISSING)]);
     let mut repeated = Vec::new();
     for node in &declared.nodes {
         let stem = file_stem(&node.name.value).to_lowercase();
         let Some(other) = known.insert(stem.clone(), node.name.span) else { continue };
-        let message = format!("the files of the node `{}` have the same names as other files", node.name.value);
-        let found =
-            Diagnostic::new(&codes::NETWORK_VALUE, node.name.span, message).label(format!("`{stem}` is in use"));
+        let message = format!("the output files of the node `{}` would overwrite other output files", node.name.value);
+        let found = Diagnostic::new(&codes::NETWORK_VALUE, node.name.span, message)
+            .label(format!("the file name `{stem}` is in use"));
         let found = if other.is_empty() { found } else { found.note_at(other, "the other node is here") };
         diagnostics.push(found.help("give the node another name"));
         repeated.push(node.name.span);

@@ -9,7 +9,7 @@ use lexibus_codegen::text::similar;
 
 use crate::syntax::Scalar;
 
-/// The reason why a declared value is not a value of an object.
+/// The reason why a declared value does not fit its object.
 #[derive(Debug, PartialEq)]
 pub(crate) struct WrongValue {
     pub message: String,
@@ -54,7 +54,7 @@ pub(crate) fn convert(device: &Device, item: &Item, given: &Scalar, id: u8) -> R
     fitting(value, ty)
 }
 
-/// Returns a value if it is in the range of the type.
+/// Returns a value if it is in the range of the type, or the reason why it is not.
 fn fitting(value: Value, ty: Type) -> Result<Value, WrongValue> {
     match (encoding::fits(&value, ty), ty.integer_range()) {
         (true, _) => Ok(value),
@@ -142,7 +142,7 @@ fn physical(item: &Item, number: f64, given: &str, ty: Type) -> Result<Value, Wr
     Ok(Value::Int(rounded as i128))
 }
 
-/// Formats a number without the rounding error of its computation.
+/// Formats a number with at most 9 decimal places, so that rounding errors of the computation are not visible.
 fn decimal(number: f64) -> String {
     let text = format!("{number:.9}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -76,7 +76,7 @@ impl Writer<'_> {
     }
 }
 
-/// Returns name and address of an item for diagnostics: ``object 0x6081 `Profile velocity` ``.
+/// Returns the address and name of an item for diagnostics: ``object 0x6081 `Profile velocity` ``.
 pub(super) fn title(item: &Item, object: (u16, u8)) -> String {
     format!("object {} `{}`", address(object), item.name)
 }

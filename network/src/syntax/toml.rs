@@ -12,7 +12,7 @@ use super::tree::{At, Content, Entry, Node, Scalar, SyntaxError};
 ///
 /// # Errors
 ///
-/// Returns the first error of the syntax.
+/// Returns the first syntax error.
 pub fn parse(source: &Source, file: FileId) -> Result<Node, SyntaxError> {
     let span = |range: Range<usize>| Span::new(file, range.start as u32, range.end as u32);
     match DeTable::parse(source.text()) {

@@ -73,7 +73,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// Returns the value with its type for diagnostics: `text "a"`, `integer 5`.
+    /// Returns the value with its type for diagnostics: `the text "a"`, `the integer 5`.
     pub fn described(&self) -> String {
         match self {
             Scalar::Null => "no value".to_owned(),
@@ -96,7 +96,7 @@ impl Node {
     }
 }
 
-/// An error of the syntax.
+/// A syntax error.
 #[derive(Debug)]
 pub struct SyntaxError {
     /// Location of the error.

@@ -8,20 +8,21 @@ use saphyr_parser::{Event, Parser, ScalarStyle, Span as Marks};
 
 use super::tree::{At, Content, Entry, Node, Scalar, SyntaxError};
 
-/// Maximum number of elements, with those that aliases repeat.
+/// Maximum number of elements, including those that aliases repeat.
 pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
 
-/// Maximum depth of nested lists and tables, with those that aliases repeat.
+/// Maximum depth of nested lists and tables, including those that aliases repeat.
 const MAX_DEPTH: usize = 64;
 
-/// Number of bytes of a long text that count as another element.
+/// Number of bytes of a text that count as one more element.
 const BYTES_OF_ELEMENT: usize = 64;
 
 /// Parses the first document of a YAML file. An empty file is an empty table.
 ///
 /// # Errors
 ///
-/// Returns the first error: invalid syntax, a key that is not a text or number, a key that occurs twice, or too many elements.
+/// Returns the first error: invalid syntax, a key that is not a text, an integer or a Boolean value, a key that occurs twice, an
+/// alias within its own anchor, or too many elements or levels.
 pub fn parse(source: &Source, file: FileId) -> Result<Node, SyntaxError> {
     let mut loader = Loader { text: source.text(), offsets: Offsets::default(), file, ..Loader::new() };
     for event in Parser::new_from_str(source.text()) {
@@ -41,7 +42,7 @@ pub fn parse(source: &Source, file: FileId) -> Result<Node, SyntaxError> {
     })
 }
 
-/// Converts character offsets, which increase from call to call, to byte offsets.
+/// Converts character offsets to byte offsets. This is fast if the offsets increase from call to call.
 #[derive(Default)]
 struct Offsets {
     characters: usize,
@@ -75,7 +76,7 @@ struct Open {
 /// Position of an entry in a table.
 struct Position {
     at: usize,
-    /// True if the entry is that of a merged table.
+    /// True if the entry comes from a merged table.
     is_merged: bool,
 }
 
@@ -130,7 +131,8 @@ impl Loader<'_> {
     fn count(&mut self, elements: usize, span: Span) -> Result<(), SyntaxError> {
         self.elements += elements;
         if self.elements > MAX_ELEMENTS {
-            let message = format!("the file has more than {MAX_ELEMENTS} elements, with those that aliases repeat");
+            let message =
+                format!("the file has more than {MAX_ELEMENTS} elements, including those that aliases repeat");
             return Err(error(span, message));
         }
         Ok(())
@@ -144,7 +146,7 @@ impl Loader<'_> {
         Ok(())
     }
 
-    /// Adds the element of an anchor again.
+    /// Adds a copy of the element with an anchor.
     fn alias(&mut self, anchor: usize, span: Span) -> Result<(), SyntaxError> {
         let incomplete = || error(span, "the anchor is not complete");
         let Anchored { elements, depth, .. } = *self.anchors.get(&anchor).ok_or_else(incomplete)?;
@@ -164,7 +166,7 @@ impl Loader<'_> {
     fn put(&mut self, node: Node, anchor: usize) -> Result<(), SyntaxError> {
         if anchor != 0 {
             let (elements, depth) = extent(&node);
-            // The copy for the aliases counts, too.
+            // The copy in `anchors` counts, too.
             self.count(elements, node.span)?;
             self.anchors.insert(anchor, Anchored { node: node.clone(), elements, depth });
         }
@@ -218,7 +220,7 @@ fn key(node: Node) -> Result<At<String>, SyntaxError> {
 }
 
 impl Open {
-    /// Adds an entry to a table. The key `<<` adds the entries of other tables that the table does not have.
+    /// Adds an entry to a table. The key `<<` adds the entries of other tables whose keys the table does not have.
     fn insert(&mut self, key: At<String>, value: Node) -> Result<(), SyntaxError> {
         let Content::Table(entries) = &mut self.content else { return Ok(()) };
         if *key == "<<" {
@@ -346,7 +348,7 @@ mod tests {
             let list = format!("*a{}, ", level - 1).repeat(10);
             bomb += &format!("a{level}: &a{level} [{list}]\n");
         }
-        assert_eq!(message(&bomb), "the file has more than 1000000 elements, with those that aliases repeat");
+        assert_eq!(message(&bomb), "the file has more than 1000000 elements, including those that aliases repeat");
         assert_eq!(message(&"[".repeat(100)), DEEP);
     }
 
@@ -355,13 +357,13 @@ mod tests {
     #[test]
     fn aliases_count_as_what_they_repeat() {
         let message = |text: &str| tree(text).unwrap_err().message;
-        let many = "the file has more than 1000000 elements, with those that aliases repeat";
+        let many = "the file has more than 1000000 elements, including those that aliases repeat";
         // Each line adds 30 levels.
         let line = |level: usize| format!("a{level}: &a{level} {}*a{}{}\n", "[".repeat(30), level - 1, "]".repeat(30));
         let nested = |lines| "a0: &a0 1\n".to_owned() + &(1..=lines).map(line).collect::<String>();
         assert!(tree(&nested(2)).is_ok());
         assert_eq!(message(&nested(3)), DEEP);
-        // A list within the 60 levels of an anchor.
+        // Three lists in the table of the file and the 60 levels of the anchor are 64 levels.
         assert!(tree(&(nested(2) + "a: [[[*a2]]]\n")).is_ok());
         assert_eq!(message(&(nested(2) + "a: [[[[*a2]]]]\n")), DEEP);
         // 100 000 copies of a text or key with 10 000 bytes.

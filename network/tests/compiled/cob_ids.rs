@@ -89,5 +89,5 @@ rpdo = { 1 = { cob_id = "axis1.tpdo1", map = ["Target position"] } }
     assert_eq!(written(node(valid(&compilation), "axis2"), (0x1400, 1)).last(), Some(&0x1C1));
     let disabled = text.replace("0x1C1", "0x800001C1");
     let compilation = compiled("cob-ids-disabled", &files(disabled));
-    assert_eq!(messages(&compilation), ["NET015 no node `axis1` sends TPDO 1"]);
+    assert_eq!(messages(&compilation), ["NET015 TPDO 1 of `axis1` is missing or disabled"]);
 }

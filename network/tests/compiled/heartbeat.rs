@@ -59,14 +59,14 @@ fn parameters_can_set_the_time_for_the_master() {
     }
     let short = network("parameters = { \"0x1016:1\" = 0x007F0064 }");
     let compilation = compiled("heartbeat-short", &[("axis.dcf", example_file("drive.eds")), ("network.toml", short)]);
-    assert_eq!(messages(&compilation), ["NET020 `axis` expects a heartbeat of node 127 each 100 ms"]);
+    assert_eq!(messages(&compilation), ["NET020 `axis` expects a heartbeat from node 127 every 100 ms"]);
 }
 
 #[test]
 fn only_final_values_are_checked() {
     let dcf = configured(&example_file("drive.eds"), "1016sub1", "0x00020032");
     let compilation = compiled("heartbeat-final", &[("axis.dcf", dcf.clone()), ("network.toml", network(""))]);
-    assert_eq!(messages(&compilation), ["NET020 `axis` expects a heartbeat of node 2 each 50 ms"]);
+    assert_eq!(messages(&compilation), ["NET020 `axis` expects a heartbeat from node 2 every 50 ms"]);
     let cleared = network("parameters = { \"0x1016:1\" = 0 }");
     let compilation = compiled("heartbeat-final", &[("axis.dcf", dcf), ("network.toml", cleared)]);
     valid(&compilation);

@@ -43,7 +43,7 @@ fn the_master_expects_the_heartbeat_of_the_last_value() {
     let off = with_parameters("parameters-heartbeat", "\"0x1017\" = 0");
     assert_eq!(value(&master(valid(&off)), 0x1016, 1), None);
     let long = with_parameters("parameters-heartbeat", "\"0x1017\" = 30_000");
-    assert_eq!(messages(&long), ["NET020 the consumer time of the heartbeat of `axis` is 90000 ms"]);
+    assert_eq!(messages(&long), ["NET020 the consumer time for the heartbeat of `axis` is 90000 ms"]);
 }
 
 #[test]
@@ -53,13 +53,13 @@ fn the_master_expects_the_emcy_of_the_last_value() {
     let compilation = with_parameters("parameters-emcy", "\"0x1014\" = 0x80000081");
     assert_eq!(value(&master(valid(&compilation)), 0x1028, 1), Some(0x8000_0000));
     let compilation = with_parameters("parameters-emcy", "\"0x1014\" = 0x181");
-    let conflict = "NET019 the CAN-ID 0x181 of TPDO 1 of `axis` is also that of the EMCY of `axis`";
+    let conflict = "NET019 TPDO 1 of `axis` and the EMCY of `axis` use the same CAN-ID 0x181";
     assert_eq!(messages(&compilation), [conflict]);
     let compilation = with_parameters("parameters-emcy", "\"0x1014\" = 0x601");
     assert_eq!(messages(&compilation), ["NET023 the EMCY of `axis` cannot use the CAN-ID 0x601"]);
 }
 
-/// Values that configure TPDO 2 as an application does it.
+/// Values that configure TPDO 2 in the order in which an application writes them.
 const TPDO: &str = "
     - {index: 0x1801, sub_index: 1, value: 0x80000281}
     - {index: 0x1801, sub_index: 2, value: 1}
@@ -100,9 +100,9 @@ fn pdos_that_parameters_configure_are_checked() {
     let long = with_sdo(&TPDO.replace("value: 0x281}", position), 10_000);
     assert_eq!(messages(&long), ["NET017 TPDO 2 maps 80 bits, but a PDO has at most 64"]);
     let conflict = with_sdo(&TPDO.replace("value: 0x281}", "value: 0x81}"), 10_000);
-    assert_eq!(messages(&conflict), ["NET019 the CAN-ID 0x81 of TPDO 2 of `axis` is also that of the EMCY of `axis`"]);
+    assert_eq!(messages(&conflict), ["NET019 TPDO 2 of `axis` and the EMCY of `axis` use the same CAN-ID 0x81"]);
     let mapped = |word: &str| messages(&with_sdo(&TPDO.replace("0x606C0020", word), 10_000));
-    assert_eq!(mapped("0x60400010"), ["NET016 object 0x6040 `Controlword` cannot be mapped in a TPDO"]);
+    assert_eq!(mapped("0x60400010"), ["NET016 object 0x6040 `Controlword` cannot be mapped into a TPDO"]);
     assert_eq!(mapped("0x60490010"), ["NET016 TPDO 2 of `axis` maps object 0x6049:0"]);
     assert_eq!(mapped("0x606C0010"), ["NET016 TPDO 2 maps 16 bits of object 0x606C `Velocity actual value`"]);
     assert_eq!(mapped("0x00050008"), [""; 0], "a gap");

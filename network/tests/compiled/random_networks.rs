@@ -25,7 +25,7 @@ const FIFTH: Model = Model { file: "fifth.eds", pdos: &[("rpdo", 1), ("rpdo", 2)
 
 const IO: Model = Model { file: "io.eds", pdos: &[("rpdo", 1), ("tpdo", 1), ("tpdo", 2)], received: &[], sent: &[] };
 
-/// Returns a random network of 3 to 6 nodes with the node-IDs from 1, and the node-ID 127 of the master.
+/// Returns a random network of 3 to 6 nodes, whose node-IDs start at 1, and a master with the node-ID 127.
 pub fn network(random: &mut Random) -> String {
     let count = 3 + random.below(4);
     let models: Vec<&Model> = (0..count).map(|_| *random.choose(&[&DRIVE, &DRIVE, &CONFIGURED, &FIFTH, &IO])).collect();

@@ -36,7 +36,7 @@ fn a_pdo_of_the_master_for_several_nodes_counts_once() {
     );
 }
 
-/// A node that sends SYNC each 1000 µs, and a synchronous PDO of 2 bytes.
+/// A node that sends SYNC every 1000 µs, and a synchronous PDO of 2 bytes.
 const PRODUCER: &str = "
 [nodes.axis]
 id = 1
@@ -72,7 +72,7 @@ fn sync_of_a_node_counts() {
 fn two_producers_of_sync_are_a_conflict() {
     let text = format!("[master]\nid = 127\nsync_period = 2000\n{PRODUCER}");
     let compilation = with_sync("traffic-two", &text);
-    assert_eq!(messages(&compilation), ["NET019 the CAN-ID 0x80 of SYNC of `axis` is also that of SYNC"]);
+    assert_eq!(messages(&compilation), ["NET019 SYNC of `axis` and SYNC use the same CAN-ID 0x80"]);
     let load = bus_load(compilation.network.as_ref().expect("a network"));
     let rates: Vec<f64> = load.traffic.iter().map(|traffic| traffic.rate).collect();
     assert_eq!(rates, [500.0, 1000.0, 1000.0], "the PDO is sent with the faster SYNC at worst");

@@ -98,7 +98,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Compiles a network. Returns `None` if the network has no PDO that `cantools` can decode.
+    /// Compiles a network. Returns `None` if the network has no PDO that `cantools` can decode, or a PDO that is too long.
     fn new(root: &Path, source: Source) -> Option<Self> {
         let compilation = compile(source, Levels::lenient());
         let network = compilation.network.as_ref()?;
@@ -147,7 +147,8 @@ fn samples(name: &str, corpus: &Path) -> Vec<Sample> {
     files.filter_map(sample).take(50).collect()
 }
 
-/// Decodes the frames of all samples with `cantools`, and asserts that the values are equal. Returns the number of values.
+/// Decodes the frames of all samples with `cantools`, and asserts that the values are those in the files of the frames. Returns the
+/// number of values.
 fn compare(python: &Path, samples: &[Sample]) -> usize {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dbc/decode.py");
     let folders = samples.iter().map(|sample| &sample.folder);

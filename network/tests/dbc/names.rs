@@ -18,7 +18,7 @@ for message in cantools.database.load_file(sys.argv[1]).messages:
         print(json.dumps([message.senders[0], message.name, signal.name, signal.comment, signal.unit or '']))
 ";
 
-/// Name of two objects, and of two nodes with a suffix.
+/// `SIGNAL` is the name of two objects. `NODE` is the name of one node, and another node has this name with a suffix.
 const SIGNAL: &str = "Actual value of the second encoder in user-defined units";
 const NODE: &str = "the drive on the left side of the machine";
 

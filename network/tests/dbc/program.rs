@@ -60,7 +60,7 @@ fn physical(value: impl Into<Option<f64>>) -> String {
     format!("{:e}", value.into().expect("a number"))
 }
 
-/// For each folder, replaces the lines of `frames.txt` with CAN-ID and data by lines with the fields.
+/// Appends the unpacked fields to each line of `frames.txt` in each folder.
 fn main() {
     for (network, folder) in std::env::args().skip(1).enumerate() {
         let path = Path::new(&folder).join("frames.txt");

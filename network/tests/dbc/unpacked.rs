@@ -97,7 +97,7 @@ fn generated_rust_unpacks_the_values_of_cantools() {
         return;
     }
     let (Some(python), Some(corpus)) = (python::with(&["cantools"]), folder_of("eds")) else { return };
-    // None of these files has scales, but the example has.
+    // The files of the corpus have no scales, so the example is a further sample.
     let mut samples = samples("dbc-unpacked", &corpus);
     let folder = samples[0].folder.parent().expect("a folder").to_owned();
     let example = Source::read(&root::root().join("examples/network/network.toml")).expect("the example");

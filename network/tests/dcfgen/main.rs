@@ -90,7 +90,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Returns the reason for a difference, or `None` if there is none.
+/// Returns the reason for a difference, or `None` for an unexplained difference.
 fn reason(difference: &str, network: &Network) -> Option<&'static str> {
     if let Some(pdo) = difference.strip_prefix("dcfgen only: ") {
         return reason_of_pdo(pdo, network);

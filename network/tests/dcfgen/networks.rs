@@ -14,7 +14,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Reads a description. Returns `None` if Lexibus cannot use it.
+    /// Reads a description. Returns `None` if Lexibus cannot use it, or if it does not describe exactly one device.
     pub fn new(file: String, bytes: Vec<u8>) -> Option<Self> {
         let compilation = check(Source::new(file.as_str(), bytes), &Options::default());
         let catalog = compilation.usable()?.clone();

@@ -14,7 +14,8 @@ use lexibus_network::compile::{compile, Compilation};
 use lexibus_network::output::{files, rust};
 use support::entries;
 
-/// A network whose values are in another order than the phases of a configuration, with commands, and with a value that occurs twice.
+/// A network whose values are not in the order of the phases of a configuration. It contains a command (0x6040) and objects that
+/// are written several times.
 const NETWORK: &str = r#"
 [network]
 bit_rate = 500
@@ -61,7 +62,7 @@ fn example(name: &str) -> String {
     std::fs::read_to_string(path).expect("the example")
 }
 
-/// Returns the text with the replacement of a part, which must occur.
+/// Replaces a part of a text, and panics if the text does not contain the part.
 fn replaced(text: &str, part: &str, by: &str) -> String {
     assert!(text.contains(part), "{part}");
     text.replace(part, by)
@@ -73,7 +74,7 @@ fn compiled() -> Compilation {
     let drive = example("drive.eds").replace("\r\n", "\n");
     let of = "[6083]\nParameterName=";
     let axis = replaced(&drive, of, &of.replace('\n', "\nParameterValue=77\n"));
-    // A device with a vendor-ID only.
+    // A device whose object 0x1018 contains only the vendor-ID.
     let identity = drive.find("[1018]").expect("an object")..drive.find("[1020]").expect("an object");
     let part = &drive[identity.clone()];
     let part = part[..part.find("[1018sub2]").expect("a product code")].to_owned();

@@ -81,7 +81,7 @@ pub fn configured(eds: &str, section: &str, value: &str) -> String {
     format!("{before}[{section}]\nParameterValue={value}{rest}")
 }
 
-/// Returns the text of a description with another UNSIGNED32 object, such as `1006`.
+/// Returns the text of a description with an additional UNSIGNED32 object, such as `1006`.
 pub fn with_object(eds: &str, index: &str, value: &str) -> String {
     let (before, rest) = eds.split_once("[OptionalObjects]\r\nSupportedObjects=").expect("optional objects");
     let (count, rest) = rest.split_once("\r\n").expect("a line");

@@ -60,7 +60,8 @@ pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     Some((script, client(line)))
 }
 
-/// Starts a node with an asynchronous client. The cable must exist as long as the client. Requires a `tokio` runtime.
+/// Starts a node with an asynchronous client. The cable must exist as long as the client. Requires a `tokio` runtime. Returns
+/// `None` if Python or a library is missing.
 pub fn start_async(test: &str, file: &str) -> Option<(Script, AsyncNode, Cable)> {
     let cable = Cable::open();
     let [near, far] = cable.ends();

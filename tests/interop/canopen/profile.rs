@@ -1,5 +1,6 @@
 //! Tests a simulated CiA 402 drive with the CiA 402 profile of the Python library `canopen`. The library reads the PDO
-//! mappings. It uses its own tables to select the commands for state transitions, and to confirm modes.
+//! mappings. It uses its own tables to select the commands for state transitions, and to convert the
+//! names and codes of modes of operation.
 
 use lexibus::sim::{CanNode, Device};
 use lexibus::Object;

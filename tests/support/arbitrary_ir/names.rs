@@ -236,7 +236,7 @@ pub fn path(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["drive.eds", "", "../../x", "/etc/x", "C:\\x\"", "x\n[1018]"]).into()
 }
 
-/// Returns a device model.
+/// Returns the name of a device model, or a pattern for such names.
 pub fn model(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["A1", "B*", "*", "type", "", "Some"]).into()
 }
@@ -317,7 +317,7 @@ pub fn extensions(b: &mut Bytes<'_>) -> Extensions {
     b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() }).into()
 }
 
-/// Returns attributes in the notation of the source. The attribute names are unique XML names.
+/// Returns XML attributes that the IR keeps by name and text. The names are valid and unique.
 pub fn attributes(b: &mut Bytes<'_>) -> Vec<(CompactString, CompactString)> {
     let mut list = b.few(8, 2, |b| (b.pick(&["SubstituteLength", "type", "_1", "Größe", "x-y.z"]).into(), text(b)));
     list.sort();

@@ -1,4 +1,4 @@
-//! The LSS master with a slave of `zencan-node`.
+//! Tests the LSS master with a slave of `zencan-node`.
 
 use std::time::Duration;
 

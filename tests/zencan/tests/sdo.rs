@@ -1,4 +1,4 @@
-//! SDO transfers of the client with the server of `zencan-node`.
+//! Tests SDO transfers between the client and the server of `zencan-node`.
 
 use std::time::Duration;
 

@@ -3,7 +3,7 @@
 use super::{frame, part, StepMode};
 use lexibus::LengthError;
 
-/// A 16-bit word and a 32-bit number.
+/// A PDO with a 16-bit word and a 32-bit number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WordAndLong {
     /// Control word or status word.
@@ -66,7 +66,7 @@ impl Full {
     }
 }
 
-/// A 16-bit word and a mode.
+/// A PDO with a 16-bit word and a mode of operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WordAndMode {
     /// Control word or status word.

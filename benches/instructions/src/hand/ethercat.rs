@@ -14,7 +14,7 @@ pub enum Mode {
     Velocity,
     /// 4.
     Torque,
-    /// Any number without a name.
+    /// A mode whose number has no name.
     Unknown(u8),
 }
 

@@ -94,7 +94,7 @@ impl Elements<'_> {
         others.map(|(sub, item)| (sub, super::writer::quoted(&item.name).into_owned())).collect()
     }
 
-    /// Returns the configured values of the elements.
+    /// Returns the sub-index and the text of each configured value of the elements.
     pub(super) fn values(&self, text: impl Fn(&Value) -> Option<String>) -> Vec<(u8, String)> {
         let text = |item: &Item| text(item.configured.as_ref()?.value.as_ref()?);
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()

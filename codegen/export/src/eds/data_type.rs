@@ -19,6 +19,9 @@ pub(super) struct DataType {
 
 /// Returns the EDS data type for `ty`.
 ///
+/// An integer of a width that CiA 301 does not define becomes the next wider integer, and a type without a number in
+/// CiA 301 becomes DOMAIN, each with a note.
+///
 /// An unknown type keeps its number if the source is a CiA 306 file (`is_verbatim`) or describes a CANopen device,
 /// because other tools may know the number. An entry without a type stays without a type if the source is a CiA 306
 /// file.

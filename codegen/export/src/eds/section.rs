@@ -8,11 +8,11 @@ use lexibus_codegen::ir::CompactString;
 /// The bit rates in CiA 306, in kbit/s.
 pub(super) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-/// A header section. Writing the first entry opens the section.
+/// A header section. The line `[name]` is written before the first entry.
 pub(super) struct Section<'w> {
     writer: &'w mut Writer,
     header: Header,
-    /// True if the section is open.
+    /// True if the line `[name]` has been written.
     pub(super) is_open: bool,
 }
 
@@ -22,7 +22,7 @@ impl<'w> Section<'w> {
         Section { writer, header, is_open: false }
     }
 
-    /// Opens the section if necessary and returns its writer.
+    /// Writes the line `[name]` if it has not been written, and returns the writer.
     pub(super) fn open(&mut self) -> &mut Writer {
         if !self.is_open {
             self.is_open = true;

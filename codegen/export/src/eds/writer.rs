@@ -54,7 +54,8 @@ impl Writer {
         self.entry(key, u8::from(value));
     }
 
-    /// Writes an entry with a text, unless the text is empty. Readers of the file do not remove quotation marks from the text.
+    /// Writes an entry with a text, unless the text is empty. The text is not quoted, because readers of the file keep
+    /// quotation marks as part of the text.
     pub(super) fn plain(&mut self, key: &'static str, text: &str, subject: Subject<'_>) {
         if !text.is_empty() {
             let text = self.one_line(text, subject);

@@ -42,7 +42,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<
     xml.close();
 }
 
-/// Returns the entries of an object. Each sub-index occurs once.
+/// Returns the entries of an object, one for each sub-index. Adds a note for each other item.
 fn entries<'g>(group: &'g Group, notes: &mut Notes) -> Vec<(u8, &'g Item)> {
     let mut items: Vec<(u8, &Item)> = Vec::with_capacity(group.items.len());
     let mut seen = [false; 256];
@@ -148,7 +148,7 @@ fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
     }
 }
 
-/// The common properties of all SubItem elements.
+/// The properties that every SubItem element has.
 struct SubItem<'p> {
     name: &'p CompactString,
     ty: &'p CompactString,

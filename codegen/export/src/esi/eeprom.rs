@@ -10,7 +10,7 @@ use lexibus_codegen::ir::EtherCatSettings;
 /// Addresses of the ESC registers that the schema defines.
 const REGISTERS: [u16; 4] = [0x0108, 0x0400, 0x0410, 0x0420];
 
-/// Writes the ESC element.
+/// Writes the ESC element with the register values of the slave controller. Writes nothing if the source has none.
 pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSettings) {
     if settings.registers.is_empty() {
         return;

@@ -171,7 +171,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     xml.close();
 }
 
-/// Writes object facts without an ETG.2000 element as Property elements with a name and a value.
+/// Writes the extension attributes of an object, except its flags, as Property elements with a name and a value.
 fn properties(xml: &mut Xml, group: &Group) {
     let is_flag =
         |extension: &&Extension| FLAGS.contains(&extension.key.as_str()) || extension.key == "OverwrittenByModule";

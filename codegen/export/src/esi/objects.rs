@@ -45,7 +45,8 @@ pub(super) fn of_device<'g>(device: &'g Device, of_registers: &'g [Group], notes
     objects
 }
 
-/// Sorts the objects of `groups` by index and keeps one object per index.
+/// Returns the objects of `groups`, sorted by index. Keeps the first object with each index, and adds a note for each
+/// other one.
 pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes) -> Vec<&'g Group> {
     let mut objects: Vec<&Group> = groups.filter(|group| group.index().is_some()).collect();
     objects.sort_by_key(|group| group.index());

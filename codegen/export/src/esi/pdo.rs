@@ -87,8 +87,8 @@ fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) 
     xml.close();
 }
 
-/// Returns the data type of a PDO entry. If the mapped length differs from the length of the type, returns an unsigned
-/// integer of the mapped length. The export of an ESI keeps the original type.
+/// Returns the data type of a PDO entry. If the mapped length differs from the length of the type and is at most 64
+/// bits, returns an unsigned integer of the mapped length. The export of an ESI keeps the original type.
 fn data_type(types: &Types<'_>, entry: &PdoEntry) -> Type {
     let is_whole = types.underlying(entry.ty).bits().is_none_or(|bits| bits == entry.bits);
     match u8::try_from(entry.bits) {

@@ -264,7 +264,8 @@ fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<AddedField>, names: Ve
     Plan { ty, bits, names: Some(names) }
 }
 
-/// Converts state names to the notation of the schema. Adds a note if the schema does not allow the names.
+/// Converts state names to the notation of the schema. Returns `None` if there are no names. If the schema does not
+/// allow the names, adds a note and returns `None`.
 pub(super) fn check_states(states: &[CompactString], notes: &mut Notes, subject: Subject<'_>) -> Option<String> {
     const KNOWN: [&str; 7] = ["PreOp", "PreOP", "PreOP_SafeOP", "PreOP_OP", "SafeOP", "SafeOP_OP", "OP"];
     let joined = states.join("_");

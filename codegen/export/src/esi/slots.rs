@@ -6,7 +6,7 @@ use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Fit, Slot, SlotRules};
 
-/// Writes the Slots element.
+/// Writes the Slots element. If the source has no slot settings for EtherCAT, only adds a note that counts the slots.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let Some(rules) = settings.slots.as_deref() else {
         return context.notes.add_many(NoteKind::Slot, device.slots.len(), Subject::Named(&device.name));

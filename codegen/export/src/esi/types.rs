@@ -103,7 +103,8 @@ impl<'a> Types<'a> {
         self.defs.get(at as usize)
     }
 
-    /// Returns the entries of an object whose type is the declared record at position `at`.
+    /// Returns the entries of an object whose type is the declared record at position `at`, or an empty list if the
+    /// declared type is not a record.
     pub(super) fn entries(&self, at: u32) -> Vec<Entry> {
         match self.defs.get(at as usize).map(|def| &def.shape) {
             Some(Shape::Record(fields)) => record::expansion(self, fields),

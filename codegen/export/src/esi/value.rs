@@ -37,8 +37,8 @@ pub(super) fn elements(item: &Item, ty: Type) -> Written {
     (elements, notes)
 }
 
-/// Returns whether a text can be written as DefaultString. Readers remove leading and trailing spaces and interpret an
-/// empty element as no default value.
+/// Returns whether a value is a text that can be written as DefaultString. Readers remove leading and trailing spaces
+/// and interpret an empty element as no default value. Texts with control characters are written as bytes.
 fn is_plain(value: Option<&Value>) -> bool {
     matches!(value, Some(Value::Text(text))
         if !text.is_empty() && text.trim() == text.as_str() && !text.contains(char::is_control))

@@ -18,7 +18,7 @@ pub(super) struct Context<'a> {
     pub(super) notes: Notes,
     pub(super) missing: MissingFacts,
     pub(super) texts: TextList,
-    /// Positions of the pluggable ports among the submodules.
+    /// Positions of the pluggable ports in the list of submodules.
     pub(super) pluggable_ports: HashSet<u32>,
     /// True if the source is a GSDML. The export then adds no missing facts.
     pub(super) is_gsdml: bool,

@@ -39,7 +39,7 @@ pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let of_modules = catalog.modules.iter().flat_map(|module| uses(&module.submodules));
     let (mut pluggable, mut used) = (HashSet::new(), HashSet::new());
     for (at, is_anywhere) in of_devices.chain(of_modules) {
-        // A port that two elements use cannot be built into either.
+        // A port that two elements use cannot be built into either of them.
         if !used.insert(at) || is_anywhere {
             pluggable.insert(at);
         }

@@ -108,7 +108,7 @@ fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Opti
     Err((ty, note))
 }
 
-/// Returns the definition of an enumeration and its integer type.
+/// Returns the definition of an enumeration and its integer type, or `None` if `ty` is not an enumeration.
 pub(super) fn enumeration(ty: Type, types: &[TypeDef]) -> Option<(&TypeDef, Type)> {
     let Type::Named(id) = ty else { return None };
     let def = types.get(id.0 as usize)?;

@@ -14,7 +14,7 @@ pub(super) const LENGTH: usize = 128;
 const CHECKED: usize = 14;
 const CHECKED_WITH_SUM: usize = CHECKED + 2;
 
-/// Version of the format.
+/// Version of the SII format.
 const VERSION: u16 = 1;
 
 /// Returns the configuration area except the size of the EEPROM.
@@ -86,7 +86,8 @@ impl Area {
     }
 }
 
-/// Returns the first bytes of the EEPROM, with the station alias from the options.
+/// Returns the first 14 bytes of the EEPROM: those of the options or of the description, with the station alias from
+/// the options.
 fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8> {
     let declared = context.settings.eeprom.as_ref().map(|eeprom| eeprom.config_data.clone());
     let declared = declared.filter(|bytes| !bytes.is_empty());
@@ -129,7 +130,7 @@ fn checksum(bytes: &[u8]) -> u8 {
 mod tests {
     use super::*;
 
-    /// The first words of the EEPROM of a published device. The CRC of data and checksum is 0.
+    /// Checks the first words of the EEPROM of a published device. The CRC of these words including the checksum is 0.
     #[test]
     fn checksums() {
         let image = [0x80, 0x06, 0x03, 0x4C, 0x64, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xEC, 0];

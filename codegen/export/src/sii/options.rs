@@ -22,7 +22,7 @@ options! {
     }
 }
 
-/// Bytes of the configuration area.
+/// Up to 14 bytes at the start of the configuration area.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Octets(pub Vec<u8>);
 

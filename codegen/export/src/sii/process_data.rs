@@ -9,13 +9,14 @@ use super::general::bits;
 use super::Context;
 use crate::note::{NoteKind, Subject};
 
-/// Length of each part of a PDO entry that is longer than 255 bits.
+/// Length in bits of the parts into which a PDO entry with more than 255 bits is split. The last part can be shorter.
 const PART: u32 = 248;
 
 /// Sync manager number of PDOs that are not assigned to a sync manager by default.
 const UNASSIGNED: u8 = 0xFF;
 
-/// Returns the purposes of the FMMUs, one byte for each FMMU.
+/// Returns the purposes of the FMMUs, one byte for each FMMU. Adds a note for each purpose and setting that the category
+/// cannot express.
 pub(super) fn fmmus(context: &mut Context<'_>) -> Vec<u8> {
     let mut bytes = Vec::new();
     for fmmu in &context.settings.fmmus {
@@ -68,7 +69,7 @@ fn length(context: &Context<'_>, manager: &SyncManager) -> u16 {
     })
 }
 
-/// Returns the PDOs of one direction. `with_names` selects whether the entries have names.
+/// Returns the PDOs of one direction, except those with more than 255 entries. `with_names` selects whether the entries have names.
 pub(super) fn pdos(context: &mut Context<'_>, direction: Direction, with_names: bool) -> Vec<u8> {
     let mut bytes = Vec::new();
     for pdo in context.pdos().filter(|pdo| pdo.direction == direction) {

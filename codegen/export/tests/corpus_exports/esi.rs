@@ -80,7 +80,7 @@ fn take_other_vendors(before: &mut Value) -> usize {
     count - devices.len()
 }
 
-/// Returns the difference between `catalog` and its reread export.
+/// Returns the first difference between `catalog` and its reread export, or `None` if there is none.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
     let Some(found) = &again.catalog else { return Some("the export cannot be read".into()) };

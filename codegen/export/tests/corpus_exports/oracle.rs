@@ -160,8 +160,8 @@ fn no_canopen_file_is_rejected() {
     assert!(real >= lane::at_least(170), "only {real} files of real devices");
 }
 
-/// Returns the code of the only error that the compiler must report for a file of this class, and a part of its message.
-/// The file is not a CANopen device description.
+/// Returns the code of the only error that the compiler must report for a file that is not a CANopen device description,
+/// and a part of its message. Both depend on the class of the file.
 fn rejection(case: &Case) -> (&'static str, &'static str) {
     match case.class.as_str() {
         "negative (EtherNet/IP EDS)" => ("EDS001", "this is an EtherNet/IP EDS"),

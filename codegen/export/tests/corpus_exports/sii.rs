@@ -42,7 +42,7 @@ fn image(device: &Device, options: &mut Options) -> Result<Image, Refusal> {
     result
 }
 
-/// Writes the images of all devices to a folder.
+/// Writes the images of all EtherCAT slaves of the corpus to a folder. Returns `None` if the corpus is missing.
 fn exported(folder: &Path) -> Option<Vec<Exported>> {
     let mut all = Vec::new();
     for file in files_of("esi")? {

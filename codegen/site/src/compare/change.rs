@@ -44,11 +44,11 @@ impl Judgment {
     pub const API_AND_WIRE: Judgment = Judgment::new(Effect::Breaking, Effect::Breaking, Effect::Unaffected);
     /// Breaks Rust code and the behavior, but not the communication.
     pub const API_AND_BEHAVIOR: Judgment = Judgment::new(Effect::Breaking, Effect::Unaffected, Effect::Breaking);
-    /// Adds an element to the Rust code.
+    /// Changes the Rust code without making any previous use invalid.
     pub const API_COMPATIBLE: Judgment = Judgment::new(Effect::Compatible, Effect::Unaffected, Effect::Unaffected);
-    /// Adds an element to the Rust code and to the communication.
+    /// Changes the Rust code and the communication without making any previous use invalid.
     pub const ADDITION: Judgment = Judgment::new(Effect::Compatible, Effect::Compatible, Effect::Unaffected);
-    /// Adds an element to the communication.
+    /// Changes the communication without making any previous use invalid.
     pub const WIRE_COMPATIBLE: Judgment = Judgment::new(Effect::Unaffected, Effect::Compatible, Effect::Unaffected);
     /// Changes the behavior without making any previous use invalid.
     pub const BEHAVIOR_COMPATIBLE: Judgment = Judgment::new(Effect::Unaffected, Effect::Unaffected, Effect::Compatible);
@@ -141,11 +141,11 @@ impl fmt::Display for Change {
     }
 }
 
-/// Shortens two long texts. Each result begins at the first word that differs.
+/// Shortens both texts if one of them is long. Each result begins at the first word that differs.
 fn excerpts(old: &str, new: &str) -> (String, String) {
-    /// Maximum length of texts that are not shortened.
+    /// Maximum number of characters of texts that are not shortened.
     const LONG: usize = 240;
-    /// Maximum length of a shortened text.
+    /// Maximum number of characters of a shortened text, without the ellipses.
     const SHOWN: usize = 80;
     if old.chars().count().max(new.chars().count()) <= LONG {
         return (old.to_owned(), new.to_owned());

@@ -50,7 +50,7 @@ impl<'a> Comparison<'a> {
         (self.types, self.types_owner) = outer;
     }
 
-    /// Compares elements whose types belong to the catalog.
+    /// Calls `compare` with the types of the catalogs as the current types.
     pub fn in_types_of_catalog(&mut self, compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         let (old, new) = self.catalogs;
@@ -175,7 +175,7 @@ pub(super) const KEY: &str = "a key; a change is reported as a removal and an ad
 /// Reason to ignore a field: it is compared together with another field.
 pub(super) const COMPARED: &str = "compared together with another field";
 
-/// Compares a fact. All changes to the fact have the same effects.
+/// Returns a rule that compares a fact. All changes to the fact have the same effects.
 pub(super) fn fact<T: PartialEq + Debug + Show>(
     name: &'static str,
     judgment: Judgment,
@@ -183,7 +183,8 @@ pub(super) fn fact<T: PartialEq + Debug + Show>(
     fact_as(name, judgment, T::show)
 }
 
-/// Compares a fact. All changes to the fact have the same effects. `show` returns the text of a value for reports.
+/// Returns a rule that compares a fact. All changes to the fact have the same effects. `show` returns the text of a
+/// value for reports.
 pub(super) fn fact_as<T: PartialEq + Debug>(
     name: &'static str,
     judgment: Judgment,
@@ -196,12 +197,12 @@ pub(super) fn fact_as<T: PartialEq + Debug>(
     }
 }
 
-/// Compares a fact, such as a text, whose changes have no effect.
+/// Returns a rule that compares a fact, such as a text, whose changes have no effect.
 pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     fact(name, Judgment::NONE)
 }
 
-/// Compares values by their texts, because the values contain positions in the source.
+/// Returns a rule that compares values by their texts, because the values contain positions in the source.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
     judgment: Judgment,
@@ -214,7 +215,7 @@ pub(super) fn positioned<T: PartialEq>(
     }
 }
 
-/// Compares a fact. The effects of a change depend on the old and new values.
+/// Returns a rule that compares a fact. The effects of a change depend on the old and new values.
 pub(super) fn judged<T: PartialEq + Debug + Show>(
     name: &'static str,
     judge: impl Fn(&T, &T) -> Judgment,
@@ -226,7 +227,7 @@ pub(super) fn judged<T: PartialEq + Debug + Show>(
     }
 }
 
-/// Compares a part of the current element. Reports contain the name of the part.
+/// Returns a rule that compares a part of the current element. Reports contain the name of the part.
 pub(super) fn part<T>(
     name: &'static str,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
@@ -234,7 +235,7 @@ pub(super) fn part<T>(
     move |old, new, comparison| comparison.within(name, |comparison| compare(old, new, comparison))
 }
 
-/// Compares an optional part. Adding or removing the part has the given effects.
+/// Returns a rule that compares an optional part. Adding or removing the part has the given effects.
 pub(super) fn optional<T, B: Borrow<T>>(
     name: &'static str,
     added: Judgment,
@@ -251,7 +252,7 @@ pub(super) fn optional<T, B: Borrow<T>>(
     }
 }
 
-/// Compares an optional part. A missing part is equal to its default.
+/// Returns a rule that compares an optional part. A missing part is equal to its default.
 pub(super) fn or_default<T: Default, B: Borrow<T>>(
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
 ) -> impl Fn(&Option<B>, &Option<B>, &mut Comparison<'_>) {
@@ -306,7 +307,7 @@ impl<T> Elements<T> {
     }
 }
 
-/// Compares two lists of elements with the rules `elements`.
+/// Returns a rule that pairs the elements of two lists as `elements` states, and compares each pair with `compare`.
 pub(super) fn list<T, L: Deref<Target = [T]>>(
     elements: Elements<T>,
     compare: impl Fn(&T, &T, &mut Comparison<'_>),
@@ -314,7 +315,7 @@ pub(super) fn list<T, L: Deref<Target = [T]>>(
     move |old, new, comparison| slices(old, new, &elements, &compare, comparison)
 }
 
-/// Compares two slices of elements.
+/// Pairs the elements of two slices as `elements` states, and compares each pair with `compare`.
 pub(super) fn slices<T>(
     old: &[T],
     new: &[T],

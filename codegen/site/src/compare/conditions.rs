@@ -7,7 +7,7 @@ use super::comparison::{compare_fields, fact, judged, or_default, text, Comparis
 use super::show::Show;
 use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
 
-/// Compares the values to which an element is restricted. An empty list means no restriction.
+/// Returns a rule that compares the values to which an element is restricted. An empty list means no restriction.
 pub(super) fn restricted<T: PartialEq + Debug + Show>(
     name: &'static str,
 ) -> impl Fn(&Vec<T>, &Vec<T>, &mut Comparison<'_>) {
@@ -21,7 +21,7 @@ pub(super) fn restricted<T: PartialEq + Debug + Show>(
     })
 }
 
-/// Compares lists of conditions. All conditions of a list must be true.
+/// Returns a rule that compares lists of conditions. All conditions of a list must be true.
 pub(super) fn conditions(name: &'static str) -> impl Fn(&Vec<Condition>, &Vec<Condition>, &mut Comparison<'_>) {
     move |old, new, comparison| {
         let text = |list: &[Condition]| list.iter().map(Condition::show).collect::<Vec<_>>().join(" and ");

@@ -38,8 +38,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     });
 }
 
-/// Formats the identity of a device that configuration tools hide because of the described device: product code and
-/// revision.
+/// Formats the product code and revision of a device that this description hides in configuration tools.
 fn hidden(identity: &(Option<u32>, Option<u32>)) -> String {
     [identity.0, identity.1].into_iter().flatten().map(hex32).collect::<Vec<_>>().join(" ")
 }

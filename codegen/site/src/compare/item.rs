@@ -231,7 +231,7 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     }
 }
 
-/// Compares sentinels: raw values that do not represent a number. The Rust type excludes them.
+/// Compares sentinels: raw values that do not represent a number. They are generic arguments of the Rust type.
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
     let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
     fact("special value", Judgment::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);

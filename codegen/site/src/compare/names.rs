@@ -54,7 +54,7 @@ fn entries(group: &Group) -> Vec<String> {
     unique(&name_requests, &[], Case::Snake)
 }
 
-/// Returns whether an object becomes a Rust module with several values.
+/// Returns whether an object becomes a Rust module, and not a single constant.
 pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

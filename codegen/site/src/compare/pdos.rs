@@ -99,7 +99,8 @@ fn communication(
     });
 }
 
-/// Compares whole layouts, because an inserted entry changes the positions of all later entries.
+/// Compares the entries of a PDO. The layout is compared as a whole, because an inserted entry changes the positions of
+/// all later entries.
 fn entries(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let (old_types, new_types) = comparison.types;
     let layouts = [Layout { entries: old, types: old_types }, Layout { entries: new, types: new_types }];
@@ -235,7 +236,8 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces the common beginning of both lists with `…` if it consists of several elements, and likewise the common end.
+/// Replaces the common beginning and the common end of both lists with `…`, each only if it consists of several
+/// elements.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);

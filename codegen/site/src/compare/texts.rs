@@ -54,7 +54,7 @@ fn text_from(from: &Option<Box<FactOrigin>>) -> String {
     from.as_deref().map(origin).unwrap_or_default()
 }
 
-/// Joins all texts of a description, in all languages.
+/// Joins the text of a description, its translations and its origin.
 pub(super) fn described(documentation: Option<&Documentation>) -> String {
     let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
     let parts = [text.clone(), translations.show(), self::text_from(text_from)];

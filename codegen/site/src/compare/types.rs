@@ -40,7 +40,7 @@ pub(super) fn compare_definitions(old: Type, new: Type, comparison: &mut Compari
     }
 }
 
-/// Compares two optional types.
+/// Returns a rule that compares two optional types.
 pub(super) fn compare_optional(
     fact: &'static str,
     judgment: Judgment,
@@ -99,7 +99,7 @@ fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
     Some(types::basic(types, ty)).filter(|basic| *basic != Type::Opaque(None))
 }
 
-/// Returns the effects of a changed basic type.
+/// Returns the effects of a changed type whose old and new basic types are `old` and `new`.
 fn effects(old: Option<Type>, new: Option<Type>) -> Judgment {
     let (Some(old), Some(new)) = (old, new) else { return Judgment::API_AND_WIRE };
     match (old, new) {

@@ -41,7 +41,7 @@ name = "Go"
 request = [{ bytes = [1] }, { field = "target", type = "i16" }]
 "#;
 
-/// Returns the changes between the table and a copy with the replaced texts.
+/// Returns the changes between [`TABLE`] and a copy with the replaced texts.
 fn changes(replaced: &[(&str, &str)]) -> Vec<String> {
     let new = replaced.iter().fold(TABLE.to_owned(), |text, (old, new)| {
         assert!(text.contains(old), "{old}");

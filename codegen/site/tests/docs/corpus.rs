@@ -13,7 +13,8 @@ const THREADS: usize = 2;
 /// Maximum size of an HTML page in bytes.
 const MAX_PAGE: usize = 300_000;
 
-/// Returns the number of links in both formats of a file's documentation. Returns `None` if the file has errors.
+/// Returns the number of links in the HTML pages and in the Markdown pages of a file. Returns `None` if the file has
+/// errors.
 fn links(file: &File) -> Option<(usize, usize)> {
     let compilation = check(Source::new(&*file.name, file.bytes.clone()), &Options::default());
     let pages = |format| {

@@ -5,7 +5,7 @@ use lexibus_codegen::facts::markdown;
 use lexibus_codegen::source::Source;
 use lexibus_site::{Format, Page};
 
-/// Number of modules that fit into the slots 2 and 3.
+/// Number of modules that fit into slots 2 and 3.
 const MODULES: usize = 20;
 
 /// Returns the pages of a device access point that has all facts that the overview shows.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::code::{seq, Data, Doc};
 use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
-/// A constant with a fact about a bus, ready to be printed.
+/// A constant for a fact about a bus or for a composite number, ready to be printed.
 pub(super) struct FactModel {
     pub docs: String,
     pub code: Doc,

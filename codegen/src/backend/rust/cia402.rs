@@ -27,7 +27,7 @@ pub(super) struct TraitModel {
 /// A trait function that returns an object.
 pub(super) struct FunctionModel {
     pub name: &'static str,
-    /// Whether the object is read and whether it is written.
+    /// Whether the operations read the object, and whether they write it.
     pub access: (bool, bool),
     /// Path of the object's constant.
     pub path: String,

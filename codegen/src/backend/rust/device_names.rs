@@ -42,7 +42,8 @@ pub(super) fn module_name(device: &Device, file: &FileInfo) -> String {
 fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -> String {
     let stem = file_name(file);
     let stem = stem.rsplit_once('.').map_or(stem.as_str(), |(stem, _)| stem);
-    // EtherCAT devices are usually known by their order code. The name of such a device is a description.
+    // Engineers usually know an EtherCAT device by its order code. The name of the device in its ESI file is often a
+    // long phrase.
     let short = if device.ethercat.is_some() { device.identity.order_code.as_str() } else { "" };
     let names = [chosen.unwrap_or(""), short, &device.name, stem, "device"];
     let name_request = |name| NameRequest { name, fallback: String::new(), suffix: "Device".into() };

@@ -75,7 +75,8 @@ fn is_communication(item: &Item) -> bool {
     item.bindings.iter().any(|binding| matches!(binding, Binding::Object { index: 0x1000..=0x1FFF, .. }))
 }
 
-/// Returns the default value of an item, unless it is 0 or the maximum of its type. These values often have a special meaning.
+/// Returns the integer default value of an item, unless it is 0 or the maximum of its type. These values often have a
+/// special meaning.
 fn default(item: &Item, ty: Type) -> Option<i128> {
     let number = match item.default {
         Some(Value::Int(number)) => number,

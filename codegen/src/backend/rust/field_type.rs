@@ -104,7 +104,7 @@ fn cast(value: &Doc, ty: &str) -> Doc {
     seq![value, Break, " as ", ty]
 }
 
-/// Returns the Rust type for `bits` bits with the IR type `ty`.
+/// Returns the Rust type of a field that has `bits` bits and the IR type `ty`.
 pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldType {
     // A field with a signed enumeration must have the width of a primitive integer. Only then is the sign bit the most
     // significant bit of this integer.

@@ -32,7 +32,8 @@ pub(super) fn name_request(name: &str) -> NameRequest<'_> {
     NameRequest { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
 }
 
-/// Returns the model of the struct. Returns `None` if the device declares no machine constants.
+/// Returns the model of the struct that contains the machine constants. Returns `None` if the device declares no
+/// machine constants.
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
     let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
     let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);

@@ -28,7 +28,7 @@ pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {
     ALIASES.into_iter().filter(|alias| items().any(|item| item.access == alias.name)).collect()
 }
 
-/// Returns the types of all handles without repetitions, sorted by name.
+/// Returns the private aliases of all handle types (name, access and arguments) without repetitions, sorted by name.
 pub(super) fn types<'o>(objects: impl IntoIterator<Item = &'o ObjectModel>) -> Vec<(String, &'static str, Vec<Doc>)> {
     let all = objects.into_iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();

@@ -29,7 +29,7 @@ pub(super) struct ItemModel {
     pub arguments_at_top: Vec<Doc>,
     /// Type arguments of the handle, as written in the module of all handles.
     pub arguments_in_objects: Vec<Doc>,
-    /// Enumeration or bit field of the value.
+    /// Name of the enumeration or bit field that is the type of the value.
     pub type_name: Option<String>,
     /// Private alias of the handle's type. The alias has no type parameters, so `rustc` has nothing to infer.
     pub alias: String,

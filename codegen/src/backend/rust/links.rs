@@ -111,12 +111,12 @@ pub(super) fn is_derive(name: &str) -> bool {
     DERIVES.contains(&name)
 }
 
-/// Returns the last name of a path.
+/// Returns the last component of a path.
 fn last(path: &str) -> &str {
     path.rsplit(['@', ':']).next().unwrap_or(path)
 }
 
-/// Paths of an item's handle, relative to the device's module.
+/// Paths of an item's constant and accessor, relative to the device's module.
 #[derive(Clone, Debug)]
 struct Handle {
     constant: String,
@@ -263,7 +263,7 @@ impl Links {
     }
 }
 
-/// Returns the sentence about the type of an item's values.
+/// Returns a sentence with a link to the enumeration or bit field `ty`. Returns `None` if `ty` is `None`.
 fn values(ty: Option<&str>, doc_module: DocModule<'_>) -> Option<String> {
     Some(format!("Value type: {}.", doc_module.code(&format!("types::{}", ty?))))
 }

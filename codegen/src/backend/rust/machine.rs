@@ -198,7 +198,8 @@ fn documentation(
 /// The name of a type, and its variants keyed by the positions of the states or commands in the description.
 pub(super) type Variants = (String, HashMap<u32, String>);
 
-/// Returns the type of a machine's states: a generated type or an enumeration.
+/// Returns the type of a machine's states (a generated type or an enumeration), and its variants. Returns `None` if no
+/// such type is generated.
 pub(super) fn states_of(
     context: &Context<'_>,
     machine: &StateMachine,

@@ -87,7 +87,7 @@ pub(super) struct Model {
     #[cfg(feature = "messages")]
     pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
-    /// Configured values of a DCF or XDC.
+    /// Configured values of a DCF, XDC or network file.
     pub configuration: Option<ConfigurationModel>,
     /// Constants for Modbus, for the node-ID range, and for composite numbers.
     pub bus_facts: Vec<FactModel>,

@@ -14,8 +14,8 @@ use crate::facts::{area, register};
 use crate::ir::{Binding, Item, ObjectCode};
 use crate::names;
 
-/// An object or register, ready to be printed. A register or an object with one value becomes a handle. An object with
-/// several values becomes a module.
+/// An object or register, ready to be printed. A register or an object without entries becomes a handle. An object with
+/// entries becomes a module.
 pub(super) struct ObjectModel {
     pub name: String,
     /// Title of the area: a chapter, a range of objects, or "Process images".

@@ -217,7 +217,7 @@ fn covered(fields: &[FieldModel]) -> String {
 /// Returns the name and arguments of the shortest constructor for a mapped entry.
 pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
     let mut arguments = vec![hex16(entry.index), hex8(entry.sub_index), entry.bits.to_string()];
-    // The mapping of padding does not depend on the slot.
+    // The mapping of padding (index 0) does not depend on the slot.
     let is_object = entry.index != 0;
     let path = match (entry.depends_on_slot && is_object, entry.depends_on_slot_group && is_object) {
         (false, false) => "rt::MappedEntry::new",

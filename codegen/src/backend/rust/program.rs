@@ -61,7 +61,8 @@ pub struct ProgramCia402 {
     pub method: String,
     /// Whether the device accepts target positions in the mode "profile position".
     pub positioning: bool,
-    /// A raw target position within the limits of the device.
+    /// A raw target position within the limits of the device. `None` if the device does not accept target positions, or if no suitable
+    /// value was found.
     pub target: Option<i128>,
     /// Call that reads the actual position, such as `position_actual_value()`.
     pub position: Option<String>,
@@ -174,7 +175,8 @@ impl Parts<'_, '_> {
         }
     }
 
-    /// Returns the number that a program reads on a bus.
+    /// Returns the number that a program reads on a bus, preferably a measured value. Returns `None` if there is no
+    /// suitable item.
     fn read(&self, bus: RouteBus) -> Option<ProgramItem> {
         let is_usable = |item: &Item| self.is_on(item, bus, false) && self.sample(item, bus, &[1, 0]).is_some();
         let calls: Vec<(&NamedItem<'_>, String)> = self.calls().filter(|(entry, _)| is_usable(entry.item)).collect();

@@ -53,7 +53,7 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     Some(quantity_type)
 }
 
-/// Returns the raw values with a special meaning, without repetitions.
+/// Returns the raw values with a special meaning, each with the name of the meaning, without repetitions.
 fn sentinels(quantity: &Quantity) -> Vec<(i128, &str)> {
     let mut list: Vec<(i128, &str)> = Vec::new();
     for (value, name) in &quantity.sentinels {

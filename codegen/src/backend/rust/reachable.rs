@@ -3,8 +3,7 @@
 use super::scope::Scope;
 use crate::ir::{Group, ObjectCode};
 
-/// Returns the objects that have values, with the positions of the objects in the list of groups. Type definitions have
-/// no values.
+/// Returns the objects that have values, each with its group number in item IDs. Type definitions have no values.
 pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &'a Group)> + use<'a> {
     scope.positioned_groups().filter(|(_, group)| {
         let is_type =
@@ -13,7 +12,7 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &
     })
 }
 
-/// Returns whether an object becomes a module with several values.
+/// Returns whether an object becomes a module, and not a single handle.
 pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

@@ -115,7 +115,7 @@ impl PathKind {
     }
 }
 
-/// The kind of a route: its paths for reading and writing.
+/// The kinds of the paths that a route uses for reading and writing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum RouteKind {
     #[default]
@@ -160,7 +160,8 @@ pub(super) struct AccessPath<'i> {
     pub window: Option<(usize, u32)>,
     /// Number of bits on the bus if it differs from the number of bits of the item.
     pub resized: Option<u8>,
-    /// Allowed values on the bus, and whether the item is signed.
+    /// Allowed values on the bus, and whether the item is signed. `None` if the description states no separate limits
+    /// for the bus, if the item is accessed through a window, or if the item is not an integer.
     pub limited: Option<(&'i Limits, bool)>,
     /// True if the conversion is signed, that is, if the narrower of the two integers (of the item and on the bus) is
     /// signed.

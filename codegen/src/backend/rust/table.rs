@@ -28,8 +28,8 @@ pub(super) struct EntryModel {
     pub unit: String,
 }
 
-/// Returns the rows of the static table. Registers that are not objects come first, sorted by address. Then come the
-/// objects, sorted by index and sub-index.
+/// Returns the rows of the static table. Registers that are not objects come first, sorted by table and address. Then
+/// come the objects, sorted by index and sub-index.
 pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
     for (_, group) in addressable(context) {

@@ -92,7 +92,7 @@ impl ValueType {
         first.into_iter().chain(letters).collect()
     }
 
-    /// Returns whether the type is a real number. Clippy reports literals of such types that are close to a
+    /// Returns whether the type is a floating-point type. Clippy reports literals of such types that are close to a
     /// mathematical constant.
     pub(super) fn is_real(self) -> bool {
         matches!(self, ValueType::Native { real: 32 | 64, .. })
@@ -134,7 +134,7 @@ impl ValueType {
         }
     }
 
-    /// Returns the expression of an `Initial`. `wrap` converts literals to values.
+    /// Returns the Rust expression of an initial value (`rt::Initial`). `wrap` converts a literal to the expression of a value.
     pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> Doc) -> Doc {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
             // Rust formats a negative number in hexadecimal as its two's complement, so a negative offset is written in
@@ -149,8 +149,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the expression of a `Range`. Limits beyond the range of the type are clamped. Contradictory limits
-    /// become `Range::Full`.
+    /// Returns the Rust expression of a range (`rt::Range`). Integer limits are clamped to the range of the type. Contradictory
+    /// limits, and limits of a type that is not a number, become `Range::Full`.
     pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Doc {
         const FULL: &str = "rt::Range::Full";
         if let Some(list) = self.only(limits, wrap) {
@@ -178,8 +178,8 @@ impl ValueType {
         }
     }
 
-    /// Returns the expression of a `Range` for an integer with fewer bits than its Rust type. The range excludes values
-    /// beyond the integer's width.
+    /// Returns the Rust expression of a range (`rt::Range`) for an integer with fewer bits than its Rust type. The range
+    /// excludes values beyond the integer's width. Returns `None` if the type is not an integer type.
     #[cfg(feature = "messages")]
     pub(super) fn range_within(self, limits: &Limits) -> Option<Doc> {
         if let Some(list) = self.only(limits, &Doc::from) {
@@ -246,7 +246,7 @@ pub(super) fn native(signed: bool, bits: u32) -> &'static str {
     }
 }
 
-/// Formats a number in its usual notation. Large unsigned numbers are hexadecimal, because most of them are bit
+/// Formats a number as a Rust literal. Unsigned numbers above 0xFFFF are hexadecimal, because most of them are bit
 /// patterns, addresses and signatures.
 pub(super) fn number(value: i128, unsigned: bool) -> String {
     if unsigned && value > 0xFFFF {

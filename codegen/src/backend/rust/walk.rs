@@ -13,14 +13,15 @@ use crate::names::{self, Case, NameRequest};
 pub(super) struct WalkModel {
     pub method: String,
     pub docs: Vec<String>,
-    /// Position of the machine in the list of all named machines.
+    /// Position of the state machine in the list of all named state machines.
     pub machine: usize,
-    /// Name of the type of states.
+    /// Name of the Rust enum that contains the states.
     pub states: String,
     /// Variant of the state "Operation enabled" of CiA 402, if the machine has it.
     pub energized: Option<String>,
-    /// Paths of the constants of the status item and the control item.
+    /// Path of the constant of the status item.
     pub status: String,
+    /// Path of the constant of the control item.
     pub control: String,
     /// True if a client can read the control item.
     pub reads_control: bool,
@@ -50,8 +51,8 @@ pub(super) fn models(constants: &Constants<'_, '_>, machines: &[MachineModel]) -
     named.filter_map(lower).collect()
 }
 
-/// Creates the method of a state machine. Returns `None` if a client cannot read the status item or cannot write the
-/// control item.
+/// Creates the method of a state machine. Returns `None` if the status item or the control item has no suitable constant
+/// (see [`word`]). Also returns `None` if a client cannot read the status item or cannot write the control item.
 fn walk(
     constants: &Constants<'_, '_>,
     named: &NamedMachine<'_>,
@@ -86,7 +87,8 @@ fn walk(
     })
 }
 
-/// Returns the constant of a status item or control item.
+/// Returns the constant of a status item or control item. Returns `None` if the item is not an integer of 8, 16 or 32 bits, or
+/// if it has a unit or a scale.
 fn word<'c>(constants: &'c Constants<'_, '_>, reference: &ItemRef) -> Option<Constant<'c>> {
     constants.integer(&|model| Some(model.id) == reference.id).filter(|constant| !constant.is_quantity)
 }

@@ -7,11 +7,11 @@ use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, ItemId, ItemRef, Procedure, Step, WindowSide};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum number of polls until the device clears the number. This value applies if the description states no timeout
-/// in milliseconds.
+/// Maximum number of polls until the device clears the register number in the window. This value applies if the description
+/// states no timeout in milliseconds.
 const POLLS: u32 = 100;
 
-/// A window for reading or writing on one bus.
+/// A window through which a client reads or writes items on one bus.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     pub key: (String, u8, RouteBus, bool),

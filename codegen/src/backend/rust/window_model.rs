@@ -16,7 +16,7 @@ pub(super) struct WindowModel {
     pub facts: Vec<String>,
 }
 
-/// Returns the models of the windows.
+/// Returns a [`WindowModel`] for each window of the context.
 pub(super) fn models(context: &Context<'_>) -> Vec<WindowModel> {
     context.windows.iter().map(|window| model(context, window)).collect()
 }

@@ -57,7 +57,8 @@ fn problem(
     })
 }
 
-/// Returns the physical value of a raw value.
+/// Returns the physical value of a raw value. Returns an error text if the scale needs a value that the conversion does not
+/// state.
 fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: f64) -> Result<f64, String> {
     let model = conversion.model.as_ref().and_then(|model| device.variant(model));
     physical::of_raw(quantity.scale.as_ref(), raw, |name| {
@@ -69,7 +70,8 @@ fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: 
     })
 }
 
-/// Converts the physical value to the unit of the example conversion.
+/// Converts the physical value `number` to the unit of the example conversion. Returns an error text if this unit is neither
+/// the unit of the item nor its machine unit.
 fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number: f64) -> Result<f64, String> {
     let Some(unit) = conversion.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
     match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {

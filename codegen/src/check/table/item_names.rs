@@ -12,8 +12,9 @@ use crate::text::{brief, edit_distance};
 /// similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// Minimum number of item names with a prefix. A prefix is a capital letter that is followed by a lower-case letter, such as `R` in
-/// `Rspeed`. At least nine tenths of all item names must begin with the prefix.
+/// Minimum number of item names that must begin with a prefix before the prefix counts as a naming convention. A prefix is a
+/// capital letter that is followed by a lower-case letter, such as `R` in `Rspeed`. At least nine tenths of the item names that are
+/// single words must begin with the prefix.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

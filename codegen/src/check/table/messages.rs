@@ -1,5 +1,5 @@
 //! Checks that messages consist of whole bytes and fit into a frame, and that the receiver can distinguish them. Also compares
-//! the messages with the tables of commands and states.
+//! the messages with the state-command matrices.
 
 use std::collections::BTreeMap;
 
@@ -171,7 +171,7 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Compares the tables of commands and states with the states in which a device accepts messages.
+/// Compares the state-command matrices with the states in which the device accepts each message.
 fn states(device: &Device, diagnostics: &mut Diagnostics) {
     for machine in &device.machines {
         for row in &machine.outcomes {

@@ -55,7 +55,7 @@ impl Request {
         Some(Request { node, function, start: word(0)?, quantity })
     }
 
-    /// Returns the number of bytes of node address, function code and data.
+    /// Returns the number of bytes of node address, function code and data, without the CRC.
     fn length(&self, bytes: &[u8]) -> usize {
         match self.function {
             16 => 7 + usize::from(bytes.get(6).copied().unwrap_or(0)),
@@ -131,8 +131,8 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
     problems
 }
 
-/// Returns the problem at the end of a frame. `length` is the length of node address, function code and data. A CRC can follow
-/// the data.
+/// Returns the problem at the end of a frame: a wrong length or a wrong CRC. `length` is the length of node address, function code
+/// and data in bytes. The frame may have no CRC.
 fn ending(bytes: &[u8], length: usize) -> Option<String> {
     match bytes.len().checked_sub(length) {
         Some(0) => None,

@@ -10,7 +10,7 @@ use crate::ir::{CompactString, Device, Group, GroupKind, Item};
 use crate::source::Span;
 use crate::text::brief;
 
-/// The maximum number of words in a register name, if other names are single words. A longer name is a description.
+/// The maximum number of words in a register name, if most other names are single words. A longer name is a description.
 const NAME_WORDS: usize = 6;
 
 /// Reports names that are missing, that are hyphenated at the edge of a table column, or that are descriptions. Also

@@ -28,7 +28,7 @@ pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&GivenRef) -> Result<
     Ok(product(&unit.times)? / product(&unit.over)?)
 }
 
-/// Returns the value of a model's constant.
+/// Returns the value of a model's constant, or `None` if the model has no numeric constant with this name.
 pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
     model?.constants.iter().find(|(constant, _)| constant == name)?.1.as_real()
 }

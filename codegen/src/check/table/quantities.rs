@@ -102,7 +102,7 @@ fn machine(device: &Device, unit: &MachineUnit, model: Option<VariantId>) -> f64
     ratio
 }
 
-/// Returns the default value of an item on a model.
+/// Returns the default value of an item on a model, or `None` if there is no numeric default value.
 fn default(item: &Item, model: Option<&Variant>) -> Option<f64> {
     let is_model = |name: &CompactString| model.is_some_and(|model| glob(name, &model.name));
     let variants = item.variants.iter().filter(|variant| variant.models.iter().any(is_model));

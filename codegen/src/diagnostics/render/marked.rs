@@ -77,7 +77,7 @@ pub fn line(source: &Source, number: u32) -> (&str, usize) {
     (line, (line.as_ptr() as usize).saturating_sub(source.text().as_ptr() as usize))
 }
 
-/// Returns the part of `line` to show. The part contains the offset `at`, which is on a character boundary.
+/// Returns the byte range of the part of `line` to show. This part contains the offset `at`, which is on a character boundary.
 pub fn shown(line: &str, at: usize) -> Range<usize> {
     if line.chars().nth(MAX_CHARS).is_none() {
         return 0..line.len();

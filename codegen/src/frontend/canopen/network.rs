@@ -18,7 +18,7 @@ pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns `number` as a node-ID. Reports a number that is outside of the range 1 to 127.
+/// Returns `number` as a node-ID. Returns `None` and reports the number if it is outside of the range 1 to 127.
 pub fn node_id(number: u32, span: Span, diagnostics: &mut Diagnostics) -> Option<u8> {
     let node_id = u8::try_from(number).ok().filter(|node_id| (1..=127).contains(node_id));
     if node_id.is_none() {

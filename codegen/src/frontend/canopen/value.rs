@@ -17,7 +17,7 @@ pub enum Role {
 
 /// Converts texts to values, and reports repairs.
 pub struct Converter<'d> {
-    /// Diagnostics reported so far.
+    /// List to which the converter adds its diagnostics.
     pub diagnostics: &'d mut Diagnostics,
     /// Further names of `$NODEID`.
     pub aliases: &'d [String],
@@ -352,7 +352,7 @@ fn raw(text: &str) -> Value {
     Value::Raw(CompactString::from(text))
 }
 
-/// Reads a finite decimal real number. Rejects the words `inf` and `nan`, which Rust accepts.
+/// Reads a finite decimal real number. Returns `None` for any other text, including the words `inf` and `nan`, which Rust accepts.
 fn finite(text: &str) -> Option<f64> {
     let numeric = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
     let value = numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())?;

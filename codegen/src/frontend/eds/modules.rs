@@ -192,7 +192,7 @@ fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) 
 }
 
 /// Returns the number of sub-indices that a module adds. If this number is 0, the second value is the number of bits
-/// that the module adds to a common sub-index.
+/// that the module adds to a common sub-index. Reports a missing or invalid `Count`, and returns 0 for it.
 fn sub_count(reader: &mut Reader<'_, '_>, raw: &Raw) -> (u16, Option<u16>) {
     let mut report = |span, message: String, label| {
         let help = "write the number of sub-indices, or `0;` and the number of bits";

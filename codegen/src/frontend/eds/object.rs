@@ -271,7 +271,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Converts the text of an entry to a value of type `ty`. A comment after the value is removed, except from texts,
-    /// DOMAIN values and values without a basic type.
+    /// DOMAIN values and values without a basic type. Returns `None` if the entry is missing or empty.
     pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
         let entry = entry?;
         let text = self.doc.value(entry);

@@ -22,7 +22,7 @@ pub(super) struct Reader<'a, 'd> {
     pub orphan_sections: Vec<Section>,
     /// Number of modules that `[SupportedModules]` announces, and the span of the number.
     pub announced_modules: Option<(u32, Span)>,
-    /// Number of items that the `CompactSubObj` entries read so far announce.
+    /// Number of items that were announced by the `CompactSubObj` entries read so far.
     pub derived_items: usize,
     /// Remaining number of text bytes that may be copied: names of unknown sections, and texts of objects with
     /// `CompactSubObj`.
@@ -290,7 +290,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(found.note_at(self.doc.name_span(first), "first occurrence"));
     }
 
-    /// Stores an entry as an extension with the key `section/key`. The section of the entry is unknown to CiA 306.
+    /// Stores an entry as an extension with the key `section/key`. The entry is in a section that CiA 306 does not define, or
+    /// belongs to an object or sub-index that the file does not describe. Drops the entry if the limit for copied text is exceeded.
     pub(super) fn foreign(&mut self, section: &Section, entry: &Entry, extensions: &mut Extensions) {
         let name = self.doc.name(section);
         let key = if self.doc.is_comment(entry) { ";" } else { self.doc.key(entry) };

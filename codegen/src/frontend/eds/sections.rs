@@ -26,7 +26,7 @@ pub(super) enum SectionKind {
     Unknown,
 }
 
-/// Object list: mandatory, optional or manufacturer objects.
+/// Kind of an object list: mandatory, optional or manufacturer-specific objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum List {
     Mandatory,

@@ -70,8 +70,8 @@ fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
     Given { text, span: given.span }
 }
 
-/// Returns the data of the element `number`, counted from 0. The result has the span of the whole value if the value
-/// contains white space.
+/// Returns the data of the element `number`, counted from 0. The result has the span of the whole value if the data differ from
+/// the text of the file, for example because white space was removed.
 fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
     let range = number * digits..(number + 1) * digits;
     let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;

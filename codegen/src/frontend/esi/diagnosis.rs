@@ -104,7 +104,7 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
 }
 
 /// Returns a hexadecimal code such as `#x8000` in the notation that all outputs use (`0x8000`). Returns an empty string
-/// for a decimal code.
+/// for a code that does not begin with `#`.
 fn printed(text: &str, code: i128) -> CompactString {
     match text.trim_start().starts_with('#') {
         true => format!("0x{code:04X}").into(),

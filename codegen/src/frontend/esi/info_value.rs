@@ -34,7 +34,7 @@ pub(super) struct RawValue<'a> {
 /// Notation of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// Bytes in hexadecimal, in memory order.
+    /// Bytes in hexadecimal notation, in memory order.
     Data,
     /// Decimal or hexadecimal number.
     Number,

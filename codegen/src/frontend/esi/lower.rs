@@ -11,7 +11,8 @@ use crate::etg::type_name;
 use crate::frontend::xml::Given;
 use crate::ir::{Group, PdoEntry, PdoEntryKind, ProcessData, Type, TypeDef};
 
-/// Converts the data types, objects and PDOs of a device or module. The PDO entries use the data types.
+/// Converts the data types, objects and PDOs of a device or module. The type of a PDO entry
+/// can be one of these data types.
 ///
 /// PDO entries whose type may be in a file of `other_files` are resolved later.
 pub(super) fn lower<'a>(

@@ -34,7 +34,7 @@ fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Coe> {
     let [info, assign, config, upload, complete, segmented, history] =
         reader.attributes(parent, NAMES)?.map(|given| reader.flag(&given));
     let others = reader.extensions_since(start);
-    // Extension keys have the form `CoE@EdsFile`. The attributes of a protocol in the IR omit the element name.
+    // Extension keys have the form `CoE@EdsFile`. In the IR, the names of protocol attributes omit the element name.
     let attribute = |extension: Extension| {
         let name = extension.key.rsplit('@').next().map(CompactString::from);
         (name.unwrap_or_default(), extension.value)

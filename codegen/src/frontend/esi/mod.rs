@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `read`, `document`, `references`, `description` | the main file, single files, and references to other files |
 //! | `reader`, `text`, `number`, `slot_index` | reader state; texts, numbers and indices of ETG.2000 |
-//! | `budget` | limits for the copies that short references cause |
+//! | `budget` | limits on the items and texts that references copy |
 //! | `info` | the vendor, groups, lists of devices and modules |
 //! | `device`, `device_info`, `eeprom` | devices |
 //! | `sync`, `mailbox`, `clocks` | FMMUs and sync managers; the mailbox; distributed clocks |

@@ -117,7 +117,8 @@ impl<'a> Reader<'a, '_> {
         Some(number)
     }
 
-    /// Reads a number of type `T`. Reports a text that is not a number, and a number that does not fit `T`.
+    /// Reads a number of type `T`. Returns `None` for an empty text. Also returns `None` and reports the text if it is not a
+    /// number, or if the number does not fit `T`.
     pub fn int<T: TryFrom<i128>>(&mut self, given: &Given<'_>, what: &str) -> Option<T> {
         if given.is_empty() {
             return None;
@@ -133,13 +134,14 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// Reads an element that contains a number.
+    /// Reads an element that contains a number. Errors are handled as in [`int`](Self::int).
     pub fn number<T: TryFrom<i128>>(&mut self, tag: &Tag<'a>, what: &str) -> Read<Option<T>> {
         let given = self.text(tag)?;
         Ok(self.int(&given, what))
     }
 
-    /// Reads hexadecimal bytes, which may contain white space.
+    /// Reads bytes in hexadecimal notation, ignoring white space. Returns `None` and reports the text if it contains any other
+    /// character. Reports an odd number of digits, and reads the first byte from one digit.
     pub fn octets(&mut self, given: &Given<'_>) -> Option<Vec<u8>> {
         let digits = given.text.bytes().filter(|byte| !byte.is_ascii_whitespace());
         let count = digits.clone().count();

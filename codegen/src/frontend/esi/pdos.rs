@@ -44,7 +44,7 @@ impl<'a> Pdos<'a> {
         Ok(())
     }
 
-    /// Adds the PDOs to `data`, RxPDOs first. `resolve` returns the type of a PDO entry.
+    /// Stores the PDOs in `data`, RxPDOs first. `resolve` returns the type of a PDO entry.
     pub fn finish(self, data: &mut ProcessData, mut resolve: impl FnMut(&Given<'a>, &PdoEntry) -> Type) {
         let mut list = self.list;
         let entries = list.iter_mut().flat_map(|pdo| &mut pdo.entries);

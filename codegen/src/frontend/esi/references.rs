@@ -173,7 +173,7 @@ fn open(
     Some((read, length))
 }
 
-/// Appends the contents of `read` to `description`. Returns the references in `read` to further files.
+/// Appends the contents of `read` to `description`. Returns the references to further files that `read` contains.
 fn join(description: &mut Description, read: Description) -> Vec<(Owner, Reference)> {
     let Description { catalog: mut other, references, entry_types, .. } = read;
     let catalog = &mut description.catalog;

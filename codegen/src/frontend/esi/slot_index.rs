@@ -25,7 +25,8 @@ impl<'a> SlotIndex<'a> {
         Ok(SlotIndex { given: reader.content()?, slot, group, factor })
     }
 
-    /// Returns the index for a channel of a template: `index + factor * channel`.
+    /// Returns the index for a channel of a template: `index + factor * channel`. Returns `None` if the index is missing,
+    /// invalid or out of range.
     pub fn of_channel<T>(&self, reader: &mut Reader<'_, '_>, channel: u16, what: &str) -> Option<T>
     where
         T: TryFrom<i128> + Into<i128>,

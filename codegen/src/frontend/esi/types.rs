@@ -363,7 +363,8 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    /// Returns the element type, lower bound and number of elements of an array.
+    /// Returns the element type, the lower bound of the first dimension, and the total number of elements of an array. Returns
+    /// `None` for any other type.
     pub fn elements(&self, ty: Type) -> Option<(Type, i32, u32)> {
         let Type::Named(TypeId(at)) = ty else { return None };
         match &self.defs.get(at as usize)?.shape {
@@ -497,7 +498,7 @@ struct Seen<'n> {
 }
 
 impl<'n> Seen<'n> {
-    /// Returns the span of an earlier name with the same text. Adds a new name to the set.
+    /// Returns the span of an earlier name with the same text. If there is none, adds the name and returns `None`.
     fn insert(&mut self, name: &'n Given<'_>) -> Option<Span> {
         if let Some(same) = self.few.iter().find(|other| other.text == name.text) {
             return Some(same.span);
@@ -551,8 +552,8 @@ fn extents(one: &Field, other: &Field) -> String {
     format!("{} and {}", bits(one), bits(other))
 }
 
-/// Returns the lower bound and the number of elements of each dimension. If the array has one dimension and the number
-/// is missing or 0, calculates the number from `BitSize`.
+/// Returns the lower bound and the number of elements of each dimension, for at most three dimensions. If the array has one
+/// dimension and the number is missing or 0, calculates the number from `BitSize`. Reports a missing number and the number 0.
 fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
     const MAX_DIMENSIONS: usize = 3;
     if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {

@@ -26,7 +26,8 @@ pub(super) fn convert(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type,
     }
 }
 
-/// Converts hexadecimal bytes, least significant byte first.
+/// Converts bytes in hexadecimal notation to a value. The least significant byte of a number comes first. Returns `None` if the
+/// text contains characters other than hexadecimal digits and white space.
 fn data(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Option<Value> {
     let bytes = reader.octets(&raw.given)?;
     match ty {
@@ -121,7 +122,7 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
     if (low..=high).contains(&value) {
         return if ty == Type::Boolean { Value::Bool(value != 0) } else { Value::Int(value) };
     }
-    // Hexadecimal notation can express a negative number only as a bit pattern.
+    // A hexadecimal number without a sign can be the bit pattern of a negative number.
     if number.hex && ty.is_signed() && value <= high - low {
         return Value::Int(value - (high - low + 1));
     }

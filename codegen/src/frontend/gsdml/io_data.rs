@@ -86,8 +86,8 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// Returns the declared length of a data item in bytes. Reports a length that contradicts the data type, and a
-    /// missing length if the data type does not define a length.
+    /// Returns the declared length of a data item in bytes, or `None` if it is missing or invalid. Reports a length that
+    /// contradicts the data type, and a missing length if the data type does not define a length.
     fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: &Given<'a>) -> Option<u32> {
         let length = self.unsigned(given, u16::MAX.into(), "length in bytes");
         let fixed = item.found.and_then(DataType::bytes);

@@ -53,8 +53,8 @@ impl<'a> Reader<'a, '_> {
         Location { data_type, ty, bit_offset, bits }
     }
 
-    /// Returns the data type that `given` names. Reports a missing name, a name in the wrong case, and a type that
-    /// GSDML does not define.
+    /// Returns the data type that `given` names, ignoring case. Reports a name in the wrong case. Returns `None` and reports the
+    /// name if it is missing or GSDML does not define it.
     pub fn data_type(&mut self, tag: &Tag<'a>, given: &Given<'a>) -> Option<DataType> {
         if !self.require(tag, given, "DataType", "kept as raw bytes") {
             return None;

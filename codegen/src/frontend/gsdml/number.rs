@@ -38,13 +38,13 @@ impl<'a> Reader<'a, '_> {
         value
     }
 
-    /// Reads a 16-bit decimal number.
+    /// Reads a 16-bit number as [`unsigned`](Self::unsigned) does.
     pub fn unsigned16(&mut self, given: &Given<'_>, what: &str) -> Option<u16> {
         self.unsigned(given, u16::MAX.into(), what).and_then(|value| u16::try_from(value).ok())
     }
 
-    /// Reads an ident number such as `0x0000430A`, with any number of digits. Reports a missing prefix, but still reads
-    /// the number.
+    /// Reads an ident number such as `0x0000430A`, with any number of digits, up to `max`. Reports a missing prefix, but still
+    /// reads the number. Returns `None` and reports the text if it is not such a number.
     pub fn ident(&mut self, given: &Given<'_>, max: u32, what: &str) -> Option<u32> {
         if given.is_missing() {
             return None;

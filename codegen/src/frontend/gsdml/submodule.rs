@@ -25,7 +25,7 @@ pub(super) struct Holder<'h> {
     pub settings: Option<&'h mut ProfinetSettings>,
 }
 
-/// Returns the kind of submodule that the element `element` describes.
+/// Returns the kind of submodule that the element `element` describes, or `None` if the element describes no submodule.
 fn kind_of(element: &str) -> Option<SubmoduleKind> {
     match element {
         "VirtualSubmoduleItem" => Some(SubmoduleKind::Virtual),
@@ -216,7 +216,8 @@ fn default_subslot(kind: SubmoduleKind) -> u16 {
     }
 }
 
-/// Adds the attributes of a child element to a submodule, with the element's name as a prefix.
+/// Adds the attributes of a child element to a submodule, with the element's name as a prefix:
+/// `TimingProperties@PreferredSendClock`.
 fn add(element: &str, others: Attributes, submodule: &mut Submodule) {
     let named = others.into_iter().map(|(key, value)| (format_compact!("{element}@{key}"), value));
     submodule.attributes.extend(named);

@@ -168,7 +168,7 @@ impl<'a> TextList<'a> {
         diagnostics.push(diagnostic);
     }
 
-    /// Returns the text with the identifier `id`, and its translations.
+    /// Returns the text with the identifier `id` and its translations, or `None` if the list does not contain the text.
     pub fn find(&mut self, id: &str) -> Option<(CompactString, Texts)> {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id => self.next,

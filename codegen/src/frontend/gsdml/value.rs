@@ -139,8 +139,8 @@ fn boolean(text: &str) -> Option<Value> {
     }
 }
 
-/// Reads an integer in an allowed or default value. Also returns whether the number is decimal; if not, it is
-/// hexadecimal.
+/// Reads an integer in an allowed or default value. The Boolean is true for a decimal number, and false for a hexadecimal
+/// number.
 fn whole(text: &str) -> Option<(i128, bool)> {
     if let Ok(value) = text.parse::<i64>() {
         return Some((value.into(), true));

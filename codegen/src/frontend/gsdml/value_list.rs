@@ -50,7 +50,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Reads a value or range, such as `7` or `0..3`.
+/// Reads a value or range, such as `7` or `0..3`. Returns `None` for a descending range and for invalid text.
 fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
     match text.split_once("..") {
         Some((first, last)) => {

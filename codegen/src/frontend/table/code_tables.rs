@@ -140,7 +140,7 @@ impl<'t> Cell<'t> {
     }
 }
 
-/// Returns the models and firmware versions that have a code.
+/// Returns the models and firmware versions that have a code, or `None` if the row states neither.
 fn availability(row: &CodeTableRow) -> Option<Box<Availability>> {
     let availability = Availability {
         models: row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),

@@ -53,7 +53,8 @@ struct About<'t> {
 }
 
 impl Definitions {
-    /// Returns the type of a named definition with the underlying integer type `base`. Reports a name without a definition.
+    /// Returns the type of a named definition with the underlying integer type `base`. Returns `None` and reports the name if
+    /// it has no definition.
     pub fn named(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -366,7 +367,7 @@ impl Definitions {
 }
 
 /// Returns the first bit and the number of bits that a key names. The key `0x221:3-2` names the bits 3 and 2 of the byte at the
-/// address 0x221.
+/// address 0x221. `first` is the address of the first byte. Returns `None` and reports the key if it is invalid.
 fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first: Option<u32>) -> Option<(u8, u8)> {
     let Some((byte, bits)) = key.value.split_once(':') else {
         let found = notation::bits(&key.value);
@@ -442,7 +443,7 @@ pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Opti
     }
 }
 
-/// Returns the integer type called `name`. Reports a name that is not an integer type.
+/// Returns the integer type called `name`. Returns `None` and reports the name if it is not an integer type.
 pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<Type> {
     let ty = types::named(&name.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
     let integer = ty.filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));

@@ -52,7 +52,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     buses
 }
 
-/// Reads the range of valid node-IDs.
+/// Reads the range of valid node-IDs. Returns `None` and reports a range that is descending or not within 1 to 255.
 fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8, u8)> {
     let range = match &given.value {
         NumberOrText::Number(number) => Some((i128::from(*number), i128::from(*number))),

@@ -267,7 +267,7 @@ pub enum Scaling {
 tables! {
     /// Rule that converts a raw value to a physical value.
     pub struct ScaleRule {
-        /// Physical value of 1 LSB.
+        /// Scale factor by which the raw value is multiplied. Default: 1.
         pub factor: Option<f64>,
         /// Physical value of the raw value 0.
         pub offset: Option<f64>,
@@ -281,7 +281,7 @@ tables! {
         pub fraction: Option<u8>,
         /// Name of the model constant that is the base value of the fraction: physical value = fraction × constant.
         pub of: Option<At<String>>,
-        /// Item that contains the exponent.
+        /// Item that contains the exponent of the power by which the raw value is multiplied.
         pub exponent: Option<At<String>>,
         /// Base of the power: 10 (default) or 2.
         pub base: Option<u8>,
@@ -295,7 +295,7 @@ tables! {
         pub chose: String,
         /// Reason for the assumption.
         pub why: String,
-        /// Page or line of the ambiguity.
+        /// Page or line of the manual that contains the ambiguity, or several pages or lines.
         pub cite: Option<OneOrMany<NumberOrText>>,
         /// Consequence of a wrong assumption: `hazard` (damage or motion), `value` (a wrong value) or `print` (a misprint only).
         #[cfg_attr(test, schemars(transform = schema::words("hazard value print")))]
@@ -404,7 +404,7 @@ tables! {
         pub sections: Entries<String>,
     }
 
-    /// Devices that an overlay changes, and the reason for the overlay.
+    /// Devices or modules that an overlay changes, and the reason for the overlay.
     pub struct OverlayTable: doc {
         /// Devices or modules that the overlay changes.
         pub applies = "for": Option<AppliesTable>,
@@ -729,7 +729,7 @@ tables! {
         pub scale: Option<At<Scaling>>,
     }
 
-    /// Condition on some bits of an item.
+    /// Condition that compares some bits of an item.
     pub struct ConditionTable {
         /// Bits that the condition compares.
         pub mask: Option<u64>,
@@ -763,7 +763,7 @@ tables! {
         pub default: Option<At<Literal>>,
     }
 
-    /// Unit with a scale factor.
+    /// Named unit, with its scale, offset and machine unit.
     pub struct UnitTable: doc {
         /// Symbol of the physical unit.
         pub symbol: Option<String>,
@@ -781,9 +781,9 @@ tables! {
     pub struct MachineUnitTable {
         /// Symbol of the machine unit.
         pub unit: Option<At<String>>,
-        /// Properties by which the physical value is multiplied.
+        /// Machine properties from `[given]` by which the physical value is multiplied.
         pub times: Vec<At<String>>,
-        /// Properties by which the physical value is divided.
+        /// Machine properties from `[given]` by which the physical value is divided.
         pub over: Vec<At<String>>,
     }
 
@@ -1017,9 +1017,9 @@ tables! {
     pub struct MatrixCell: cite {
         /// Outcome, in the notation of a cell without further facts.
         pub to: Option<At<String>>,
-        /// Number of a note of the matrix.
+        /// Number of the note in `notes` of the matrix that applies to the cell.
         pub note: Option<At<NumberOrText>>,
-        /// Condition of the outcome, in your own words.
+        /// Condition under which the outcome occurs, in your own words.
         pub doc: Option<String>,
     }
 
@@ -1141,7 +1141,7 @@ tables! {
         pub seed: u32,
         /// First message field that the checksum covers. Default: the byte after `start`.
         pub check_from: Option<At<String>>,
-        /// Whether the checksum is escaped, too.
+        /// Whether the bytes of the checksum are escaped, too. Default: `true` if `escape` is present.
         pub check_escaped: Option<bool>,
         /// Maximum number of data bytes per frame, without start byte, end byte, escape bytes and checksum.
         pub max_data: Option<u16>,
@@ -1165,7 +1165,7 @@ tables! {
         pub examples: Vec<At<ExampleTable>>,
         /// Values that other items must have when the message is sent.
         pub when: Option<Conditions>,
-        /// Approximate time in ms until a late reply arrives.
+        /// Approximate time in ms from the request to the reply, if the device delays the reply.
         pub reply_time: Option<u32>,
         /// Message after which the device answers with this reply, if several messages have identical requests.
         pub after: Option<At<String>>,
@@ -1264,7 +1264,7 @@ tables! {
         pub lexibus: Option<At<u32>>,
         /// Device that the table describes.
         pub device: Option<At<DeviceTable>>,
-        /// Devices that the overlay changes, and the reason for the overlay.
+        /// Devices or modules that the overlay changes, and the reason for the overlay.
         pub overlay: Option<At<OverlayTable>>,
         /// Name and number of the profile, and the devices that follow it.
         pub profile: Option<At<ProfileTable>>,
@@ -1282,13 +1282,13 @@ tables! {
         pub spaces: Entries<SpaceTable>,
         /// Chapters with the rows, in the order of the manual.
         pub chapters: Vec<At<ChapterTable>>,
-        /// Units with a scale, by name.
+        /// Definitions of units, by name of the unit.
         pub units: Entries<UnitTable>,
-        /// Properties of the machine, such as the pitch of a screw.
+        /// Properties of the machine by name, such as the pitch of a screw. Conversions to machine units use these properties.
         pub given: Entries<GivenTable>,
         /// Enumerations, by name.
         pub enums: Entries<EnumTable>,
-        /// Named bits and bit fields, by name.
+        /// Definitions of the bits and bit fields of an integer, by name of the definition.
         pub bits: Entries<BitsTable>,
         /// Rules that derive the objects of further axes from those of the first axis.
         pub axes: Option<At<AxesTable>>,

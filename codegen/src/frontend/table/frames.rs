@@ -6,7 +6,7 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, MessageExample};
 
-/// Adds to the device a Modbus request and reply that the manual prints. Reports a frame that has neither.
+/// Adds printed Modbus frames to the device: a request, a reply, or both. Reports an example that has neither.
 pub(super) fn frame(reader: &mut Reader<'_, '_>, table: &At<FrameTable>, device: &mut Device) {
     let frame = &table.value;
     if frame.request.value.is_empty() && frame.reply.value.is_empty() {

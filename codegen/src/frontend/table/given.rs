@@ -35,7 +35,7 @@ pub(super) fn number(
     }
 }
 
-/// Reads the machine unit of a unit in the table `[units]`.
+/// Reads the machine unit of a unit in the table `[units]`. Returns `None` if the machine unit has no symbol.
 pub(super) fn unit(
     reader: &mut Reader<'_, '_>,
     table: &MachineUnitTable,

@@ -203,7 +203,7 @@ fn completion(
         },
         TextOr::Table(table) => match (&table.poll, table.delay) {
             (Some(item), None) => {
-                // The text after the dot names a bit of the item or field. Only the item or field is looked up.
+                // Text after a dot names a bit of the item or field. Only the item or field is looked up.
                 let whole = item.value.split('.').next().unwrap_or_default();
                 if !replies.iter().any(|field| field == whole) {
                     let name = At { value: whole.to_owned(), start: item.start, end: item.end };
@@ -375,7 +375,8 @@ impl Fields<'_, '_, '_> {
         MessageField::Echo { field: text(echo), bytes }
     }
 
-    /// Reads a range of bytes. Returns the numbers of the first and the last byte.
+    /// Reads a range of bytes. Returns the numbers of the first and the last byte. Returns `None` and reports the range if it is
+    /// invalid.
     fn bytes<T: TryFrom<i128> + PartialOrd>(&mut self, given: &At<NumberOrText>) -> Option<(T, T)> {
         let range = notation::range(&given.value.to_string());
         let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));

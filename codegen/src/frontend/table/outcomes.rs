@@ -152,7 +152,8 @@ fn cell(
     (outcomes(reader, &to.value, reader.span(to), names), documentation)
 }
 
-/// Reads the outcomes in a cell: `same`, `refused`, `?`, or a sequence of states. The word `or` separates alternatives.
+/// Reads the outcomes in a cell: `same`, `refused`, or a sequence of states. The word `or` separates alternatives. Returns no
+/// outcome for `?`, which means that the manual does not state the outcome.
 fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'_>) -> Vec<Outcome> {
     if text.trim() == "?" {
         return Vec::new();

@@ -36,7 +36,7 @@ impl<'d> Targets<'d> {
     }
 }
 
-/// Reads an element of `[[pdos]]`.
+/// Reads an element of `[[pdos]]`. Reports an element without an index or a direction, and returns `None`.
 pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &Targets<'_>) -> Option<Pdo> {
     let given = &table.value;
     let direction = direction(reader, given.direction.as_ref());

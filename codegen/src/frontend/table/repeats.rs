@@ -11,7 +11,7 @@ use crate::ir::Value;
 use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, MAX_LISTED_VALUES, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
 
-/// Budget for the items that rows create.
+/// Budget for the items that rows create, and for the texts that rows copy.
 pub(super) struct Repeats {
     /// Remaining number of items; `None` after the first excess was reported.
     left: Option<usize>,
@@ -29,24 +29,26 @@ impl Repeats {
         self.defaults[1] = defaults.map_or(0, items);
     }
 
-    /// Returns whether the budget allows a row to inherit the defaults of the file and of the chapter.
+    /// Subtracts the defaults of the file and of the chapter from the budget. Returns false if the budget is too small for a row
+    /// to inherit them.
     pub fn inherit(&mut self, reader: &mut Reader<'_, '_>, span: Span) -> bool {
         self.take(reader, self.defaults.iter().sum(), span)
     }
 
-    /// Returns whether the budget allows a row to use a unit. The row copies the texts of the unit.
+    /// Subtracts the texts of a unit, which a row copies, from the budget. Returns false if the budget is too small.
     pub fn unit(&mut self, reader: &mut Reader<'_, '_>, units: &ByName<UnitTable>, name: &str, span: Span) -> bool {
         let items = units.get(name).map_or(0, |(_, unit)| beyond(length(unit)));
         self.take(reader, items, span)
     }
 
-    /// Returns whether the row `key` may describe `count` items.
+    /// Subtracts the items of the row `key` after the first one from the budget. Returns false if the budget is too small for
+    /// `count` items.
     pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, key: &str, row: &Row, count: u32, span: Span) -> bool {
         let each = || 1 + items(row) + beyond(key.len()) + expanded(row);
         count < 2 || self.take(reader, (count as usize - 1).saturating_mul(each()), span)
     }
 
-    /// Returns whether a row of an overlay may change `count` items.
+    /// Subtracts the copied texts of a row that changes `count` items from the budget. Returns false if the budget is too small.
     pub fn patch(&mut self, reader: &mut Reader<'_, '_>, row: &Row, count: usize, span: Span) -> bool {
         count < 2 || self.take(reader, (count - 1).saturating_mul(items(row)), span)
     }
@@ -77,8 +79,8 @@ fn items(row: &Row) -> usize {
     beyond(length(row))
 }
 
-/// Returns the size of the value ranges in a row, converted to a number of items. Each item stores every value of these
-/// ranges separately.
+/// Returns the maximum size of the values in the ranges of `when` and `writable`, converted to a number of items. Each item
+/// stores every value of these ranges separately.
 fn expanded(row: &Row) -> usize {
     let has_range =
         |list: &[Literal]| list.iter().any(|literal| matches!(literal, Literal::Text(text) if text.contains("..")));

@@ -1,4 +1,4 @@
-//! Converts rows to items.
+//! Converts rows of a register table to items.
 
 use compact_str::CompactString;
 

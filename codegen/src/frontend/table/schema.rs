@@ -86,7 +86,8 @@ fn texts(schema: &mut Schema, change: &mut dyn FnMut(&mut Map<String, Value>)) {
     }
 }
 
-/// Allows only the words in `words`. The words are one text, because the derive macro of `schemars` cannot parse a list of texts.
+/// Allows only the words in `words`, and options (`$name`). The words are one text, because the derive macro of `schemars` cannot
+/// parse a list of texts.
 pub(super) fn words(words: &'static str) -> impl FnMut(&mut Schema) {
     let words: Vec<&str> = words.split(' ').collect();
     move |schema| {
@@ -96,7 +97,7 @@ pub(super) fn words(words: &'static str) -> impl FnMut(&mut Schema) {
     }
 }
 
-/// Allows only names of data types.
+/// Allows only names of data types, and options (`$name`).
 pub(super) fn types(schema: &mut Schema) {
     let grammar = concat!(
         r"^((bool|[ui]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|(str|wstr|bytes)( *\( *[0-9]+ *\))?",

@@ -95,8 +95,8 @@ fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, name: &str, names:
     }
 }
 
-/// Compares an item with a statement. Returns whether the item and the statement differ. `subject` is the name of the item in
-/// messages.
+/// Compares an item with a statement, and reports the differences. Returns whether there is a difference. `subject` is the name
+/// of the item in messages.
 fn of_item(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,

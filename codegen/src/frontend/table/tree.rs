@@ -20,7 +20,7 @@ use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, similar, standard_and_clause};
 
-/// Maximum number of names that a message lists if no name is similar.
+/// If no name is similar, a message lists all known names, unless there are more than this number.
 const MAX_LISTED: usize = 12;
 
 /// Number of diagnostics after which messages no longer suggest names.
@@ -119,7 +119,7 @@ impl<'a> Reader<'a, '_> {
         sorted(table)
     }
 
-    /// Returns the elements of an array of tables.
+    /// Returns the elements of an array of tables. Reports any other value.
     pub fn elements(&mut self, node: Node<'a>, what: &str) -> Vec<Node<'a>> {
         let span = node.span();
         match node.into_inner() {

@@ -1,6 +1,7 @@
 //! Known unit symbols, and other spellings of units.
 
-/// Symbols of single units: SI units and units of drives. Other known units are products, quotients and powers of these symbols.
+/// Symbols of single units: SI units, also with prefixes, and other units that device manuals use. Products, quotients and powers
+/// of these symbols are known units, too.
 const SYMBOLS: [&str; 90] = [
     "%", "%RH", "1", "A", "Ah", "Bd", "C", "F", "GHz", "H", "Hz", "J", "K", "MB", "MHz", "Mbit", "MΩ", "N", "Nm", "Pa",
     "V", "VA", "VAh", "W", "Wh", "bar", "bit", "byte", "cm", "count", "counts", "d", "dB", "deg", "g", "h", "in", "kA",
@@ -9,7 +10,7 @@ const SYMBOLS: [&str; 90] = [
     "Ω", "L", "hPa", "kPa", "kvar", "lm", "lx", "mL", "mS", "mg", "ml", "mol", "pH", "psi", "t", "dBm", "S",
 ];
 
-/// Unit symbols that contain `°` or `µ`.
+/// Unit symbols that contain `°`, or `µ` as a micro sign or as a Greek letter.
 const SIGNS: [&str; 13] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm", "µS", "µg"];
 
 /// Returns whether `symbol` is a known unit symbol, or a product, quotient or power of known symbols such as `rev/s²`.

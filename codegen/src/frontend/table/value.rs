@@ -37,7 +37,8 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
     }
 }
 
-/// Converts a list of values and ranges (`"3..7"`) to pairs of first and last value.
+/// Converts a list of values and ranges (`"3..7"`) to pairs of first and last value. Reports invalid elements, and leaves them
+/// out.
 pub(super) fn ranges(
     reader: &mut Reader<'_, '_>,
     list: &[Literal],
@@ -79,7 +80,8 @@ fn has_numbers(ty: Type) -> bool {
     matches!(ty, Type::Integer(_) | Type::Unsigned(_) | Type::Opaque(_) | Type::Boolean)
 }
 
-/// Converts a list of values and ranges to a list of single values.
+/// Converts a list of values and ranges to a list of single values. Reports a range that would extend the list to more than
+/// [`MAX_LISTED_VALUES`] values, and leaves it out.
 pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32, u32), ty: Type) -> Vec<Value> {
     let mut values: Vec<Value> = Vec::new();
     let fits = |values: &[Value], low: i128, high: i128| {
@@ -101,7 +103,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32,
 }
 
 /// Converts a literal to a value. `is_pattern` means that the digits are a bit pattern, whose highest bit is the sign
-/// of a signed type.
+/// of a signed type. Returns `None` if the type has no such value.
 pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
     if let Literal::Text(text) = literal {
         return of_text(text, ty);

@@ -79,7 +79,7 @@ pub(super) struct Unit<'a> {
 /// Parameter with its template. Facts of the parameter take precedence over those of the template.
 #[derive(Clone, Copy)]
 pub(super) struct View<'p, 'a> {
-    /// Position in the list of parameters.
+    /// Position of the parameter in [`Application::parameters`].
     pub position: Option<usize>,
     parameter: Option<&'p Parameter<'a>>,
     template: Option<&'p Parameter<'a>>,

@@ -44,7 +44,7 @@ pub(super) struct RawType<'a> {
     pub origin: Origin,
 }
 
-/// Composition of a data type.
+/// Kind of a data type, with its parts: an array, a structure, an enumeration, or a type derived from another type.
 pub(super) enum DataTypeKind<'a> {
     Array {
         dimensions: Vec<(i32, u32)>,

@@ -87,7 +87,8 @@ fn name<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, name: &mut CompactString
     Ok(())
 }
 
-/// Reads an order number. The first order number is that of the device. The others belong to variants of the device.
+/// Reads an order number. The first order number is that of the device. The others, which belong to variants of the device, become
+/// extensions.
 fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<()> {
     let given = reader.text(tag)?;
     if device.identity.order_code.is_empty() {

@@ -313,8 +313,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 }
 
-/// Stores the exact list of allowed values as an extension. The limits of the item contain at most the minimum and the
-/// maximum of this list.
+/// Stores the exact list of allowed values as an extension, because the limits of the item contain only a minimum and a
+/// maximum.
 fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
     let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.non_empty()), text(range.high.non_empty()));

@@ -10,7 +10,7 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::{CanOpenSettings, CanOpenSpans, CompactString, Device, DynamicChannel};
 use crate::syntax::xml::Tag;
 
-/// Reads an `ApplicationLayers` element: the object list, dummy entries and dynamic channels.
+/// Reads an `ApplicationLayers` element: the object list, dummy entries, dynamic channels and identity.
 pub(super) fn application_layers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,

@@ -43,7 +43,7 @@ impl Reader<'_, '_> {
         value
     }
 
-    /// Reads a real number.
+    /// Reads a finite real number. Reports any other text.
     pub fn real(&mut self, given: &Given<'_>, what: &str) -> Option<f64> {
         let value = given.text.parse::<f64>().ok().filter(|value| value.is_finite());
         if value.is_none() {

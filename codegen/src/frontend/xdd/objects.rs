@@ -290,7 +290,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Returns the object code of a sub-object.
+    /// Returns the object code of a sub-object, or VAR if the sub-object has none.
     fn sub_code(&mut self, raw: &Raw<'a>) -> ObjectCode {
         let given = raw.object_type();
         given.map_or(ObjectCode::Var, |given| given.of_sub_index(&TERMS, self.reader.diagnostics))
@@ -341,7 +341,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         }
     }
 
-    /// Reads the attribute `objFlags`, which has four hexadecimal digits.
+    /// Returns the hexadecimal number in the attribute `objFlags`, or 0 if the attribute is missing or invalid.
     pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
         self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "value of objFlags").unwrap_or(0)
     }

@@ -165,7 +165,7 @@ fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, O
 }
 
 impl<'a> Application<'a> {
-    /// Returns the type to which `ty` refers.
+    /// Returns the type to which `ty` refers. Reports a reference to an unknown type, and returns raw bytes.
     pub fn resolve(&self, reader: &mut Reader<'_, '_>, ty: &TypeRef<'a>) -> Type {
         match ty {
             TypeRef::Basic(ty, _) => *ty,

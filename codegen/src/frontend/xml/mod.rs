@@ -1,4 +1,4 @@
-//! Reader base of the XML formats ESI, XDD and GSDML.
+//! Common reader of the XML formats ESI, XDD and GSDML.
 //!
 //! A front end reads a document with a [`Reader`]. The [`Format`] of the reader contains the names and diagnostic codes
 //! of the standard, and the state of the front end. An element is read in three steps:

@@ -1,4 +1,4 @@
-//! Tests of the XML reader base with a minimal format.
+//! Tests of the common XML reader with a minimal format.
 
 use super::{Format, Given, Reader};
 use crate::diagnostics::{codes, Code, Diagnostics};

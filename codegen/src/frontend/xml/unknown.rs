@@ -22,8 +22,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         self.keep(tag)
     }
 
-    /// Reports an attribute that the standard does not define for this element, and stores it as an extension. `missing` contains the
-    /// attributes that the element lacks.
+    /// Reports an attribute that the standard does not define for this element, and stores it as an extension. Attributes in
+    /// [`Format::KEPT`] are stored without a report. `missing` contains the attributes that the element lacks.
     pub(super) fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>, missing: &[&str]) {
         let is_misspelled = self.misspelled(attribute.name, attribute.name_span, missing);
         if !is_misspelled && self.diagnostics.wants(F::UNKNOWN) && !F::KEPT.contains(&(tag.name, attribute.name)) {

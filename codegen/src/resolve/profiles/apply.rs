@@ -73,6 +73,7 @@ fn is_device_of(device: &Device, profile: &Profile) -> bool {
 
 /// Returns whether a device or module follows a profile. It follows a profile that it declares. If it declares no profile except
 /// `MODULAR`, it also follows each profile whose identifying object it has. Only the object identifies a profile without a number.
+/// Profiles of PROFINET submodules (with an API number) apply to no device or module.
 fn follows(numbers: &[u32], groups: &[Group], profile: &Profile) -> bool {
     if profile.api.is_some() {
         return false;

@@ -43,7 +43,7 @@ pub(crate) struct Described {
     pub indices: (u16, u16),
     /// First and last sub-index; `None` for the objects themselves.
     pub subs: Option<(u8, u8)>,
-    /// Type of the entries. The signedness of this type is ignored.
+    /// Expected type of the objects or sub-indices, without regard to the signedness; `None` = any type.
     pub ty: Option<Type>,
     /// Buses on which the facts apply; `None` means all buses.
     pub buses: Option<ObjectBuses>,
@@ -111,8 +111,8 @@ impl Profile {
         when.values.iter().map(name_of).collect()
     }
 
-    /// Returns whether a type has the kind and length that the profile expects, or the profile expects no particular type. The
-    /// signedness of integers may differ, but a signed type never matches a bit field.
+    /// Returns whether a type has the kind that the profile expects and, if it is an integer, the expected length. Returns true if
+    /// the profile expects no particular type. The signedness of integers may differ, but a signed type never matches a bit field.
     pub fn is_alike(&self, ty: Type, expected: Option<Type>, meaning: Option<TypeId>) -> bool {
         let Some(expected) = expected else { return true };
         let shape = meaning.and_then(|id| self.definition(id)).map(|definition| &definition.shape);

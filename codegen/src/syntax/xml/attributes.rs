@@ -43,7 +43,8 @@ impl<'a> Attribute<'a> {
         }
     }
 
-    /// Returns the value with references resolved and white space normalized (XML 1.0, 3.3.3).
+    /// Returns the value with references resolved and white space normalized (XML 1.0, 3.3.3). Reports invalid and unknown
+    /// references as diagnostics, and keeps them as text.
     pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
         if self.plain {
             return Cow::Borrowed(self.raw);
@@ -52,7 +53,7 @@ impl<'a> Attribute<'a> {
     }
 }
 
-/// Iterator over the attributes of a start tag.
+/// Iterator over the attributes of a start tag. Ends after the first error.
 #[derive(Clone, Debug)]
 pub struct Attributes<'a> {
     rest: &'a str,

@@ -1,4 +1,4 @@
-//! The cursor: events in document order, with the stack of open elements.
+//! The cursor, which reads the events of a document in order and keeps the stack of open elements.
 
 use compact_str::{format_compact, CompactString};
 use memchr::{memchr, memchr_iter};
@@ -10,10 +10,10 @@ use crate::limits;
 use crate::source::{FileId, Origin, Span};
 use crate::text::brief;
 
-/// Reads an XML document from start to end.
+/// Reads the events of an XML document in order.
 pub struct Cursor<'a> {
     text: &'a str,
-    /// Byte offset of the next event.
+    /// Byte offset at which reading continues.
     at: usize,
     file: FileId,
     /// Names of the open elements with their prefixes, starting with the root.
@@ -21,7 +21,7 @@ pub struct Cursor<'a> {
     /// True if the last start tag was that of an empty element. The end of this element is then the next event.
     empty: bool,
     root_seen: bool,
-    /// Line number of the byte `line_at`.
+    /// Line number of the byte at offset `line_at`.
     line: u32,
     line_at: usize,
 }
@@ -146,7 +146,7 @@ impl<'a> Cursor<'a> {
         self.open.len()
     }
 
-    /// Returns the offset of the next event, in bytes.
+    /// Returns the byte offset at which reading continues.
     pub fn offset(&self) -> u32 {
         self.at as u32
     }
@@ -156,7 +156,8 @@ impl<'a> Cursor<'a> {
         self.open.iter().map(|full| full.split_once(':').map_or(*full, |(_, name)| name))
     }
 
-    /// Returns the names of the two innermost open elements as `parent/child`. Very long names are shortened.
+    /// Returns the names of the two innermost open elements as `parent/child`, or only the name of the root if no other element is
+    /// open. Shortens each name to 64 characters.
     pub fn innermost(&self) -> CompactString {
         let mut path = self.path().rev();
         let child = path.next().map_or("", brief);
@@ -171,8 +172,8 @@ impl<'a> Cursor<'a> {
         Origin { span: tag.span, line: self.line(tag.span.start) }
     }
 
-    /// Returns the line of a byte of the document, counted from 1. The function is fast if each call has a higher offset than the
-    /// call before.
+    /// Returns the line of a byte of the document, counted from 1. Scans only the bytes between this offset and the offset of the
+    /// previous call.
     pub fn line(&mut self, offset: u32) -> u32 {
         let offset = (offset as usize).min(self.text.len());
         let (from, to) = (self.line_at.min(offset), self.line_at.max(offset));
@@ -220,7 +221,8 @@ impl<'a> Cursor<'a> {
         Ok(Event::Start(Tag { name, prefix, span, depth, empty, attributes, attributes_at: after_name as u32 }))
     }
 
-    /// Adds an element to the stack of open elements.
+    /// Adds an element to the stack of open elements. Returns an error for a second root element, and for elements that are nested
+    /// too deeply.
     fn push(&mut self, name: &'a str, span: Span) -> Result<(), Error> {
         if self.open.is_empty() && std::mem::replace(&mut self.root_seen, true) {
             return Err(malformed(span, format!("<{}> is a second root element", brief(name))));

@@ -105,7 +105,8 @@ pub struct Text<'a> {
 }
 
 impl<'a> Text<'a> {
-    /// Returns the text with references resolved and line ends normalized (XML 1.0, 2.11).
+    /// Returns the text with references resolved and line ends normalized (XML 1.0, 2.11). Reports invalid and unknown references
+    /// as diagnostics, and keeps them as text. CDATA contains no references.
     pub fn value(&self, diagnostics: &mut Diagnostics) -> Cow<'a, str> {
         let blanks = if self.cdata { Blanks::Cdata } else { Blanks::Text };
         decode(self.raw, self.span, blanks, diagnostics)

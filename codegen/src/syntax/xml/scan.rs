@@ -1,10 +1,10 @@
-//! Finds the ends of tokens. Every search is for an ASCII byte, so each result is a character boundary.
+//! Finds the ends of tokens. All delimiters are ASCII characters, so each result is a character boundary.
 
 use memchr::{memchr, memmem};
 
 use crate::syntax::words;
 
-/// Length of a name and of its prefix.
+/// Length of a name with its prefix, and position of the colon after the prefix, in bytes.
 #[derive(Clone, Copy)]
 pub(super) struct Name {
     pub length: usize,
@@ -79,8 +79,8 @@ pub(super) struct Value {
 }
 
 impl Value {
-    /// Returns the value at the start of `bytes`, or `None` without a closing quotation mark. Compares eight bytes at
-    /// once.
+    /// Measures the value at the start of `bytes`. Returns `None` if the closing quotation mark `quote` is missing. Compares eight
+    /// bytes at once.
     #[inline]
     pub fn of(quote: u8, bytes: &[u8]) -> Option<Self> {
         let marks = |word: u64| words::equal(word, b'&') | words::less(word, b' ');
@@ -103,13 +103,13 @@ impl Value {
     }
 }
 
-/// Returns the offset after the first occurrence of `end` at or after `at`.
+/// Returns the offset after the first occurrence of `end` at or after `at`, or `None` if there is none.
 pub(super) fn after(bytes: &[u8], at: usize, end: &str) -> Option<usize> {
     let rest = bytes.get(at..)?;
     Some(at + memmem::find(rest, end.as_bytes())? + end.len())
 }
 
-/// Returns the offset of the `>` that ends a start tag. `from` is the offset after its name.
+/// Returns the offset of the `>` that ends a start tag, or `None` if there is none. `from` is the offset after the element name.
 pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
     if bytes.get(from) == Some(&b'>') {
         return Some(from);

@@ -91,14 +91,14 @@ impl Code {
         }
     }
 
-    /// Writes a public field with a doc comment and an attribute.
+    /// Writes a public field with a doc comment and, if there is one, an attribute.
     pub fn field(&mut self, docs: &[String], attribute: Option<&String>, name: &str, ty: &str) {
         self.docs(docs);
         self.lines(attribute);
         self.line(&[&"pub ", &name, &": ", &ty, &","]);
     }
 
-    /// Writes a public module.
+    /// Writes a public module with `heading` as its doc comment.
     pub fn module(&mut self, heading: &str, name: &str, content: impl FnOnce(&mut Self)) {
         self.doc(heading);
         self.open(&[&"pub mod ", &name, &" {"]);

@@ -4,12 +4,12 @@ use super::ItemAddresses;
 use crate::ir::{RegisterBinding, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// Returns the constructor call of the register.
+    /// Returns the constructor call of the item's register, if the item has one.
     pub fn register_code(&self) -> Option<String> {
         self.modbus.map(|register| self.register(register))
     }
 
-    /// Returns the sort key of a register: table, address and first bit.
+    /// Returns the sort key of the item's register, if the item has one: table, address and first bit.
     pub fn register_key(&self) -> Option<(u8, u16, Option<u8>)> {
         self.modbus.map(|register| {
             let table = match register.space {

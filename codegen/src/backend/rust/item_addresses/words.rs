@@ -57,7 +57,7 @@ impl ItemAddresses<'_> {
         Some(format!("indirect access with number {} ({})", hex16(number), windowed.join(", ")))
     }
 
-    /// Returns the number that selects the item in a window.
+    /// Returns the number that selects the item in a window, if clients access the item through a window.
     fn number(&self) -> Option<u32> {
         self.routes
             .iter()

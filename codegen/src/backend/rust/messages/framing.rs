@@ -57,7 +57,8 @@ fn check_start(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
     shaped.iter().find_map(|shape| shape.request.byte_offset(field))
 }
 
-/// Returns the maximum length of message data.
+/// Returns the maximum length of message data in bytes. If the description does not state it, the result is calculated
+/// from the messages.
 pub(super) fn max_data(device: &Device, shaped: &[Shaped<'_>]) -> u32 {
     if let Some(max) = device.framing.as_ref().and_then(|framing| framing.max_data) {
         return max.into();

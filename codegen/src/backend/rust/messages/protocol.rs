@@ -51,7 +51,7 @@ pub(in super::super) struct MessageModel {
     pub completion: Doc,
     /// True if this request determines the meaning of other requests.
     pub is_selector: bool,
-    /// Effects of the command in each state.
+    /// Effects of the message in each state.
     pub outcomes: Vec<OutcomesModel>,
 }
 

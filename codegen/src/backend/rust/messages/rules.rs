@@ -1,4 +1,5 @@
-//! Encoding rules for parameters in messages. Each parameter space has a constant.
+//! Encoding rules for parameters in messages. Each rule is a constant for one parameter space and one length of the
+//! parameter numbers.
 
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;

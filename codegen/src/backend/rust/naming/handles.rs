@@ -32,8 +32,7 @@ pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// True if the object becomes a Rust module with several values. Otherwise, the only value has the name of the
-    /// object.
+    /// True if the object becomes a Rust module. Otherwise, the only value has the name of the object.
     pub is_module: bool,
     pub entries: Vec<NamedItem<'a>>,
 }

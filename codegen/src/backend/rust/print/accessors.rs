@@ -9,7 +9,7 @@ use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::walk::WalkModel;
 
-/// Prints the type, and drops the documentation of its methods.
+/// Prints the device's type with its methods, and drops the documentation of the methods.
 pub(super) fn write(code: &mut Code, model: &mut Model) {
     if !model.has_accessors {
         return;

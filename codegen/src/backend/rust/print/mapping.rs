@@ -1,5 +1,5 @@
-//! Prints the modules that `lexibus::pdo!` uses: PDOs with a changeable mapping, and the items that the macro must
-//! know.
+//! Prints the modules that `lexibus::pdo!` uses: PDOs with a writable mapping, and the items, each with whether it
+//! can be mapped.
 
 use crate::backend::rust::code::{line, list, open, Code, Stop};
 use crate::backend::rust::model::Model;

@@ -1,4 +1,4 @@
-//! Prints requests and replies.
+//! Prints a message protocol: requests, replies, encoding rules, and the methods that send requests.
 
 use super::accessors::selected;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Data, Doc, Stop};

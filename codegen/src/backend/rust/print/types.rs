@@ -89,8 +89,8 @@ fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
     }
 }
 
-/// Writes `PartialEq`, `Eq` and `Hash`. `raw` and `other` are the expressions for the numbers of the two compared
-/// values.
+/// Writes the implementations of `PartialEq`, `Eq` and `Hash`. `raw` and `other` are the expressions for the numbers of
+/// the two compared values.
 pub(in crate::backend::rust) fn equality(code: &mut Code, name: &str, gate: &[String], [raw, other]: [&str; 2]) {
     code.lines(gate);
     open!(code, "impl core::cmp::PartialEq for ", name, " {");
@@ -108,7 +108,7 @@ pub(in crate::backend::rust) fn equality(code: &mut Code, name: &str, gate: &[St
     code.close("}");
 }
 
-/// Writes the names of the values, `Display` and `FromStr`.
+/// Writes the implementations of `rt::Named`, which contains the names of the values, `Display` and `FromStr`.
 fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     let name = &enumeration.name;
     code.lines(gate);

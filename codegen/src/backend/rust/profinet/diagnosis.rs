@@ -83,7 +83,7 @@ pub(in crate::backend::rust) struct UnitModel {
     pub fields: Vec<FieldModel>,
 }
 
-/// Returns the user-defined diagnosis structures that have fields.
+/// Returns the user-defined diagnosis structures that have fields and are not too long.
 pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOptions) -> Vec<UnitModel> {
     let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
     let name_requests: Vec<NameRequest<'_>> = units

@@ -168,8 +168,8 @@ impl FieldModel {
     }
 }
 
-/// Returns the attribute for getters with these names. The attribute suppresses a clippy lint about prefixes that imply
-/// a certain signature.
+/// Returns the attribute for getters with these names, if at least one name needs the attribute. It suppresses a clippy
+/// lint about prefixes, such as `to_`, that imply a certain signature.
 fn allow<'n>(mut names: impl Iterator<Item = &'n str>) -> Option<&'static str> {
     let has_prefix =
         names.any(|name| ["from_", "into_", "to_", "is_", "as_"].iter().any(|prefix| name.starts_with(prefix)));

@@ -35,7 +35,7 @@ pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: 
 /// State of an overlay while it is applied.
 struct Applied<'o> {
     patcher: RowPatcher<'o>,
-    /// Effect of each row.
+    /// Maximum effect of each row on all devices, modules and submodules so far.
     effects: Vec<RowEffect>,
     /// Definitions that rows have used so far.
     used: HashSet<(DefinitionKind, String)>,
@@ -108,7 +108,8 @@ impl<'o> Applied<'o> {
         effect
     }
 
-    /// Applies the overlay to the objects of a module.
+    /// Applies the overlay to the objects of a module, and returns the maximum effect of the rows. Adds the ambiguities of the
+    /// definitions to `doubts`.
     fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module, doubts: &mut Doubts) -> RowEffect {
         let buses = buses_of_module(module);
         let Module { groups, fixed_objects, types, extensions, .. } = module;
@@ -410,7 +411,7 @@ impl<'c> ObjectSet<'c> {
 }
 
 /// Merges the last table of codes into an earlier table with the same name. If both tables contain a code, the row of
-/// the last table applies. The overlay is recorded as the origin of a new table, or of changed rows.
+/// the last table applies. The overlay is recorded as the origin of a new table, or of added and changed rows.
 fn merge(tables: &mut Vec<CodeTable>, change: &Change) {
     let Some(last) = tables.pop() else { return };
     let Some(table) = tables.iter_mut().find(|table| table.name == last.name) else {

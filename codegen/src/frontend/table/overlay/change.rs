@@ -24,7 +24,7 @@ use crate::text::brief;
 pub(super) struct ObjectSet<'c> {
     pub groups: &'c mut Vec<Group>,
     pub types: &'c mut Vec<TypeDef>,
-    /// Extensions that record the reasons for removed objects.
+    /// Extensions that record the reasons for the removal of objects.
     pub extensions: &'c mut Extensions,
     /// Buses for objects that the overlay adds.
     pub buses: ObjectBuses,
@@ -37,7 +37,7 @@ pub(super) enum RowEffect {
     NoMatch,
     /// The row matches, but the description already contains all of its facts.
     NoChange,
-    /// The row changed an object or item, or an error in the row was reported.
+    /// The row added, changed or removed an object or item, or an error in the row was reported.
     Changed,
 }
 
@@ -83,7 +83,7 @@ impl RowPatcher<'_> {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
 
-    /// Returns the change that a row makes.
+    /// Returns the file name, line and reason of a row, from which the origins of the changed facts are created.
     fn change(&self, reader: &Reader<'_, '_>, row: &PatchRow) -> Change {
         let why = self.why(&row.row.value).into();
         Change { file: file_name(reader), line: reader.origin(&row.key).line, why }

@@ -50,11 +50,11 @@ pub(super) enum Target {
 /// Keys that both overlays and profiles have, in addition to their head.
 const KEYS: [&str; 9] = ["lexibus", "manual", "units", "enums", "bits", "chapters", "codes", "machines", "doubts"];
 
-/// Keys that only overlays have.
+/// Keys that overlays have and profiles lack, in addition to [`KEYS`].
 const OVERLAY_KEYS: [&str; 3] = ["overlay", "axes", "procedures"];
 
 impl Patch {
-    /// Reads an overlay or profile. `keys` are the keys that only this kind of table has.
+    /// Reads an overlay or profile. `keys` are the keys that this kind of table has in addition to [`KEYS`].
     pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>, keys: &[&str]) -> Patch {
         let known: Vec<&str> = keys.iter().chain(&KEYS).copied().collect();
         for (key, node) in &mut table.parts {

@@ -15,7 +15,7 @@ use crate::resolve::profiles::{Described, Profile, Signal, Telegram};
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::standard_and_clause;
 
-/// Reads the table of a profile.
+/// Reads the table of a profile. Returns `None` if the file is not valid TOML or has no `[profile]`.
 pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Profile> {
     let mut reader = Reader::new(source, FileId(0), diagnostics);
     let reader = &mut reader;
@@ -85,7 +85,8 @@ fn named(row: &PatchRow) -> Named<'_> {
     Named { name: "", key: &row.key, number: 0, end: row.row.end }
 }
 
-/// Returns the bit field or enumeration of a row, with the underlying integer type `ty`.
+/// Returns the bit field or enumeration of a row, with the underlying integer type `ty`. Reports a row that does not refer to an
+/// existing definition by its name.
 fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Option<TypeId> {
     let before = rows.definitions.types.len();
     let meaning = rows.meaning(reader, named(row), &row.row.value, ty?);

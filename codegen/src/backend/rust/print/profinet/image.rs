@@ -1,4 +1,4 @@
-//! Prints structs for cyclic data and views of the bytes.
+//! Prints the structs for cyclic data, and the views that access the data as bytes.
 
 use super::{fields, literal};
 use crate::backend::rust::code::{call, line, open, seq, Break, Code, Doc};
