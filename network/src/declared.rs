@@ -222,7 +222,7 @@ pub struct DeclaredPdo {
 /// COB-ID of a PDO as its section declares it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclaredCobId {
-    /// The COB-ID of the predefined connection set or, for PDOs above the fourth, the next free CAN-ID.
+    /// The COB-ID of the predefined connection set or, for PDOs after the fourth, the next free CAN-ID.
     Automatic,
     /// A COB-ID with flags.
     Number(u32),

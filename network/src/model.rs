@@ -213,7 +213,7 @@ impl NetworkPdo {
         self.bits().div_ceil(8)
     }
 
-    /// Returns after how many SYNCs the PDO is sent, or `None` if it is not synchronous. The number for an acyclic PDO
+    /// Returns the number of SYNCs after which the PDO is sent, or `None` if it is not synchronous. The number for an acyclic PDO
     /// (transmission type 0) is 1, which is the worst case.
     pub fn syncs(&self) -> Option<u8> {
         match self.transmission {

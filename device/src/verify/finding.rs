@@ -22,7 +22,7 @@ pub enum FindingKind {
     Unreadable,
     /// The fact cannot be verified, for example because the parameter must not be read.
     Unverifiable,
-    /// The value differs from the default value. This is no deviation.
+    /// The value differs from the default value. This is not a deviation.
     Changed,
 }
 

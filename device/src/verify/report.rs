@@ -16,7 +16,7 @@ pub struct Report {
     pub file: String,
     /// Findings, sorted by kind.
     pub findings: Vec<Finding>,
-    /// Values that differ from the default value. They are no deviations.
+    /// Values that differ from the default value. They are not deviations.
     pub changed: Vec<Finding>,
     /// Number of parameters that were read or whose access rights were confirmed.
     pub read: usize,

@@ -106,7 +106,7 @@ fn the_traffic_of_a_simulated_drive_has_names() {
     assert!(texts.iter().any(|text| text.starts_with("node 5: TPDO 1: Statusword = ")), "{texts:?}");
 }
 
-/// Returns pseudo-random numbers (xorshift64).
+/// Returns the next pseudo-random number (xorshift64).
 fn random(state: &mut u64) -> u64 {
     *state ^= *state << 13;
     *state ^= *state >> 7;

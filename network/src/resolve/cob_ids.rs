@@ -13,7 +13,7 @@ use crate::declared::{DeclaredCobId, DeclaredMaster, DeclaredPdo};
 use crate::model::{can_id, communication_index, DISABLED, NO_RTR};
 use crate::syntax::At;
 
-/// CAN-IDs for PDOs above the fourth, which have no CAN-ID in the predefined connection set (CiA 301 7.3.5).
+/// CAN-IDs for PDOs after the fourth, which have no CAN-ID in the predefined connection set (CiA 301 7.3.5).
 const FREE: std::ops::Range<u32> = 0x680..0x6E0;
 
 /// Name of the node, direction and number of the PDO.

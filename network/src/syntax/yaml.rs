@@ -14,7 +14,7 @@ pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
 /// Maximum depth of nested lists and tables, including those that aliases repeat.
 const MAX_DEPTH: usize = 64;
 
-/// Number of bytes of a text that count as one more element.
+/// Number of bytes of a text after which the text counts as one more element.
 const BYTES_OF_ELEMENT: usize = 64;
 
 /// Parses the first document of a YAML file. An empty file is an empty table.
@@ -363,7 +363,7 @@ mod tests {
         let nested = |lines| "a0: &a0 1\n".to_owned() + &(1..=lines).map(line).collect::<String>();
         assert!(tree(&nested(2)).is_ok());
         assert_eq!(message(&nested(3)), DEEP);
-        // Three lists in the table of the file and the 60 levels of the anchor are 64 levels.
+        // The root table, three lists and the 60 levels of the anchor are 64 levels.
         assert!(tree(&(nested(2) + "a: [[[*a2]]]\n")).is_ok());
         assert_eq!(message(&(nested(2) + "a: [[[[*a2]]]]\n")), DEEP);
         // 100 000 copies of a text or key with 10 000 bytes.

@@ -66,7 +66,7 @@ fn compare_pdo(node: &NetworkNode, pdo: &NetworkPdo, values: &Dictionary, text: 
     assert_eq!(pdo.is_enabled, value(1) >> 31 == 0 && !words.is_empty(), "{context}");
 }
 
-/// Returns the mapping of the PDO with a communication object. Entries with the value 0 are not used.
+/// Returns the mapping of the PDO with a communication object. Leaves out entries with the value 0, which are unused.
 fn mapping(values: &Dictionary, index: u16) -> Vec<u64> {
     let count = values.get(&(index + 0x200, 0)).copied().unwrap_or(0) as u8;
     (1..=count).map(|sub_index| values[&(index + 0x200, sub_index)]).filter(|word| *word != 0).collect()

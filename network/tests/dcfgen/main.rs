@@ -42,7 +42,7 @@ fn run<T: for<'d> Deserialize<'d>>(python: &Path, script: &str, arguments: &[Pat
     values
 }
 
-/// The verdict of `dcfchk` on an EDS.
+/// Result of `dcfchk` for an EDS.
 #[derive(Debug, Deserialize)]
 struct Accepted {
     strict: bool,
