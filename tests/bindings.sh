@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Generates the files that are checked in. These are the bindings in generated/src and benches/instructions, the schema of
+# Generates the generated files that are stored in the repository. These are the bindings in generated/src and benches/instructions, the schema of
 # register tables, the profiles, and the book's catalog of diagnostics. With --check, only checks that the files are up to date.
 # Set `$LEXIBUS` to use an existing compiler.
 set -euo pipefail

@@ -62,8 +62,8 @@ fn status(state: State) -> Statusword {
     })
 }
 
-/// Returns a simulated drive. The statusword follows the controlword, and the actual position equals the target
-/// position.
+/// Returns a simulated drive. Each write to the controlword updates the statusword. If the bit "new set-point" is set in
+/// the written value, the actual position is set to the target position.
 fn moving_drive() -> Device {
     let mut device = demo();
     device.set_initial(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();

@@ -113,7 +113,7 @@ fn a_scan_with_faults_doesnt_return_a_wrong_address() {
     assert!(found > 20 && inconclusive > 10, "{found} {inconclusive}");
 }
 
-/// Scans the bus without a fault. Returns the active node-IDs of all slaves.
+/// Scans the bus without an injected fault. Returns the active node-IDs of all slaves.
 fn node_ids(master: &mut LssMaster<Faulty>) -> Vec<Option<NodeId>> {
     set(master.port(), None);
     let _ = master.fast_scan();

@@ -52,7 +52,8 @@ pub(super) fn chain(at: At<'_>, root: &str, calls: &[&str], end: &str) -> String
     format!("{}{root}{lines}{end}", at.1)
 }
 
-/// Returns the signature of a method of the driver. Breaks the line if it is too long at an indentation of one level.
+/// Returns the signature of a method of the driver. Breaks the signature into several lines if it does not fit on
+/// one line that is indented by one level.
 pub(super) fn method(name: &str, value: Option<&str>, result: &str) -> String {
     let value = value.map(|ty| format!("value: {ty}"));
     let parameters: Vec<&str> = std::iter::once("&mut self").chain(value.as_deref()).collect();

@@ -89,7 +89,7 @@ fn well_formed_files_are_read_without_errors() {
 #[test]
 fn malformed_files_have_one_error_with_its_place() {
     let Some(cases) = cases(false) else { return };
-    // The first file has a surplus end tag. The second file ends inside an element, so the error is reported after the last
+    // The first file has a surplus end tag. The second file ends inside an element, so the error is reported at the last
     // character of the file.
     let places: BTreeMap<&str, u32> = [
         ("vformi__PLC.Commissioning.Lib.Siemens__MalformedGSDML.xml", 5085),

@@ -61,7 +61,7 @@ type Packed = (Vec<u8>, String);
 /// [`NONE`] to set no field.
 type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
 
-/// Field number that selects no field.
+/// Field number that selects no single field. Depending on the function, no field or all fields are set.
 const NONE: usize = usize::MAX;
 
 /// Expected layout of a type.

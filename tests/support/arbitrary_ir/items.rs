@@ -20,7 +20,7 @@ pub struct Around<'d> {
     pub images: &'d [CompactString],
     /// Names of parameter spaces.
     pub spaces: &'d [CompactString],
-    /// Buses of the objects.
+    /// Choices for the buses of an object.
     pub buses: &'d [ObjectBuses],
     /// True if the items belong to a register table, in which items may be on any bus.
     pub is_table: bool,

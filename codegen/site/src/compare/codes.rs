@@ -24,7 +24,8 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
     }, POSITION => [origin]);
 }
 
-/// Compares the rows of a code table. Added rows are breaking because Rust code can match all codes.
+/// Compares the rows of a code table. Added rows are breaking changes, because Rust code can match all codes
+/// exhaustively.
 fn rows() -> Elements<CodeRow> {
     Elements {
         title: |row| format!("code {} {}", code::text(row), row.name),

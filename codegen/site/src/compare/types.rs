@@ -103,7 +103,7 @@ fn basic_of(types: &[TypeDef], ty: Type) -> Option<Type> {
 fn effects(old: Option<Type>, new: Option<Type>) -> Judgment {
     let (Some(old), Some(new)) = (old, new) else { return Judgment::API_AND_WIRE };
     match (old, new) {
-        // The basic types are equal, but names of bits or values make a different Rust type.
+        // The basic types are equal, but the Rust types can differ: for example, only one of the two types is an enumeration.
         (old, new) if old == new => Judgment::API,
         // The length of a string does not affect the Rust type.
         (Type::VisibleString(_), Type::VisibleString(_))

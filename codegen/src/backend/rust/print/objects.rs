@@ -8,7 +8,7 @@ use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::reexport::Section;
 use crate::backend::rust::window_model::WindowModel;
 
-/// Prints the windows and handles, and drops the code and documentation of each printed handle.
+/// Prints the windows and handles, and then removes the code and documentation of all handles from the model.
 pub(super) fn write(code: &mut Code, model: &mut Model) {
     windows(code, &model.windows);
     if model.objects.is_empty() {
