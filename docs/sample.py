@@ -14,7 +14,8 @@ import subprocess
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# Names of chapters that are not sampled: the chapters about buses and clients, the documentation site and the list of lints.
+# Names of chapters that the area `book` leaves out: the chapters about buses, simulated devices, recipes and the documentation
+# site, and the list of lints.
 CLIENTS = {"buses", "canopen", "ethercat", "modbus", "profinet", "serial", "simulation", "recipes", "site", "lints"}
 TEXT_KEYS = {"doc", "says", "chose", "why", "effects", "remedy", "cause", "note"}
 

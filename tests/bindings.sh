@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Generates the generated files that are stored in the repository. These are the bindings in generated/src and benches/instructions, the schema of
-# register tables, the profiles, and the book's catalog of diagnostics. With --check, only checks that the files are up to date.
-# Set `$LEXIBUS` to use an existing compiler.
+# Updates the generated files in the repository: the bindings in generated/src and benches/instructions, the schema of register
+# tables, the profiles, and the book's catalog of diagnostics. With --check, only checks that the files other than the profiles are
+# up to date. Set `$LEXIBUS` to use an existing compiler; the script then does not update the profiles.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {

@@ -424,7 +424,7 @@ fn a_running_node_keeps_running() {
     }
 }
 
-/// A node in Stopped has no SDO server.
+/// A node in Stopped doesn't answer SDO requests.
 #[test]
 fn a_stopped_node_is_restarted() {
     let guarding = ErrorControl::Guarding { guard_time: Duration::from_millis(100), life_time_factor: 3 };

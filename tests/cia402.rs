@@ -306,7 +306,7 @@ fn homing() {
 #[test]
 fn a_start_bit_that_is_already_set() {
     let mut rig = Rig::enabled(6);
-    // Mode 6 is active, and the drive has already executed the procedure that this start bit started.
+    // Mode 6 is active, and the start bit (bit 4) is still 1 after a completed procedure.
     rig.write(0x6040, &0x001F_u16.to_le_bytes());
     rig.drive.device().step(ms(200));
     rig.writes.clear();
@@ -427,7 +427,7 @@ fn moves() {
 fn set_points_wait_or_replace() {
     let mut rig = Rig::enabled(1);
     rig.motion().move_to(Target::absolute(300), DEADLINE).unwrap();
-    // The drive stores one set-point. The drive accepts the next set-point when the first move ends.
+    // During a move, the drive can store one further set-point. It accepts another set-point only when the move ends.
     let begin = rig.time;
     rig.motion().move_to(Target::absolute(200), DEADLINE).unwrap();
     assert_eq!(rig.time, begin + 5, "the pause before the edge of the start bit");
@@ -457,7 +457,7 @@ fn set_points_that_the_drive_does_not_acknowledge() {
     rig.set = 1 << 12;
     assert!(matches!(rig.motion().move_to(Target::absolute(500), ms(50)), Err(MotionError::Deadline { .. })));
     assert_eq!(rig.writes, []);
-    // The move is longer than the deadline.
+    // The move takes longer than the deadline.
     let mut rig = Rig::enabled(1);
     rig.motion().move_to(Target::absolute(500), DEADLINE).unwrap();
     assert_eq!(rig.motion().wait_reached(ms(100)), Err(MotionError::Deadline { status: ENABLED }));

@@ -1,4 +1,4 @@
-//! Tests all methods of a generated accessor with a minimal client of twenty lines.
+//! Tests the methods of accessors with a minimal client of twenty lines.
 
 use std::collections::HashMap;
 

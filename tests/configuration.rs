@@ -65,7 +65,7 @@ fn a_strict_device_accepts_the_configuration() {
     assert_eq!(device.get(objects::SERIAL_NUMBER), Ok(0));
 }
 
-/// Each phase of a configuration depends on an earlier phase.
+/// The device must refuse a write if an earlier phase is missing, or if the write is moved to another phase.
 #[test]
 fn the_strict_device_refuses_another_order() {
     let refused = |configuration: Configuration, write: SdoWrite, code: AbortCode| {

@@ -1,5 +1,6 @@
 //! Tests the Eco's bindings on CANopen and EtherCAT with the examples in the manual: requests, scales and PDOs.
-//! Quotation marks enclose titles of the manual's sections. The test program `frames` contains the tests for Modbus.
+//! Quotation marks enclose titles of the manual's sections. The test programs `frames`, `eco_buses` and `eco_siemens` test
+//! the Eco on Modbus.
 
 #[path = "support/can_script.rs"]
 mod can_script;
@@ -218,7 +219,8 @@ fn procedures_send_what_the_manual_lists() {
     sends(&procedures::CONFIGURE_POSITIONER, &[&motion[..], &homing].concat());
 }
 
-/// Section "Salvataggio": disables the torque, writes the key, and waits for bit 0 of the statusword.
+/// Tests the sequence in section "Salvataggio", which disables the torque, writes the key, sends "Shutdown", and waits for
+/// bit 0 of the statusword.
 #[test]
 fn saving_on_canopen() -> Answer<()> {
     let state = |low| ([0x40, 0x41, 0x60, 0, 0, 0, 0, 0], [0x4B, 0x41, 0x60, 0, low, 0x02, 0, 0]);

@@ -253,7 +253,7 @@ fn modules_of_a_few_bits_are_read_and_written_where_the_plan_puts_them() {
     assert!(bits::modules::bit_4::view::Inputs::at(image, usize::MAX).is_err());
 }
 
-/// Tests bit strings of 3 and 100 bits, then of 70 and 2 bits.
+/// Tests a PDO with fields of 3 and 100 bits, followed by a PDO with fields of 70 and 2 bits.
 #[test]
 fn strings_of_bits_of_any_length() {
     let mut flags = [0; 13];

@@ -84,8 +84,8 @@ fn objects_of_every_length() {
         drive.axis_label().write_async("turntable").await.unwrap();
         assert_eq!(drive.axis_label().read_into_async(&mut buffer).await, Ok("turntable"));
 
-        // Segmented transfers: if the mailbox has 128 bytes, the first message contains 112 bytes of data, and each
-        // segment contains 119.
+        // Segmented transfers: if the mailbox has 128 bytes, the first message contains up to 112 bytes of data, and
+        // each segment contains up to 119.
         let text: String = ('a'..='z').cycle().take(300).collect();
         for length in [112, 113, 117, 119, 230, 231, 232, 235, 300] {
             drive.axis_label().write_async(&text[..length]).await.unwrap();
@@ -242,8 +242,8 @@ fn a_mapping_is_written_in_its_order_and_in_pre_operational() {
         let group = pre_op(maindevice).await;
         let mut drive = drive(maindevice, &group, 0);
         let client = drive.client();
-        // The device rejects writes to entries unless the count is 0, writes to a fixed mapping, and mappings of
-        // unknown objects.
+        // The device rejects a write to a mapping entry while the count is not 0, a write to a fixed mapping, and the
+        // mapping of an unknown object.
         let entry = 0x6064_0020_u32.to_le_bytes();
         assert_eq!(write(client, 0x1A02, 1, &entry).await, Err(Error::Abort(AbortCode(0x0601_0003))));
         assert_eq!(write(client, 0x1A00, 0, &[0]).await, Err(Error::Abort(AbortCode::READ_ONLY)));

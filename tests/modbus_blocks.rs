@@ -1,5 +1,5 @@
 //! Tests reading blocks of random items. A block must return the same values as single reads, with as few requests as
-//! possible. No request may exceed the limit or include an undescribed address.
+//! possible. No request may exceed the limit, or include an address outside the items and the readable ranges.
 
 use std::collections::HashMap;
 

@@ -242,7 +242,7 @@ fn each_bus_has_its_own_width() {
 }
 
 /// A simulated drive with a process image of 16 bytes in each direction. Its parameter channel answers in the second
-/// cycle after a request.
+/// cycle that contains the same request.
 #[derive(Default)]
 struct Controller {
     cycles: usize,

@@ -50,7 +50,7 @@ async fn op(maindevice: &'static MainDevice<'static>) -> Group<Op> {
     pre_op(maindevice).await.into_op(maindevice).await.expect("all SubDevices in Operational")
 }
 
-/// Checks that the master wrote the start address, length and control byte of each sync manager of a description.
+/// Checks that the master activated each sync manager of a description, and wrote its start address, length and control byte.
 /// `lengths` contains the lengths of the sync managers.
 async fn check_sync_managers(maindevice: &MainDevice<'_>, group: &Group<Op>, device: &Device, lengths: &[u16]) {
     let subdevice = group.subdevice(maindevice, 0).expect("a SubDevice");

@@ -237,8 +237,8 @@ fn a_frame_has_64_bits_on_can_only() {
     assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));
 }
 
-/// Returns a value to write to the entry: its maximum, its minimum if it has no maximum, or 1 if it has neither. An entry without a
-/// fixed length gets a text.
+/// Returns a value to write to the entry: its maximum, its minimum if it has no maximum, or 1 if it has no integer limit. An entry
+/// without a fixed length gets a text.
 fn another(entry: &Entry) -> Vec<u8> {
     let Some(bits) = entry.data_type.bits() else { return b"ab".to_vec() };
     let bytes = match (entry.high, entry.low) {

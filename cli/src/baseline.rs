@@ -27,7 +27,7 @@ struct Key {
     /// Path relative to the folder of the baseline, with `/` between its parts.
     file: String,
     code: String,
-    /// Message of the diagnostic; `None` for diagnostics that are only counted.
+    /// Message of the diagnostic; `None` if the diagnostic also represents diagnostics that were only counted.
     message: Option<String>,
     /// Marked line without surrounding whitespace; `None` if the diagnostic concerns a whole file.
     line: Option<String>,

@@ -22,7 +22,8 @@ struct Report<'c> {
     summary: Summary,
 }
 
-/// Compares two descriptions. Returns `false` if a change breaks Rust code or the communication, or if a description has errors.
+/// Compares two descriptions. Returns `false` if a change breaks Rust code or the communication, or if a description
+/// has errors or describes nothing.
 pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let options = Options { choices: diff.option.clone(), no_profiles: diff.no_profiles, ..Options::default() };
     let (Some(old), Some(new)) = (read(&diff.old, &options)?, read(&diff.new, &options)?) else { return Ok(false) };

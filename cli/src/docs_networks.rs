@@ -57,14 +57,14 @@ impl Networks {
     }
 }
 
-/// Returns the content of a network file, or `None` for other files. Files with other extensions are not read, because
-/// ESI files can be large.
+/// Returns the content of a network file, or `None` for other files. Files without the extension of a network file are
+/// not read, because ESI files can be large.
 fn network_file(path: &Path) -> Option<Source> {
     Format::of_name(&path.to_string_lossy())?;
     Source::read(path).ok().filter(is_network)
 }
 
-/// Returns the name of a network, or the name of its file without extension.
+/// Returns the name of a network, or the file name without extension if the network has no name.
 fn title(path: &Path, compilation: &Compilation) -> String {
     match compilation.network.as_ref().map(|network| network.name.as_str()) {
         None | Some("") => path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),

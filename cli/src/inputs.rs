@@ -147,7 +147,7 @@ pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 
 /// Adds the device descriptions in `folder` and its subfolders to the list.
 ///
-/// Each folder is searched only once, because a symbolic link to a parent folder would otherwise cause an endless search.
+/// Each folder is searched only once, because a symbolic link to a parent folder would otherwise repeat the search.
 fn search(
     folder: &Path,
     depth: usize,

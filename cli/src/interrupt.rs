@@ -1,5 +1,5 @@
 //! Deferred Ctrl-C. After Ctrl-C, a command that writes to a device ends between two writes, and reports what it has
-//! written.
+//! written. `monitor` completes its output before it ends.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

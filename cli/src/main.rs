@@ -11,9 +11,9 @@
 //! Exit codes: 0 on success; 1 for errors in the input, output that cannot be written, stale output, breaking changes,
 //! device failures, deviations or differences; 2 for invalid arguments; 130 after Ctrl-C.
 //!
-//! `args` declares the arguments of all subcommands. Most subcommands have a module with the same name; the others are
-//! implemented in this file. `inputs` reads files in parallel, `output` writes or compares files, and `report` prints
-//! diagnostics.
+//! `args` declares the arguments of all subcommands. Most subcommands have a module with the same name; `device`
+//! implements those that access devices, and this file implements the others. `inputs` reads files in parallel,
+//! `output` writes or compares files, and `report` prints diagnostics.
 
 #![forbid(unsafe_code)]
 
@@ -75,7 +75,8 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FAILED),
         Err(Failure::Output(error)) => {
-            // Print no message about a closed pipe, because the message would not be read. The exit code still reports the failure.
+            // Print no message about a closed pipe, because programs such as `head` close it on purpose. The exit code
+            // still reports the failure.
             if error.kind() != std::io::ErrorKind::BrokenPipe {
                 say(&format!("error: cannot write the output: {error}"));
             }
@@ -95,7 +96,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints a line to standard error with escaped control characters. Ignores errors because they cannot be reported.
+/// Prints a line to standard error. Replaces control characters with spaces. Ignores errors because they cannot be
+/// reported.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }

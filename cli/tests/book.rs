@@ -28,8 +28,8 @@ fn chapters() -> Vec<String> {
     names
 }
 
-/// Creates the working folder of a chapter. The folder contains the book's examples, some test data, and the
-/// dictionaries.
+/// Creates the working folder of a chapter. The folder contains the book's examples, the dictionaries, the example
+/// network, and some test data.
 fn folder(name: &str) -> PathBuf {
     let root = docs().join("..");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book").join(name);

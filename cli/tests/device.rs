@@ -52,7 +52,7 @@ fn nothing_is_written_without_a_confirmation() {
     let output = run(&[&["write"], &common[..], &["Profile velocity", "20000", "--yes"]].concat());
     assert!(output.status.success(), "{:?}", texts(&output));
     assert_eq!(read(), "0x6081:00 Profile velocity = 20000\n");
-    // A value outside the range is not sent, and a read-only object is not written.
+    // A value outside the range is not sent, a read-only object is not written, and an unknown name is an error.
     for (name, value, message) in [
         ("Profile velocity", "600000", "above the maximum 500000; the range is 0 … 0x7A120"),
         ("Statusword", "1", "the parameter is read-only"),

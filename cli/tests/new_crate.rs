@@ -398,7 +398,7 @@ fn modules_and_submodules_are_plugged_only_where_they_fit() {
     }
 }
 
-/// Returns a table whose names have `length` letters.
+/// Returns a table whose names have `length` characters.
 fn with_names_of(length: usize) -> String {
     let name = |start: &str, word: &str| format!("{start}_{}", word.repeat(length))[..length].to_owned();
     [

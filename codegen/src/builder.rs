@@ -59,7 +59,8 @@ impl Builder {
         self.level(code, Level::Allow)
     }
 
-    /// Reports the diagnostics with a code as warnings. The code is given as in [`allow`](Self::allow).
+    /// Reports the diagnostics with a code as warnings. Errors remain errors. The code is given as in
+    /// [`allow`](Self::allow).
     pub fn warn(self, code: impl Into<String>) -> Self {
         self.level(code, Level::Warn)
     }
@@ -280,7 +281,7 @@ fn errors(compilation: &Compilation) -> String {
     shown.collect::<Vec<_>>().join("\n\n")
 }
 
-/// The reason why no code was generated.
+/// Error of [`Builder::compile`], [`Builder::compile_as`] or [`Builder::generate`].
 ///
 /// `Debug` prints the same text as `Display`, because Rust shows the `Debug` text if the `main` function of a build
 /// script returns the error.

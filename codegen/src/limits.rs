@@ -1,7 +1,7 @@
 //! Limits for the time and memory that a description can use.
 //!
 //! A short line can declare many elements. The limits therefore keep time and memory proportional to the length of the input.
-//! Descriptions of real devices stay far below the limits.
+//! Descriptions of real devices stay far below most of the limits.
 
 pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 
@@ -14,8 +14,9 @@ pub const MAX_REPEAT: u32 = 0x1_0000;
 /// Maximum number of derived items in a file. A derived item has no separate line in the file.
 ///
 /// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and rows of a register table that
-/// describe several items. Copied texts in a register table count as items, too (see [`ROW_BYTES_PER_ITEM`]). For GSDML, the limit applies to the values that are copied if a value list is used with several types. In addition, the limit
-/// applies to the items that `import` creates.
+/// describe several items. Copied texts in a register table also count as items (see [`ROW_BYTES_PER_ITEM`]). For GSDML, the limit
+/// applies to the values that are copied if a value list is used with several types. In addition, the limit applies to the items
+/// that `import` creates.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512 PDOs in each direction.
@@ -45,7 +46,7 @@ pub const MAX_FREE_ROW_BYTES: usize = 4096;
 /// [`MAX_MACHINE_ROWS`].
 pub const ROW_BYTES_PER_ITEM: usize = 1024;
 
-/// Maximum number of copied bytes for each byte of the file. In most files, only one object uses each type, so little is copied.
+/// Maximum number of copied bytes for each byte of the file.
 ///
 /// The copied elements are data types, flags, vendors and shared files (ESI), parameters (XDD), texts of CompactSubObj and
 /// section names (EDS).
@@ -70,7 +71,8 @@ pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
 /// Number of bytes that may be copied for references to the text list of a GSDML file, even if the file is small.
 pub const MIN_TEXT_COPIES: usize = 1 << 20;
 
-/// Maximum number of single values in a list of values and ranges, for keys of a register table that need single values.
+/// Maximum number of single values to which a list of values and ranges is expanded, in keys of a register table that need single
+/// values.
 pub const MAX_LISTED_VALUES: i128 = 1024;
 
 /// Maximum depth of folders in the search for descriptions.
@@ -89,5 +91,5 @@ pub const MAX_FIELD_BITS: u32 = u16::MAX as u32;
 /// Maximum length in bytes of a PROFINET record or diagnosis structure that becomes a struct.
 pub const MAX_RECORD_BYTES: u32 = u16::MAX as u32;
 
-/// Maximum number of characters of an identifier that is derived from a name.
+/// Maximum number of characters of an identifier that is derived from a name, not counting a suffix.
 pub const MAX_IDENTIFIER: usize = 48;

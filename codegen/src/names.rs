@@ -130,7 +130,8 @@ fn plain(name_request: &NameRequest<'_>, case: Case, length: usize) -> String {
     name
 }
 
-/// Cuts a name to at most `length` characters. If a word ends in the second half of this length, the name is cut there.
+/// Cuts a name to at most `length` characters. If the second half of these characters contains an underscore, the name ends before
+/// the last underscore.
 fn cut(name: &mut String, length: usize) {
     if name.len() > length {
         let end = name[..length].rfind('_').filter(|&end| end > length / 2).unwrap_or(length);
@@ -284,8 +285,8 @@ fn spell(sign: char, words: &mut Vec<String>) {
     words.push(word.to_owned());
 }
 
-/// Returns ASCII letters for a letter of a European language or for the prefix of a unit. Returns an empty text for any other
-/// character.
+/// Returns ASCII letters for accented Latin letters, and for Greek letters that are common in symbols and units. Returns an empty
+/// text for any other character.
 fn transliteration(letter: char) -> &'static str {
     match letter {
         'ä' | 'Ä' | 'æ' | 'Æ' => "ae",

@@ -8,7 +8,7 @@ use lexibus_codegen::source::Source;
 const TABLE: &str = "lexibus = 1\n[device]\nname = \"Axis\"\nbuses = [\"canopen\"]\n[[chapters]]\n[chapters.objects]\n\
                      0x1000 = { name = \"Device type\", type = \"u32\", access = \"ro\" }\n";
 
-/// For each format: the feature that reads it, the start of a file, and whether the feature is enabled.
+/// For each feature: its name, a file that needs it, and false if reading the file must cause the error about this feature.
 const FORMATS: [(&str, &str, bool); 6] = [
     ("eds", "[DeviceInfo]\nProductName=Pump\n", cfg!(feature = "eds")),
     ("xdd", "<ISO15745ProfileContainer/>", cfg!(feature = "xdd")),

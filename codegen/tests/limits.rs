@@ -262,8 +262,7 @@ fn notes_of_many_cells() {
     assert_eq!(machine(2 * limits::ROW_BYTES_PER_ITEM), (1, 0));
 }
 
-/// Compares all limits with the limits in the book. Other tests cover the limits of nesting depth, text references and
-/// copies, together with the quirks of the formats.
+/// Checks that the table in the book contains the values of these limits.
 #[test]
 fn the_book_has_each_limit() {
     let chapter = include_str!("../../docs/src/limits.md");

@@ -27,7 +27,8 @@ fn other_object() -> CanFault {
     foreign(CanFrame::new(0x585, &[0x43, 0x34, 0x12, 1, 9, 9, 9, 9]).expect("a frame"))
 }
 
-/// Sends `count` requests with random faults. Returns the number of failed requests, and panics if a value is wrong.
+/// Sends `count` requests, each with the fault that `fault` returns. Returns the number of timeouts. Panics if a value is wrong or
+/// another error occurs.
 fn requests(mut node: Node<FaultyCan<Bus>>, count: u32, mut fault: impl FnMut(&mut Random) -> Option<CanFault>) -> u32 {
     let mut random = Random::new(28);
     let mut failed = 0;

@@ -201,7 +201,7 @@ fn late_replies_are_not_those_of_the_next_request() {
     assert!(late > 400 && failed <= late, "{failed} errors for {late} late replies");
 }
 
-/// The SubDevice sends each reply just before the timeout.
+/// If each reply arrives just before the timeout, a segmented transfer must still fail.
 #[test]
 fn the_timeout_limits_the_whole_transfer() {
     with_bench(|mut bench| async move {

@@ -114,6 +114,6 @@ fn matrix() {
     let ethercat = if cfg!(all(feature = "ethercat", feature = "macros")) { 7 } else { 0 };
     assert_eq!(rows.len(), (7 * 9 + 2 * 10 + 6) * 2 + modbus_rows::COUNT_OF_ROWS + ethercat);
     // In the tables of the book, SDO reads have ten faults. SDO writes, block reads, block writes, PDO and heartbeat have nine;
-    // Modbus RTU, Modbus TCP and serial have six; LSS and boot have three; node guarding has four.
+    // Modbus RTU, Modbus TCP and serial have six; LSS and boot have three; node guarding has four; EtherCAT has seven.
     assert_eq!(in_book, (10 + 5 * 9 + 3 * 6 + 2 * 3 + 4) * 2 + ethercat);
 }

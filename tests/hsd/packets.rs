@@ -93,7 +93,7 @@ impl embedded_io_async::Write for Pieces<'_> {
     }
 }
 
-/// A waker that does nothing, because the test polls twice.
+/// A waker that does nothing, because the test itself polls the exchange again.
 struct Silent;
 
 impl Wake for Silent {

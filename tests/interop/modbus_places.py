@@ -5,7 +5,7 @@ from pymodbus.client.mixin import ModbusClientMixin
 
 TYPES = ModbusClientMixin.DATATYPE
 
-# Function codes for reading and writing each table.
+# Function codes with which the server selects each table: for getting values, and for setting values.
 HOLDING = (3, 16)
 INPUT = (4, 4)
 COIL = (1, 15)

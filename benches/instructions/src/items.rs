@@ -1,4 +1,4 @@
-//! Generated functions that read and write objects of the dictionary, each paired with a handwritten function.
+//! Lexibus functions that encode and decode values, or read and write objects, each paired with a handwritten function.
 
 use core::hint::black_box;
 
@@ -66,8 +66,8 @@ mod integer_24 {
         same (left, right) left == right);
 }
 
-/// A simulated drive on a bus. The client methods are not inlined, because a bus library's methods are not inlined
-/// either.
+/// A simulated drive on a bus. The client methods are not inlined, because the methods of a bus library are usually not
+/// inlined either.
 pub struct Wire {
     data: [u8; 8],
     object: Object,

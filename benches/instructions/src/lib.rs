@@ -2,7 +2,7 @@
 //!
 //! The binary of this crate contains pairs of equivalent functions. `valgrind` counts their instructions, and the test
 //! `instructions` of the crate `lexibus` compares the counts. The benchmark in `benches/packing` compares the functions
-//! of the same structs with those of other libraries.
+//! of two of these structs with those of other libraries.
 
 pub mod hand;
 

@@ -5,7 +5,7 @@ pub type Frame = [u8; 32];
 
 /// A pair of equivalent functions.
 pub struct Twins {
-    /// Name of the value that is packed, unpacked or accessed.
+    /// Name of the module that contains the pair, such as `integer`.
     pub case: &'static str,
     /// Name of the operation.
     pub action: &'static str,
@@ -28,7 +28,7 @@ pub const fn number(name: &str) -> u32 {
 ///
 /// The functions are not inlined, so their instructions can be counted separately. Each function starts with a unique
 /// number, because LLVM would merge equal functions. `call` calls both functions through pointers, so the compiler
-/// cannot specialize them for their arguments. The overhead is the same for both functions.
+/// cannot specialize them for their arguments. These measures add the same overhead to both functions.
 macro_rules! pair {
     ($name:ident, $frame:ident,
      ours ($ours:ident: $ours_in:ty = $ours_make:expr) -> $ours_out:ty $ours_body:block

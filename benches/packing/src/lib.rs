@@ -1,6 +1,6 @@
-//! Two frames, each declared with several libraries. Most libraries do not support the second frame. `ethercrab-wire`
-//! requires that fields of more than eight bits are byte-aligned. `deku` (with `bit_order = "lsb"`) cannot read back a
-//! 24-bit number that it has written at bit 5.
+//! Two frames, declared with other libraries. Only `bilge` is used for the second frame. `ethercrab-wire` requires that
+//! fields of more than eight bits are byte-aligned. `deku` (with `bit_order = "lsb"`) cannot read back a 24-bit number
+//! that it has written at bit 5.
 
 /// A frame with a word and a 32-bit number.
 pub mod whole_bytes {

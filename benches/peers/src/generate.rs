@@ -1,4 +1,4 @@
-//! Measures how fast Lexibus and other generators write formatted Rust code for registers.
+//! Measures how fast Lexibus and other generators write Rust code.
 
 use device_driver_core::{CodegenTarget, CompileOptions, GeneralOptions, MirOptions};
 use lexibus_codegen::backend::rust;

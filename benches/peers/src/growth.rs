@@ -25,7 +25,7 @@ const WAYS: [Way; 5] = [
     ("table, registers", "bench.toml", |size| growing(InputFormat::Table, size)),
 ];
 
-/// Cost of an input: time in nanoseconds and memory in bytes, each per input byte.
+/// Size of an input in bytes, and its cost per byte: time in nanoseconds and memory in bytes.
 struct Cost {
     bytes: usize,
     read: f64,

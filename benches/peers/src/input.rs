@@ -85,7 +85,7 @@ pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     ]
 }
 
-/// Returns a generated description in the format `kind`. `size` is a multiple of the smallest size: 1, 10, 100 or 1,000.
+/// Returns a generated description in the format `kind`. `size` is the multiple of the smallest size.
 pub fn growing(kind: InputFormat, size: usize) -> Vec<u8> {
     match kind {
         InputFormat::Eds => eds::growing(size),

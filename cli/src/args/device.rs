@@ -32,7 +32,7 @@ pub(crate) enum DeviceCommand {
     /// Write saved parameters to a device. The command shows all writes before the first one.
     #[command(after_help = "Example:\n  lexibus restore --bus can:can0 --node 5 drive.eds axis.dcf --dry-run")]
     Restore(Restore),
-    /// Compare the values in two backups. The exit code is 1 if they differ.
+    /// Compare the values in two backups. The exit code is 1 if there is a difference.
     #[command(after_help = "Example:\n  lexibus compare drive.eds monday.dcf friday.dcf")]
     Compare(Compare),
     /// List the nodes on a CANopen bus, with the descriptions that fit each node.

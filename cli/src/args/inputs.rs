@@ -94,10 +94,10 @@ pub(crate) struct Printing {
 }
 
 impl Printing {
-    /// Prints all diagnostics in full as text.
+    /// Options that print all diagnostics in full as text.
     pub(crate) const TEXT: Printing =
         Printing { all: true, statistics: false, message_format: MessageFormat::Text, color: ColorChoice::Auto };
-    /// Prints a limited number of diagnostics of each code as text.
+    /// Options that print a limited number of diagnostics of each code as text.
     pub(crate) const NEW: Printing = Printing { all: false, ..Printing::TEXT };
 }
 

@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &Monitor) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Waits up to [`TURN`] for a frame. Writes the event of a received frame, if it has one.
+/// Waits up to [`TURN`] for a frame. Writes the event if the frame has one.
 fn watch<P>(
     connection: &mut CanOpenConnection<lexibus::clients::canopen::Node<P>>,
     interpreter: &mut Interpreter<'_>,

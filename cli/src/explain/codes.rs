@@ -5,7 +5,7 @@ use lexibus_codegen::diagnostics::{Class, Code, Level};
 
 use super::example;
 
-/// Maximum line width of the text that [`explain`] returns.
+/// Maximum line width of wrapped text.
 const COLUMNS: usize = 80;
 
 /// Returns the explanation of a code, wrapped at 80 columns, with an example if there is one.

@@ -6,8 +6,8 @@ use lexibus_codegen::output::{temporary_path, writing};
 
 use crate::Failure;
 
-/// Names of files and folders in a crate that have a meaning for Cargo, in lower case. The path of a copied description
-/// file must not begin with one of these names.
+/// Names of files and folders in a crate that have a meaning for Cargo or rustup, in lower case. The path of a copied
+/// description file must not begin with one of these names.
 const OWN_NAMES: [&str; 11] = [
     ".cargo",
     "benches",
@@ -72,8 +72,8 @@ impl Files {
         }
     }
 
-    /// Creates `folder` with all files. Changes nothing if `folder` exists, if an error occurs, or if a signal ends the
-    /// program.
+    /// Creates `folder` with all files. Changes nothing if `folder` exists or an error occurs. If Ctrl-C ends the
+    /// program, `folder` is complete or absent.
     pub(super) fn create(&self, folder: &Path) -> Result<(), Failure> {
         let failed = |error| Failure::Usage(format!("cannot create the folder {}: {error}", folder.display()));
         let _writing = writing();

@@ -4,7 +4,7 @@
 /// Maximum width of a line.
 const LINE: usize = 100;
 
-/// Maximum width of a list of arguments, or of a chain of calls, that is written on one line.
+/// Maximum width on one line of a list of several arguments, or of a chain of several calls.
 const SHORT: usize = 60;
 
 /// A position in the code: the indentation, and the text of the line up to the expression.

@@ -21,7 +21,7 @@ struct Library<'l> {
     driver: &'l str,
     bus: &'l BusNames,
     machine: Option<&'l Machine<'l>>,
-    /// Reason why the driver does not enable the device; `None` if the driver enables it.
+    /// Reason why the driver does not enable a device with a state machine; otherwise, `None`.
     not_enabled: Option<String>,
     /// Method of the bindings that returns the operations of CiA 402.
     motion: Option<&'l str>,
@@ -255,7 +255,7 @@ impl Support<'_> {
 }
 
 impl Item {
-    /// Returns the first line of the driver's method for this item.
+    /// Returns the signature of the driver's method for this item.
     fn signature(&self) -> String {
         let (value, result) = if self.is_write { (Some(self.native), "()") } else { (None, self.native) };
         layout::method(&self.method, value, &format!("Result<{result}, AccessError<C::Error>>"))

@@ -1,5 +1,5 @@
-//! `lexibus new --crate`: creates a drive crate from a device description. Reports only the errors in the description,
-//! because the build script of the crate reports the warnings.
+//! `lexibus new --crate`: creates a drive crate from a device description. Does not report warnings if the description
+//! has no errors, because the build script of the crate reports them.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -56,7 +56,7 @@ struct BuildScript {
 impl BuildScript {
     /// Returns the code of the build script that calls `Builder`.
     fn builder(&self) -> String {
-        // Assign a long name to a variable first, so that the calls fit on a line.
+        // Assign a long file name to a variable first, so that the calls fit on a line.
         let (start, file) = match self.file.chars().count() > 40 {
             true if self.file.chars().count() > 77 => {
                 (format!("let description =\n        {};\n    ", self.file), "description")

@@ -187,7 +187,7 @@ impl Reporter {
 
     /// Prints the statistics or the SARIF document if the user selected them. In the formats `text` and `github`, also
     /// prints a summary if diagnostics are the main output of the command or if there are diagnostics. A note after the
-    /// summary states how many diagnostics of the baseline no longer occur. Returns whether no errors occurred.
+    /// summary states how many diagnostics of the baseline no longer occur, if any. Returns whether no errors occurred.
     pub(in super::super) fn finish(self) -> Result<bool, Failure> {
         match (&self.statistics, self.format) {
             (Some(statistics), MessageFormat::Json) => self.print(&statistics.json()?)?,

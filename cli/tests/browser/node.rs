@@ -7,13 +7,13 @@ use std::sync::OnceLock;
 /// Folder for screenshots and for the libraries that `setup.sh` installs.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/browser");
 
-/// Environment variable that makes a missing browser an error. CI sets this variable after running `setup.sh`.
+/// Environment variable that makes a missing browser an error. CI sets this variable if `setup.sh` succeeds.
 const REQUIRED: &str = "LEXIBUS_BROWSER";
 
 /// Runs a script with paths as arguments. The test fails if the script fails.
 ///
-/// If no browser is available, the test fails if the environment variable [`REQUIRED`] is set. Otherwise, the function
-/// prints that the test is skipped, and does not create the paths.
+/// If no browser is available and the environment variable [`REQUIRED`] is set, the test fails. If the variable is not
+/// set, the function prints that the test is skipped, and does not create the paths.
 pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     if let Err(why) = ready() {
         assert!(std::env::var_os(REQUIRED).is_none(), "{REQUIRED} is set, but {why}");

@@ -66,8 +66,8 @@ fn serve_can(mut pty: Pty, delay: Duration) -> ! {
     }
 }
 
-/// Returns the reply of the adapter to a command line. The adapter rejects the command to close the channel, like an
-/// adapter whose channel is already closed.
+/// Returns the reply of the adapter to a command line. The adapter rejects empty commands. It also rejects the command
+/// to close the channel, like an adapter whose channel is already closed.
 fn reply(line: &[u8]) -> &'static [u8] {
     match line {
         b"\r" | b"C\r" => b"\x07",

@@ -62,7 +62,7 @@ fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
     std::fs::create_dir_all(&twin).expect("a folder");
     let mut files = examples();
     files.push(file(&twin, "demo-drive.eds", QUIRKY));
-    // Facts that an ESI requires and that files in other formats do not contain.
+    // Facts that an ESI requires and that files in other formats often lack.
     const FACTS: [&str; 7] =
         ["vendor-id=1", "vendor-name=V", "physics=YY", "product-code=2", "revision=3", "group=G", "order-code=O"];
     for (command, format) in [("generate", ""), ("docs", ""), ("export", "eds"), ("export", "esi"), ("export", "gsdml")]
@@ -83,7 +83,7 @@ fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
             (contents(&out), self::out(&output), err(&output))
         };
         let expected = made(&files, "1");
-        // Only a few of the examples describe PROFINET devices.
+        // Only a few of the examples can be exported as GSDML.
         let least = if format == "gsdml" { 1 } else { 5 };
         assert!(expected.0.len() >= least, "{command} {format}: {}", expected.2);
         let mut order = files.clone();

@@ -1,8 +1,8 @@
 //! Tests that the compiler does not panic on damaged corpus files, on random combinations of EDS and XML words, or on
 //! random text.
 //!
-//! Each input is compiled to Rust, exported and summarized, and its diagnostics are rendered. A fixed seed makes all runs
-//! test the same inputs. `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select other inputs:
+//! Each input is compiled to Rust, exported and summarized, and some of its diagnostics are rendered. A fixed seed
+//! makes all runs test the same inputs. `PROPTEST_RNG_SEED` and `PROPTEST_CASES` select other inputs:
 //!
 //! ```text
 //! PROPTEST_CASES=100000 PROPTEST_RNG_SEED=7 cargo test --release -p lexibus-cli --test corpus_mutations
@@ -454,7 +454,7 @@ const SECTIONS: &str = "\
     2000Denotation 2000ObjectLinks 6040 6041 6060 607A A0 00A0 0005 M1ModuleInfo M1FixedObjects M1Fixed2000 \
     M1Fixed2000sub1 M1SubExtends M1SubExt2000 M1Comments x";
 
-/// Selects a word from a list that is separated by spaces.
+/// Selects a word from a list whose words are separated by spaces.
 fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
     select(list.split(' ').collect::<Vec<_>>())
 }

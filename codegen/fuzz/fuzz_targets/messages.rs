@@ -1,5 +1,6 @@
 //! Decodes arbitrary bytes as a stream of HSD frames, and as each request of the HSD motors and the AKD with its reply.
-//! Encoding the decoded data must give the same bytes.
+//! Encoding a decoded message must give the same bytes. Encoding and decoding the data of a frame must give the same
+//! data.
 #![no_main]
 
 use lexibus::framing::Framing;

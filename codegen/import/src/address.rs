@@ -164,7 +164,8 @@ pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
     is_whole.then_some((low as u8, (low + bits - 1) as u8))
 }
 
-/// Splits a range into start and end. If the text is not a range, returns the text and `None`.
+/// Splits a range or list into the first and the last address. If the text is a single address, returns the text and
+/// `None`.
 fn ends(text: &str) -> (&str, Option<&str>) {
     let words = ["..", "…", "~", " to ", " bis ", "–", "-", "/", "&", "+"];
     let divided = words.into_iter().find_map(|word| text.split_once(word));

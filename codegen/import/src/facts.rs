@@ -301,8 +301,8 @@ impl Reader<'_, '_> {
         (!entries.is_empty()).then(|| self.definitions.add(is_bits, entries, name))
     }
 
-    /// Returns the first list of at least two values or bits in the documentation, with its cell. Returns `None` if the
-    /// type is not an integer.
+    /// Returns the first list of at least two values or bits in the documentation, with its cell. Returns `None` if
+    /// there is no such list or the type is not an integer.
     pub fn described_list<'c>(&self, record: &'c Record, ty: Type) -> Option<(&'c Cell, List)> {
         let columns = self.columns.all(Field::Doc).filter(|_| ty.is_integer());
         let mut cells = columns.filter_map(|column| record.cells.get(column.at));

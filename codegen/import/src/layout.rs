@@ -103,7 +103,7 @@ fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     for row in rows {
         let table = table_of(&row);
         let same_title = by_title.entry(row.chapter.clone()).or_default();
-        // A line that could not become a row stays in the chapter of the row above it.
+        // A line that could not become a row is added to the last group with the same chapter title.
         match same_title.iter().rfind(|&&at| chapters[at].table == table || row.address.is_err()) {
             Some(&at) => chapters[at].rows.push(row),
             None => {
@@ -115,7 +115,7 @@ fn chapters(rows: Vec<Row>) -> Vec<Chapter> {
     chapters
 }
 
-/// Removes the bit range of a row if it exceeds the register.
+/// Removes and reports the bit range of a row if the range exceeds the register.
 fn within_register(row: &mut Row, table: Table, diagnostics: &mut Diagnostics) {
     let last = if table.is_bits() { 0 } else { 15 };
     let is_beyond = |(key, value): &(&'static str, String)| {
@@ -164,8 +164,7 @@ fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnosti
     };
     let mut bases =
         numbers().map(|number| Table::of_number(number).filter(|(found, _)| *found == table).map(|(_, base)| base));
-    // Ignore base 1: by convention, coils have this base, but lists also count the addresses of other Modbus tables
-    // from 1.
+    // Ignore base 1, which is that of the coils: small addresses do not show whether the list counts from 0 or from 1.
     let base = bases.next().flatten().filter(|&base| base > 1 && bases.all(|other| other == Some(base)));
     let first = wire(in_table(), diagnostics).or(base.map(i64::from)).or(from_one.then_some(1));
     // Set `low_first` or `swap` for the whole Modbus table only if all rows state it. A row that states no order has the

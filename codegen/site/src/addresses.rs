@@ -1,5 +1,5 @@
-//! The folders of devices. The folder of a device depends on its identity, and never on the order in which a site writes its
-//! devices. Therefore, links to a device stay valid.
+//! The folders of devices. The folder of a device depends on its identity and, if several devices have the same identity, on the
+//! description. The folder never depends on the order in which a site writes the devices. Therefore, links to a device stay valid.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -123,8 +123,8 @@ pub(super) fn product(device: &Device) -> String {
     }
 }
 
-/// Returns the path of the product's folder, which is in the folder of the vendor. The folder contains the product
-/// code, because products can have equal names.
+/// Returns the path of the product's folder, which is in the folder of the vendor. The name of the folder contains the
+/// product code, if known, because products can have equal names.
 fn folder_of_product(device: &Device) -> String {
     let title = folder_name(facts::device::title(device));
     match device.identity.product_code {

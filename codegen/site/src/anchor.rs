@@ -31,8 +31,8 @@ impl Names {
         self.once(if name.is_empty() { "device" } else { name }, '-')
     }
 
-    /// Returns an unused anchor for an element called `text`. The anchor contains only characters that need no escaping
-    /// in a link.
+    /// Returns an unused anchor for an element called `text`. The anchor contains only letters, digits and the
+    /// characters `_`, `-`, `.` and `:`.
     pub fn anchor(&mut self, text: &str) -> String {
         let is_plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | ':');
         let name: String = text.trim().chars().map(|letter| if is_plain(&letter) { letter } else { '_' }).collect();

@@ -79,7 +79,7 @@ pub(super) struct AmbiguitySources<'d> {
 }
 
 impl<'d> AmbiguitySources<'d> {
-    /// Returns all ambiguities by severity, then in the order of the pages. Severities without ambiguities are omitted.
+    /// Returns all ambiguities by severity. Severities without ambiguities are omitted.
     pub fn ranked(&self) -> Vec<Ranked<'d>> {
         let mut ranks = [Severity::Hazard, Severity::Value, Severity::Print]
             .map(|severity| Ranked { severity, assumptions: Vec::new() });
@@ -111,7 +111,8 @@ impl<'d> AmbiguitySources<'d> {
         all
     }
 
-    /// Calls `visitor` for each ambiguity in the order of the pages, with the link and title of the affected element.
+    /// Calls `visitor` for each ambiguity with the link and title of the affected element. Ambiguities in the device's
+    /// list that have a subject come last.
     fn visit(&self, visitor: &mut impl FnMut(String, &str, &'d Doubt)) {
         let (first, doubts) = self.overview;
         let (of_device, with_subject): (Vec<_>, Vec<_>) = doubts.iter().partition(|doubt| doubt.subject.is_empty());

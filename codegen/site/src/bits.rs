@@ -1,4 +1,4 @@
-//! Draws bit fields. Each bit has a cell, and the most significant bit comes first.
+//! Draws bit fields, with the most significant bit first. Each field has a cell, except reserved bits.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! Links between codes and the elements that report the codes. These elements are items that have a code as a named
-//! value, and items, messages and states that a code table mentions.
+//! Links between codes and other elements: items that have a code as a named value, and items, messages and states that
+//! a code table mentions.
 
 use std::collections::{HashMap, HashSet};
 

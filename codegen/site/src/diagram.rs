@@ -320,7 +320,8 @@ fn ranks(count: usize, first: usize, edges: &[(usize, usize)]) -> Vec<usize> {
     ranks.into_iter().flatten().collect()
 }
 
-/// Sets the ranks of a state and of the states that it leads to. Returns the highest rank.
+/// Sets the rank of a state, and the ranks of the states without a rank that can be reached from it. Returns the
+/// highest of these ranks.
 fn follow(at: usize, rank: usize, edges: &[(usize, usize)], ranks: &mut [Option<usize>]) -> usize {
     let mut queue = VecDeque::from([(at, rank)]);
     ranks[at] = Some(rank);

@@ -161,8 +161,8 @@ pub(super) struct Rows<'p> {
 }
 
 impl Rows<'_> {
-    /// Creates the row of an item. `number` is the displayed address. `number` is also the anchor unless `by_name` is
-    /// set.
+    /// Creates the row of an item. `number` is the displayed address. If `by_name` is set and the item has a name, the
+    /// anchor is the name; otherwise, it is `number`.
     pub fn row(&mut self, id: ItemId, item: &Item, number: String, by_name: bool) -> Row {
         let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
         let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);

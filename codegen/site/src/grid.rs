@@ -1,5 +1,6 @@
-//! Byte grids of cyclic data: rows of up to four bytes. A byte with single bits has two rows of four bits, so that each
-//! name has space on a phone, too. The script of the PDO builder makes the same rows.
+//! Byte grids of cyclic data: rows of up to four bytes. A byte that several entries share, or that is only partly used,
+//! has two rows of four bits, so that each name has space on a phone, too. The script of the PDO builder makes the same
+//! rows.
 
 use lexibus_codegen::facts::address;
 use lexibus_codegen::ir::{PdoEntry, PdoEntryKind};

@@ -77,7 +77,7 @@ impl ListPage<'_> {
     }
 }
 
-/// A part of a page, rendered only to measure its size.
+/// A section of a page, rendered only to measure its size.
 #[derive(Template)]
 #[template(
     ext = "html",
@@ -87,7 +87,7 @@ struct SectionPart<'p> {
     section: &'p Section,
 }
 
-/// A part of a page, rendered only to measure its size.
+/// A module on a page, rendered only to measure its size.
 #[derive(Template)]
 #[template(ext = "html", source = "{% import \"parts.html\" as parts %}{% call parts::module(module) %}{% endcall %}")]
 struct ModulePart<'p> {

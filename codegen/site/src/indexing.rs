@@ -10,7 +10,7 @@ use super::process::Frame;
 use super::protocol::Protocol;
 use super::search::{Entry, Index};
 
-/// Returns an entry without other names, unit and description.
+/// Returns an entry without names in other languages, unit and description.
 pub(super) fn entry<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
     Entry { anchor, number, name, names: &[], unit: "", words: "" }
 }

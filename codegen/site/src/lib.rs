@@ -133,9 +133,9 @@ impl Site {
         Site { format, ..Site::default() }
     }
 
-    /// Announces a catalog that will be added. The site then knows all revisions of a product and all descriptions of a
-    /// revision before it writes the first page. Therefore, neither links nor folders depend on the order of the
-    /// catalogs.
+    /// Announces a catalog that will be added. If all catalogs are announced first, the site knows all revisions of a
+    /// product and all descriptions of a revision before it writes the first page. Then neither links nor folders
+    /// depend on the order of the catalogs.
     ///
     /// Use a different name for each catalog, and add every catalog that is announced.
     pub fn announce(&mut self, name: &str, catalog: &Catalog) {
@@ -145,7 +145,7 @@ impl Site {
     }
 
     /// Adds a catalog with a name, such as the name of its file, and returns its pages. The folder of a device has the
-    /// form `vendor/product/revision`.
+    /// form `vendor/product/revision`, with a suffix if other devices have the same folder.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
         self.folder(name, catalog, ShownDiagnostics::default())
     }

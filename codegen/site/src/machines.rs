@@ -45,7 +45,8 @@ pub(super) struct Named {
     pub names: Vec<(String, String)>,
     /// Bit pattern, such as `xxxx xxxx x01x 0111`; empty if the description states no bit pattern.
     pub bits: String,
-    /// `fault` for a state that the device enters because of a fault, `energized` for a state with an energized motor.
+    /// `fault` for a state that the device enters because of a fault, `energized` for a state with an energized motor;
+    /// otherwise empty.
     pub class: &'static str,
     pub facts: String,
 }

@@ -148,7 +148,8 @@ impl Pages for Markdown {
     }
 }
 
-/// Returns the links of a page. Only the first page of a folder links to all pages.
+/// Returns the links of a page. The first page of a folder links to all pages. If there are very many pages, any other
+/// page links only to some of them.
 fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
     let is_first = file.strip_suffix(".md") == Some(FIRST);
     if is_first {
@@ -159,8 +160,8 @@ fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
 }
 
 impl Machine {
-    /// Returns the transitions as lines of a Mermaid state diagram. State names are changed because Mermaid restricts
-    /// their characters.
+    /// Returns the transitions as lines of a Mermaid state diagram. Spaces replace most punctuation in the labels,
+    /// because Mermaid restricts their characters.
     fn lines(&self) -> Vec<String> {
         let label = |text: &str| -> String {
             let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | '/');

@@ -63,7 +63,7 @@ pub(super) struct Modules {
 
 impl Modules {
     /// Creates the modules of a catalog. `file` returns the file name of the next page. `size` returns the size of a module in
-    /// bytes, which determines how many modules a page has.
+    /// bytes, which limits the number of modules on a page.
     pub fn new(
         catalog: &Catalog,
         diagnostics: &ShownDiagnostics,

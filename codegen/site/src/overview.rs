@@ -16,7 +16,7 @@ pub(super) struct Overview {
     pub facts: Vec<String>,
     /// Description of the device in other languages.
     pub translations: Vec<(String, String)>,
-    /// Properties from the identity, the buses and the source file, each with its name and value.
+    /// Properties from the identity, the buses, the manual and the source file, each with its name and value.
     pub identity: Vec<(&'static str, String)>,
     /// Names and values of facts about a device access point.
     pub access_point: NamedFacts,

@@ -59,7 +59,8 @@ impl Frameset {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
 
-    /// Returns the breadcrumb trail of `file`: the list of devices, the first page of the device or catalog, and `file` itself.
+    /// Returns the breadcrumb trail of `file`: the list of devices, the first page of the device or catalog, and `file` itself if
+    /// it is another page.
     pub fn path(&self, file: &str) -> Vec<(&String, &String)> {
         let list = self.list.iter().map(|(file, title)| (file, title));
         let first = self.device_pages.get(0).map(|(file, _)| (file, &self.title));

@@ -1,4 +1,4 @@
-//! Access rights that contradict storage, PDO mapping or limits.
+//! Access rights that contradict the storage, PDO mapping, writable values or limits of an item.
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

@@ -68,7 +68,8 @@ pub(super) enum Run {
     ItemsAndRecords(fn(Owner<'_>, &mut Diagnostics)),
     /// The lint checks the PDOs of a device or module.
     Pdos(fn(&PdoOwner<'_>, &mut Diagnostics)),
-    /// The lint checks the parameter records of PROFINET submodules.
+    /// The lint checks the parameter records of PROFINET submodules, and the vendor-specific blocks of the connect
+    /// request.
     Records(fn(&[Group], &mut Diagnostics)),
     /// The lint checks the whole catalog.
     Catalog(fn(&Catalog, &mut Diagnostics)),

@@ -41,7 +41,7 @@ impl Lint {
     }
 }
 
-/// All lints. Diagnostics at the same location appear in the order of this list.
+/// All lints. Diagnostics of a device at the same location appear in the order of this list.
 pub static LINTS: &[Lint] = &[
     #[cfg(feature = "table")]
     lint(

@@ -49,8 +49,8 @@ pub(super) struct Mapped {
 }
 
 impl Mapped {
-    /// Parses a mapping value: index, sub-index and length. Returns `None` for dummy entries, for empty entries, and for numbers
-    /// that do not fit 32 bits.
+    /// Parses a mapping value: index, sub-index and length. Returns `None` for dummy entries, for empty entries, and
+    /// for numbers that do not fit in 32 bits.
     pub fn word(word: i128, direction: Direction, span: Span) -> Option<Self> {
         let word = u32::try_from(word).ok()?;
         let (index, sub_index) = ((word >> 16) as u16, (word >> 8) as u8);

@@ -29,7 +29,7 @@ impl Limits {
         }
     }
 
-    /// Lowers each limit to the corresponding limit of `other`, if that limit is lower.
+    /// Replaces each limit with the corresponding limit of `other` if that limit is lower, or if no limit is set.
     fn narrow(&mut self, other: Limits) {
         let smaller = |one: Limit, other: Limit| [one, other].into_iter().flatten().min();
         *self = Limits {

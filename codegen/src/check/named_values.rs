@@ -55,7 +55,7 @@ impl Check<'_, '_> {
         }));
     }
 
-    /// Returns the default value and the configured value of an item.
+    /// Returns the default value and the configured value of an item, if they are integers.
     fn values(&self) -> Vec<Number> {
         let (default, at) = (self.item.default.as_ref(), &self.item.at);
         let default = match fixed(self.item) {

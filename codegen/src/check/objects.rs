@@ -6,7 +6,7 @@ use crate::ir::owner::Owner;
 use crate::ir::{excluded, stated, AxisStep, Device, Fact, FactOrigin, Format, Group, Item, ObjectCode, Rule, Value};
 use crate::text::{count_of, more};
 
-/// Reports contradictory objects, missing mandatory objects and, for CANopen devices, missing names.
+/// Reports contradictory objects. For CANopen devices, also reports missing names and missing mandatory objects.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for (index, group) in described(context) {
         if context.device.canopen.is_some() {
@@ -17,8 +17,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     mandatory(context.device, diagnostics);
 }
 
-/// Reports contradictory objects of a register table, missing names and missing mandatory objects. Rows that already failed
-/// are skipped, to suppress follow-up diagnostics.
+/// Reports contradictory objects of a register table, missing names and, for CANopen devices, missing mandatory objects.
+/// Rows that already failed are skipped, to suppress follow-up diagnostics.
 pub(super) fn rows(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let errors = diagnostics.error_spans();
     for (index, group) in described(context) {

@@ -4,8 +4,7 @@ use super::context::PdoOwner;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
 
-/// Reports entries of RxPDOs whose item cannot be mapped into an RxPDO, and entries of TxPDOs whose item cannot be mapped into a
-/// TxPDO.
+/// Reports PDO entries if the PDO mapping or the access rights of the item do not allow mapping in the direction of the PDO.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {

@@ -158,7 +158,8 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
     }
 }
 
-/// Returns the index of the communication parameters of the PDO that has this COB-ID by default, for any node-ID.
+/// Returns the index of the communication parameters of the first PDO that has this COB-ID by default, for at least one
+/// node-ID.
 /// Returns `None` if there is no such PDO, or if the PDO at `index` can have this COB-ID by default.
 fn owner_of_cob_id(device: &Device, index: u16, value: i128) -> Option<u16> {
     let is_of_some_node = |item: &Item| match item.default {

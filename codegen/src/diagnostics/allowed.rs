@@ -11,7 +11,7 @@ use crate::source::{FileId, Span};
 pub(super) struct Allowed(HashMap<(FileId, &'static str), Vec<(u32, u32)>>);
 
 impl Allowed {
-    /// Adds spans. Each call sorts all spans again, so a table with many `allow` keys adds them in one call.
+    /// Adds spans. Each call sorts all spans again, so add the spans of all `allow` keys of a table in one call.
     pub fn extend(&mut self, spans: impl IntoIterator<Item = (Span, &'static Code)>) {
         for (span, code) in spans {
             self.0.entry((span.file, code.id)).or_default().push((span.start, span.end));

@@ -52,8 +52,8 @@ pub fn tag(lcid: Option<u32>) -> CompactString {
     }
 }
 
-/// Returns the LCID of a BCP 47 tag or of a text such as `lcid:1081`, if it is known. For a tag without a region, returns the LCID
-/// of the first entry of the language, except for `zh` and `pt`.
+/// Returns the LCID of a known BCP 47 tag, or the number in a text such as `lcid:1081`. For a tag without a region, returns the
+/// LCID of the first entry of the language, except for `zh` and `pt`.
 pub fn lcid(tag: &str) -> Option<u32> {
     if let Some(number) = tag.strip_prefix("lcid:") {
         return number.parse().ok();

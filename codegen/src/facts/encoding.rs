@@ -3,7 +3,7 @@
 use crate::ir::{Type, Value};
 
 /// Returns the bytes of a value of a basic type. Returns `None` for a formula, and for a text that could not be converted to the
-/// type. Also returns `None` for a number if the length of the type is unknown.
+/// type. Also returns `None` for a number or Boolean if the length of the type is unknown, or if the type has other values.
 pub fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     match (value, ty) {
         (Value::Bytes(bytes), _) => Some(bytes.clone()),

@@ -43,8 +43,8 @@ pub fn value(item: &Item, value: &Value, types: &[TypeDef]) -> String {
 
 /// Returns the meaning of a value: the name of an enumeration value, or the active flags and the fields of a bit field.
 /// Commas separate the flags and fields. The name of a field is followed by its number or by the name of its value:
-/// `Mode 3`, `Mode: Homing`. Fields whose meaning depends on a condition are left out. Returns `None` if the type names neither the
-/// value nor an active flag or field.
+/// `Mode 3`, `Mode: Homing`. Numbers equal to 0, reserved fields, and fields whose meaning depends on a condition are left out.
+/// Returns `None` if the value has no name, and all flags and fields are inactive or left out.
 pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     let number = value.as_int()?;
     match &Owner::of_types(types).definition(ty)?.shape {
@@ -128,8 +128,8 @@ pub fn range_cell(item: &Item, types: &[TypeDef], shown: usize) -> String {
     }
 }
 
-/// Returns the unit of the physical value. The text is empty if the item has no unit, or if another item contains the exponent of
-/// the physical value.
+/// Returns the unit of the physical value. The text is empty if the item has no unit, if the value is a ratio, or if another item
+/// contains the exponent of the physical value.
 pub fn unit(item: &Item) -> &str {
     match item.quantity.as_deref() {
         Some(Quantity { scale: Some(Scale::Exponent { .. }), .. }) | None => "",

@@ -75,8 +75,8 @@ pub fn is_changeable(pdo: &Pdo) -> bool {
     !(pdo.fixed || pdo.is_virtual || pdo.depends_on_slot || pdo.depends_on_slot_group)
 }
 
-/// Returns the number of consecutive writable entries in a mapping object, counted from sub-index 1. Returns `None` if there are
-/// none, or if the number of entries is read-only.
+/// Returns the number of consecutive writable entries in a mapping object, counted from sub-index 1, up to `MAX_PDO_SUBS`.
+/// Returns `None` if there are none, or if the number of entries cannot be written.
 pub fn writable_entries(mapping: &Group) -> Option<usize> {
     let is_writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
     let entries = (1..=u8::MAX).take_while(is_writable).count().min(MAX_PDO_SUBS);

@@ -58,8 +58,8 @@ impl<'q> Physical<'q> {
     }
 
     /// Returns the raw value of a physical value: 1550 for `15.5` with scale factor 0.01. The raw value of an integer type is
-    /// rounded to the nearest integer. Returns `None` if `text` is not a number, or if the raw value is not finite. Also returns
-    /// `None` if the scale depends on another item or on the model.
+    /// rounded to the nearest integer. Returns `None` if `text` is not a number, or if the raw value is not finite or too large.
+    /// Also returns `None` if the scale depends on another item or on the model.
     pub fn raw(&self, text: &str, ty: Type) -> Option<Value> {
         let number = text.parse::<f64>().ok().filter(|number| number.is_finite())?;
         let exact = |factor, offset| Ratio::of_raw(text, factor, offset);
@@ -195,7 +195,8 @@ struct Ratio {
 }
 
 impl Ratio {
-    /// Returns the raw value of the decimal number `text`, or `None` if factor, offset or `text` has too many digits.
+    /// Returns the raw value of the decimal number `text`, or `None` if factor, offset or `text` has too many digits, or if
+    /// `text` has an exponent.
     fn of_raw(text: &str, factor: f64, offset: f64) -> Option<Self> {
         let (value, factor, offset) = (Decimal::parsed(text)?, Decimal::of(factor)?, Decimal::of(offset)?);
         let places = value.places.max(factor.places).max(offset.places);
@@ -207,7 +208,7 @@ impl Ratio {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// Returns the nearest integer, or `None` after an overflow. Halves are rounded away from zero.
+    /// Returns the nearest integer, or `None` after an overflow or a division by zero. Halves are rounded away from zero.
     fn rounded(&self) -> Option<i128> {
         let (numerator, denominator) = (self.numerator.checked_abs()?, self.denominator.checked_abs()?);
         let raw = numerator.checked_mul(2)?.checked_add(denominator)?.checked_div(denominator.checked_mul(2)?)?;
@@ -222,12 +223,13 @@ struct Decimal {
 }
 
 impl Decimal {
-    /// Returns the decimal number, or `None` if it has more than nine decimals.
+    /// Returns the decimal number, or `None` if it is not finite or has more than nine decimals.
     fn of(number: f64) -> Option<Self> {
         Decimal::parsed(&number.to_string())
     }
 
-    /// Returns the decimal number with this text, or `None` if it has more than nine decimals or an exponent.
+    /// Returns the decimal number with this text. Returns `None` for other texts, for more than nine decimals, and for an
+    /// exponent.
     fn parsed(text: &str) -> Option<Self> {
         let (whole, decimals) = text.split_once('.').unwrap_or((text, ""));
         let places = u32::try_from(decimals.len()).ok().filter(|places| *places <= 9)?;

@@ -189,7 +189,7 @@ impl Places {
     }
 
     /// Returns the number if only one slot or subslot is possible. Otherwise, returns a text that lists the possible
-    /// numbers, such as `of the module (1 to 4)`.
+    /// numbers, such as `of the module (1 to 4)`, or `of the module` if no numbers are known.
     fn text(mut self, element: &str, number: fn(u16) -> String) -> String {
         self.0.sort_unstable();
         self.0.dedup();

@@ -338,9 +338,9 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value of an item. A COB-ID is followed by its flags. A special value is shown as its meaning, and a
-    /// physical value as a decimal number, both with the raw value. A reference to an object is hexadecimal. `raw`
-    /// formats all other values.
+    /// Formats a value of an item. A COB-ID is followed by its flags. If the item has a scale, a special value is shown
+    /// as its meaning, and another value as a physical value, both with the raw value. A reference to an object is
+    /// hexadecimal. `raw` formats all other values.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
         match (cob_id, Physical::of(item.quantity.as_deref())) {
@@ -552,8 +552,8 @@ impl Words<'_> {
         })
     }
 
-    /// Returns the unit, or the scale with the unit: `unit rpm`, `1 LSB = 0.01 rev/s`. Returns `None` for plain
-    /// numbers.
+    /// Returns the unit, or the scale with the unit: `unit rpm`, `1 LSB = 0.01 rev/s`. Returns `None` if
+    /// the quantity has neither a scale nor a unit to show.
     pub fn unit(&self, quantity: &Quantity) -> Option<String> {
         match &quantity.scale {
             None if shown_unit(quantity).is_empty() => None,
@@ -661,7 +661,7 @@ impl Words<'_> {
         others.into_iter().chain(item.variants.iter().map(sentences)).collect()
     }
 
-    /// Returns the sentence about one variant: the facts of an item that differ on some models or buses.
+    /// Returns the sentences about one variant: the facts of an item that differ on some models or buses, and a description.
     fn variant(&self, variant: &ItemVariant, item: &Item) -> String {
         let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
         let scaled = variant.scale.as_ref().map(|scale| Physical::scaled(scale, unit));

@@ -172,7 +172,7 @@ impl Binding {
     }
 }
 
-/// The address of an item on Modbus, and its encoding.
+/// The address of an item on Modbus, and the encoding of its value.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RegisterBinding {
@@ -180,8 +180,8 @@ pub struct RegisterBinding {
     pub space: RegisterSpace,
     /// Zero-based wire address of the first register, coil or discrete input.
     pub address: u16,
-    /// Address as the source prints it, such as `40102–40103` or `R01`; empty if the source prints no other address than the wire
-    /// address.
+    /// Address as the source prints it, such as `40102–40103` or `R01`; empty if the source prints no address other than the
+    /// wire address.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
     /// True if the word order is an assumption.
@@ -268,7 +268,7 @@ pub struct ImageBinding {
     pub bit_offset: u32,
     /// Length of the item in bits.
     pub bits: u32,
-    /// Data type in the process image, if it differs from the item's type.
+    /// Data type that the source declares for the process image; `None` = the item's type.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
 }

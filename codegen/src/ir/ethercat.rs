@@ -95,7 +95,7 @@ pub struct Mailbox {
     pub coe: Option<Coe>,
     /// File access over EtherCAT (FoE), if supported.
     pub foe: Option<Protocol>,
-    /// Servo profile over EtherCAT (SoE), if supported.
+    /// Servo drive profile over EtherCAT (SoE), if supported.
     pub soe: Option<Protocol>,
     /// Vendor-specific protocol over EtherCAT (VoE), if supported.
     pub voe: Option<Protocol>,

@@ -145,12 +145,13 @@ pub enum Rule {
     ReservedEntry,
     /// Objects of implicit PDOs, which the description counts but does not describe, have the facts of CiA 301.
     AnnouncedPdo,
-    /// An object that only PDO entries describe is read-write if an RPDO maps it, and otherwise read-only.
+    /// An object of an EtherCAT slave that only PDO entries describe is read-write if an RxPDO maps it, and otherwise read-only.
     MappedObject,
     /// Items without access rights in an EDS, XDD or ESI are read-only, except DOMAIN objects on CANopen, which are read-write.
     /// Items without a data type are read-only raw bytes.
     MissingKey,
-    /// Identity numbers that are missing or 0 in the header of the description come from the default values of object 0x1018.
+    /// Identity numbers that are missing or 0 in the header of the description come from the default values of object 0x1018. The
+    /// rule does not apply to EtherCAT devices.
     IdentityObject,
     /// An object has the object type that matches its sub-indices if the stated object type is missing or unknown, or contradicts
     /// the sub-indices.

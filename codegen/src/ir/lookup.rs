@@ -11,7 +11,7 @@ use super::{Group, Item, ItemId};
 #[derive(Clone, Debug)]
 pub struct Entries<'a> {
     groups: &'a [Group],
-    /// Registers with an object address. The map is built at the first lookup.
+    /// Registers with an object address. The map is built when an index without an object is looked up for the first time.
     registers: OnceCell<HashMap<(u16, u8), ItemId>>,
 }
 

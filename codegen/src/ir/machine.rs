@@ -52,7 +52,7 @@ pub struct CommandOutcomes {
     /// Messages or commands of the row; empty if the source does not describe the command elsewhere. A reference to a message has
     /// an id, and a reference to a command has none.
     pub commands: Vec<MessageRef>,
-    /// Models, firmware versions and buses that have the command.
+    /// Models and firmware versions that have the command.
     pub availability: Option<Box<Availability>>,
     /// Effects of the command, with one entry for each column (state) of the matrix.
     pub cells: Vec<StateOutcome>,

@@ -35,7 +35,7 @@ pub struct Message {
     pub accepted_when: Vec<Condition>,
     /// Name of the message in other languages.
     pub names: Texts,
-    /// Models, firmware versions and buses that support the message.
+    /// Models and firmware versions that support the message, and the replacement for the message.
     pub availability: Option<Box<Availability>>,
     /// States in which the device accepts the message; empty = all.
     pub accepted_in: Vec<DeviceStateRef>,

@@ -18,8 +18,8 @@ pub(crate) fn item_at<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
     groups.get(position)?.sub(sub_index)
 }
 
-/// Returns the reference with the name of its item instead of index and sub-index. Returns the unchanged reference if
-/// the item has no name.
+/// Returns the reference with the name of its item instead of index and sub-index. Returns the unchanged reference if the item does
+/// not exist or has no name.
 pub(crate) fn item_name(groups: &[Group], reference: &ItemRef) -> ItemRef {
     match item_at(groups, reference) {
         Some(item) if !item.name.is_empty() => ItemRef { name: item.name.clone(), ..reference.clone() },

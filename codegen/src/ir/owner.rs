@@ -98,7 +98,7 @@ impl<'a> Owner<'a> {
         }
     }
 
-    /// Returns the values of an enumeration, and whether the list is complete.
+    /// Returns the values of an enumeration, and whether the list is complete. Returns `None` for other types.
     pub fn enumeration(self, ty: Type) -> Option<(&'a [EnumValue], bool)> {
         match &self.definition(ty)?.shape {
             Shape::Enumeration { values, closed, .. } => Some((values, *closed)),

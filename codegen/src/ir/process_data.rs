@@ -24,8 +24,8 @@ pub const MAX_PDO_SUBS: usize = 254;
 impl ProcessData {
     /// Returns the PDOs that are assigned by default, with their sync managers: outputs, then inputs, in the order of the source.
     ///
-    /// Only the first of several PDOs is assigned if these PDOs exclude each other or share an index (ETG.2000, Sm of
-    /// RxPdo and TxPdo).
+    /// A PDO that conflicts with an earlier assigned PDO ([`Pdo::conflicts_with`]) is not assigned (ETG.2000, Sm of RxPdo and
+    /// TxPdo).
     pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
         self.default_assignment().assigned
     }
@@ -393,7 +393,7 @@ pub struct ProcessImage {
     pub direction: Direction,
     /// Length of the user data in bytes.
     pub length: u32,
-    /// Number of bytes after the user data, which contain the trailer of a PROFIsafe message.
+    /// Length in bytes of the trailer of a PROFIsafe message, which follows the user data; 0 if there is no trailer.
     pub overhead: u32,
     /// True if numbers are big-endian.
     pub big_endian: bool,

@@ -14,7 +14,7 @@ pub struct SubmoduleId(pub u32);
 pub struct ProfinetSettings {
     /// Module ident number of the device access point.
     pub ident: u32,
-    /// Device ID, unique for the vendor (`DeviceID`).
+    /// Device ID, unique among the devices of the vendor (`DeviceID`).
     pub device_id: u16,
     /// Main family and product family (`Family`).
     pub family: (CompactString, CompactString),
@@ -152,15 +152,15 @@ pub struct IoData {
     pub image: ProcessImage,
     /// True if all data items are transferred as one consistent block.
     pub consistent: bool,
-    /// Data items that consist of several fields of the image or of none, in order. Every other field of the image is a separate
-    /// data item.
+    /// Data items that are subordinate, have named bits, or do not consist of exactly one field of the image, in order. Every other
+    /// field of the image is a separate data item.
     pub items: Vec<IoItem>,
     /// Channels, sorted by number (GSDML V2.45).
     pub channels: Vec<IoChannel>,
 }
 
-/// A data item with several fields in the image (bits, a value with its status), or none (the trailer of a PROFIsafe
-/// message).
+/// A data item that is subordinate, has named bits, consists of several fields of the image (a value with its status), or has no
+/// field (the trailer of a PROFIsafe message).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IoItem {

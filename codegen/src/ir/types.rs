@@ -413,7 +413,7 @@ pub struct EnumValue {
     pub value: i128,
     /// Last value of a range.
     pub last: Option<i128>,
-    /// Kind of the range, if its values are reserved or vendor-specific.
+    /// Kind of the value or range, if it is reserved or vendor-specific.
     pub zone: Option<Zone>,
     /// Name of the value in other languages.
     pub names: Texts,
@@ -464,7 +464,7 @@ impl EnumValue {
     }
 }
 
-/// The kind of a range of values without individual names.
+/// The kind of a reserved or vendor-specific value or range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -13,10 +13,10 @@ pub struct ItemVariant {
     pub models: Vec<CompactString>,
     /// Buses on which the facts apply; empty = all.
     pub buses: Buses,
-    /// Type, if its width differs on some buses.
+    /// Type on these models and buses, if its width differs from that of the item's type.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub ty: Option<Type>,
-    /// Access rights on these buses, if they are more restrictive than those of the item.
+    /// Access rights on these models and buses, if they are more restrictive than those of the item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub access: Option<Access>,
     /// Default value of the item on these models and buses.

@@ -22,7 +22,7 @@ pub(super) fn module(module: &mut Module) {
     complete(&mut module.groups, &mut module.process_data.pdos, true);
 }
 
-/// An object that only PDO entries describe.
+/// The sub-indices of an object that only PDO entries describe.
 #[derive(Default)]
 struct Implied {
     items: BTreeMap<u8, Item>,
@@ -62,7 +62,8 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
     add(groups, objects);
 }
 
-/// Adds implied objects to the described objects, which are sorted by index.
+/// Adds the implied objects to the described objects in `groups`, which are sorted by index. If an object is already described,
+/// adds only its implied sub-indices.
 fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
     let described = groups.len();
     for (index, object) in objects {

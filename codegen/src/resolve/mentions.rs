@@ -158,7 +158,8 @@ pub(super) fn target(step: &mut Step) -> Option<&mut ItemRef> {
     }
 }
 
-/// Returns the sides of the window of an indirect binding: one for read access, and one for write access.
+/// Returns the sides of the window of an indirect binding: at most one for read access and one for write access. Other bindings
+/// have no window.
 pub(super) fn window_sides(binding: &mut Binding) -> impl Iterator<Item = &mut WindowSide> {
     let window = match binding {
         Binding::Indirect(window) => Some(window),

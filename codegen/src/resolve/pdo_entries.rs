@@ -50,8 +50,7 @@ fn resolve(entry: &mut PdoEntry, dictionary: &Dictionary<'_>, diagnostics: &mut 
     if entry.name.is_empty() {
         (entry.name, entry.names) = (entry_name(item), item.names.clone());
     }
-    // The entry gets the type of the item if the lengths are equal. A type without a fixed length only replaces an
-    // opaque type.
+    // The entry gets the type of the item if the lengths are equal. A type without a fixed length replaces only an opaque type.
     let fits = match Owner::of_types(dictionary.types).fixed_bits(item.ty) {
         Some(bits) => bits == entry.bits,
         None => matches!(entry.ty, Type::Opaque(_)),

@@ -13,8 +13,8 @@ pub enum Profiles {
     Ignored,
 }
 
-/// Completes the descriptions in `catalog`, and reports PDO entries of EtherCAT devices and modules whose object is missing. Each
-/// step uses the results of the steps before it.
+/// Completes the descriptions in `catalog`, and reports EtherCAT PDO entries that map a missing object. Each step uses the results
+/// of the steps before it.
 pub fn resolve(catalog: &mut Catalog, profiles: Profiles, diagnostics: &mut Diagnostics) {
     for device in &mut catalog.devices {
         complete_device(device, &catalog.modules, diagnostics);

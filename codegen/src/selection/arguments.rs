@@ -37,8 +37,8 @@ pub fn of_modules(modules: &[Module]) -> Vec<Option<String>> {
     modules.iter().enumerate().map(argument).collect()
 }
 
-/// Returns whether `text` can be an argument that matches only elements with exactly this name or number: `text` has neither a
-/// revision nor `*`, and the command line does not read it as an option.
+/// Returns whether `text` can be an argument that matches only elements with exactly this name or number: `text` has no revision,
+/// no `*`, no control characters and no surrounding white space, and does not start with `-`.
 fn is_plain(text: &str) -> bool {
     let has_revision = text.parse::<DeviceFilter>().map_or(true, |filter| filter.revision.is_some());
     // The command line would read a text that starts with `-` as an option.

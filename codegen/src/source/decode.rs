@@ -1,4 +1,4 @@
-//! Decodes bytes to text. Handles byte order marks, UTF-8, encodings of XML declarations, and Windows-1252.
+//! Decodes bytes to text. Handles byte order marks, UTF-8, UTF-16, encodings of XML declarations, and Windows-1252.
 
 use std::borrow::Cow;
 

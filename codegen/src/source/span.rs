@@ -59,8 +59,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Returns whether the compiler derived the element from other elements. A derived element has no position in a
-    /// file.
+    /// Returns whether the compiler derived the element from other elements. For a derived element, `line` is 0.
     pub fn is_derived(&self) -> bool {
         self.line == 0
     }

@@ -17,8 +17,8 @@ pub struct Source {
     content: Arc<Content>,
     /// Folder of the files to which this source refers.
     pub(super) folder: Option<PathBuf>,
-    /// Numbers of line ends and characters before each multiple of [`STRIDE`] bytes. A list of all lines would need up to a fifth
-    /// of the size of the text.
+    /// Numbers of line ends and characters before each multiple of [`STRIDE`] bytes. A list of all lines could need a fifth of the
+    /// size of the text.
     counts: OnceLock<Vec<Counts>>,
 }
 
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn positions_in_long_texts_are_those_of_a_list_of_lines() {
         for line_end in ["\n", "\r", "\r\n"] {
-            // Lines of 0 to 70 characters, then some lines that are longer than `STRIDE` bytes.
+            // Lines of 0 to 70 characters, then three lines that are longer than `STRIDE` bytes, an empty line and a short line.
             let lengths =
                 (0..5 * STRIDE).map(|number| number % 71).chain([STRIDE - 1, 3 * STRIDE, 2 * STRIDE + 1, 0, 5]);
             let lines: Vec<String> =

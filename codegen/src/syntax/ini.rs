@@ -53,7 +53,7 @@ type Range = (u32, u32);
 /// A violation of the grammar of CiA 306.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oddity {
-    /// A line that is not a section, entry or comment.
+    /// A line that is not a section header, entry or comment.
     Junk,
     /// An entry above the first section.
     EntryOutsideSection,

@@ -1,4 +1,4 @@
-//! Compares the results for all ESI files of the corpus with the counts that a simple script has determined (`oracle.json`).
+//! Compares the results for the ESI files of the corpus with the counts that a simple script has determined (`oracle.json`).
 //!
 //! The corpus is not part of the repository. If the corpus is missing, the tests print a message and pass.
 
@@ -38,7 +38,7 @@ impl Case {
     }
 }
 
-/// Compiles all files from memory, so that the compiler does not find the files to which they refer.
+/// Compiles the files of the current lane from memory, so that the compiler does not find the files to which they refer.
 fn cases() -> Option<Vec<Case>> {
     let folder = folder_of("esi")?;
     let text = std::fs::read_to_string(folder.join("oracle.json")).expect("the oracle");

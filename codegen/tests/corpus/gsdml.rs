@@ -142,7 +142,7 @@ fn attributes_in_another_case() {
     assert!(case.compilation.diagnostics.list().iter().any(|found| found.code.id == "GSD007"));
 }
 
-/// Returns the total input and output lengths of submodules, including F message trailers.
+/// Returns the total input and output lengths of submodules, including the trailers of PROFIsafe messages.
 fn lengths<'s>(submodules: impl Iterator<Item = &'s Submodule>) -> (u64, u64) {
     let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
     let add = |(input, output), submodule: &Submodule| {
@@ -319,7 +319,7 @@ fn data(catalog: &Catalog) -> impl Iterator<Item = &IoData> {
     catalog.submodules.iter().flat_map(|found| found.input.iter().chain(&found.output)).map(|data| &**data)
 }
 
-/// Returns the number of data items: items that became a single field, and items with several fields or none.
+/// Returns the number of data items: the items in `data.items`, and the fields outside of these items.
 fn data_items(data: &IoData) -> usize {
     let within: u32 = data.items.iter().map(|item| item.fields).sum();
     data.image.fields.len() - within as usize + data.items.len()
@@ -380,7 +380,7 @@ fn channel_errors(catalog: &Catalog) -> usize {
     tables.flat_map(|table| &table.rows).filter(|row| row.cells[1] == ir::Value::Int(0)).count()
 }
 
-/// Returns the number of named bits: one-bit fields of data items with several fields.
+/// Returns the number of named bits: one-bit fields of the data items in `data.items`, without padding.
 fn bits(data: &IoData) -> usize {
     let fields = data.items.iter().flat_map(|item| {
         let first = item.first_field as usize;

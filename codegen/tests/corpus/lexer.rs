@@ -1,8 +1,9 @@
-//! Compares the EDS lexer with an independent one on all INI files of the corpus. The independent lexer is the crate
+//! Compares the EDS lexer with an independent one on the INI files of the corpus. The independent lexer is the crate
 //! `configparser`.
 //!
-//! `configparser` does not implement CiA 306. If a row of the table of quirks makes the results differ, a function named after the
-//! row removes the difference. The test compares the removed differences with the lexer's reports.
+//! `configparser` does not implement CiA 306. If a row of the table of quirks (E20, E27, …) makes the results differ, a function
+//! whose name starts with the number of the row removes the difference. The test compares the removed differences with the lexer's
+//! reports.
 
 use crate::corpus_support;
 

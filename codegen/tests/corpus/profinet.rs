@@ -14,8 +14,8 @@ fn crc16(data: &[u8]) -> u16 {
     })
 }
 
-/// Returns the F_Par_CRC of a record's default values. The CRC covers the F_iPar_CRC, followed by the record as sent.
-/// The bit of F_CRC_Seed is cleared.
+/// Returns the F_Par_CRC of a record's default values. The CRC covers the F_iPar_CRC, if the record contains it, and then the
+/// parameters from F_Check_iPar to F_WD_Time in the order of the record. The bit of F_CRC_Seed is 0.
 fn checksum(record: &FParameters) -> u16 {
     let parameter = |name: &str| record.parameters.iter().find(|parameter| parameter.name == name);
     let number = |name: &str| parameter(name).map_or(0, |parameter| parameter.default);

@@ -240,7 +240,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Returns whether `[xxxxName]` or a similar section has an entry for this sub-index.
+    /// Returns whether the section `part`, such as `[xxxxName]`, has an entry for this sub-index.
     fn refines(&self, index: u16, sub: u8, part: Part) -> bool {
         self.reading.get(index, part).is_some_and(|section| section.facts.contains_key(&sub.to_string()))
     }
@@ -257,7 +257,8 @@ fn compact_count(section: &Section) -> i128 {
     section.number("compactsubobj").unwrap_or(0).clamp(0, 254)
 }
 
-/// Returns the sub-indices of items that the section of the object describes.
+/// Returns the sub-indices of the items that the section of the object describes. With CompactSubObj, returns the implied
+/// sub-indices above 0.
 fn items_of(reading: &Reading, index: u16, section: &Section) -> Vec<u8> {
     let (subs, count) = (reading.subs(index), compact_count(section));
     if count > 0 {
@@ -490,7 +491,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// Returns the first of `codes` that is reported on `line`.
+    /// Returns the first code reported on `line` that is one of `codes`.
     fn code_on(&self, line: u32, codes: &[&'static str]) -> Option<&'static str> {
         self.codes.get(&line)?.iter().copied().find(|code| codes.contains(code))
     }
@@ -532,7 +533,7 @@ fn has_configuration(section: &Section) -> bool {
     CONFIGURATION.iter().any(|key| section.get(key).is_some_and(|fact| !fact.value.is_empty()))
 }
 
-/// Returns whether values of the type are texts or are stored as texts. Such a text includes the rest of its line.
+/// Returns whether values of the type are texts or are stored as texts. Such a text extends to the end of the line.
 fn is_free(ty: Type) -> bool {
     let is_text = matches!(ty, Type::VisibleString(_) | Type::UnicodeString(_));
     is_text || matches!(ty, Type::Domain | Type::Opaque(_) | Type::Named(_))

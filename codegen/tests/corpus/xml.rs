@@ -1,5 +1,5 @@
-//! Compares the XML cursor with an independent reader, the crate `quick-xml`. The inputs are all XML files of the corpus
-//! and copies with changed bytes. If the cursor finds no error, both readers must give the same events.
+//! Compares the XML cursor with an independent reader, the crate `quick-xml`. The inputs are the XML files of the corpus, and
+//! copies with changed bytes. If the cursor finds no error, both readers must give the same events.
 
 use crate::corpus_support;
 

@@ -81,7 +81,7 @@ pub fn on_all_processors<T: Send>(all: Vec<T>, work: impl Fn(T) + Sync) {
     });
 }
 
-/// Returns whether a file describes no device because it contains only diagnosis texts.
+/// Returns whether a file describes neither devices nor modules, such as a file that contains only diagnosis texts.
 fn is_silent(compilation: &Compilation) -> bool {
     let catalog = compilation.catalog.as_ref();
     catalog.is_some_and(|catalog| catalog.devices.is_empty() && catalog.modules.is_empty())

@@ -156,8 +156,8 @@ pub fn trimmed(text: &str) -> &str {
     text.trim_matches([' ', '\t'])
 }
 
-/// Parses a section header `[name] …`. Returns the name and the text after the closing bracket, which may be missing. Returns
-/// `None` for other lines.
+/// Parses a section header `[name] …`. Returns the name and the text after `]`. The bracket `]` may be missing. Returns `None` for
+/// other lines.
 pub fn header(line: &str) -> Option<(&str, &str)> {
     let rest = trimmed(line).strip_prefix('[')?;
     let (name, rest) = rest.split_once(']').unwrap_or((rest, ""));

@@ -96,8 +96,8 @@ fn file_info(facts: &mut Facts, device: &Device) {
     put(facts, "comments", header.comments.join("\n").trim_end());
 }
 
-/// Returns the object type in the notation of the script: `value` for VAR and DOMAIN, `array`, `record`, or the name of another
-/// object type.
+/// Returns the object type in the notation of the script: `value` for VAR and DOMAIN, `array`, `record`, the name of another object
+/// type, or `no object`.
 fn kind(group: &Group) -> &'static str {
     match group.object_code() {
         Some(ObjectCode::Var | ObjectCode::Domain) => "value",

@@ -31,7 +31,7 @@ pub struct Case<'a> {
     text: String,
     peer: &'a Elements,
     ours: &'a Elements,
-    /// PDO entries in Lexibus, keyed by the owner, index and sub-index of the mapped object.
+    /// Facts of Lexibus about PDO entries, by owner and by the index and sub-index that the script reads.
     mapped: HashMap<(&'a str, u16, u8), Vec<&'a Facts>>,
     /// Names of devices and modules that have a dictionary.
     described: HashSet<&'a str>,

@@ -9,7 +9,7 @@ pub type Facts = BTreeMap<String, String>;
 /// The elements of a file by name.
 pub type Elements = BTreeMap<String, Facts>;
 
-/// A fact that two readers read differently, or that only one reader has.
+/// A fact that two readers read differently, or a fact or element that only one reader has.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference<'a> {
     /// Name of the element.

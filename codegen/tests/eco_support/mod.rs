@@ -89,7 +89,7 @@ pub fn definition(device: &Device, ty: Type) -> Option<&TypeDef> {
     device.types.get(id as usize)
 }
 
-/// Returns the integer or text type on which a bit field or enumeration is based. Other types are returned unchanged.
+/// Returns the integer type on which a bit field or enumeration is based. Other types are returned unchanged.
 pub fn base(device: &Device, ty: Type) -> Type {
     match definition(device, ty).map(|entry| &entry.shape) {
         Some(Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => *base,

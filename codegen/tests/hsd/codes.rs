@@ -66,8 +66,8 @@ fn states_homing_states_and_types() {
             values(device, "HomingState").iter().find(|value| number(&cells[0]) == Some(value.value)).expect("a value");
         let types: Vec<i128> = cells[3].split(" - ").filter_map(number).collect();
         let when: Vec<i128> = value.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
-        // The manual's table prints other homing types for homing state 6. However, the text of the manual restricts this state
-        // to the homing types 0 and 2.
+        // The manual's table lists other homing types for homing state 6, but the text of the manual restricts this state to the
+        // homing types 0 and 2.
         assert!(types == when || (value.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
     }
     for (_, cells) in manual.rows(1215, 1221).iter().filter(|(_, cells)| !cells[0].is_empty()) {

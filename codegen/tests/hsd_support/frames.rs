@@ -175,7 +175,7 @@ impl<'d> Layout<'d> {
         frame
     }
 
-    /// Returns the data of a request. If `request` is not empty, returns the data of a reply to this request.
+    /// Returns the data of a request or reply with these fields. For a reply, `request` is the data of the request.
     fn data(&self, fields: &[MessageField], request: &[Byte]) -> Vec<Byte> {
         let mut data = Vec::new();
         let mut values = self.values.iter().copied();

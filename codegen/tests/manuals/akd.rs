@@ -64,7 +64,7 @@ fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
     values
 }
 
-/// Parses a hexadecimal number with or without a prefix: `0x204`, `2050`, `60FD`.
+/// Parses a hexadecimal number with an optional prefix `0x` or suffix `h`: `0x204`, `2050`, `6060h`.
 fn hex(text: &str) -> u32 {
     let digits = text.trim().trim_start_matches("0x").trim_start_matches("0X").trim_end_matches('h');
     u32::from_str_radix(digits, 16).unwrap_or_else(|_| panic!("{text} is not a number"))
@@ -576,7 +576,7 @@ fn latch_words() {
 
 /// Returns whether the field `entry` of a latch word describes `value`. The flag, or the name of the enumeration value, must also
 /// cite the line. A flag describes `value` if its bit is the highest bit that is 1. An enumeration describes `value` if it has a
-/// name for the value of its bits.
+/// name for the bits of `value` from the offset of the field up.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
     let actual = i128::from(value >> entry.offset);
     match entry.meaning {

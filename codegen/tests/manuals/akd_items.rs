@@ -89,8 +89,8 @@ const ITEMS: &[(u8, How)] = &[
     (40, Doubt(&[(1081, "8-12"), (1096, "8-11")])),
     (41, Finding("items-40-41-bit-that-is-left-out", &["TAB036"])),
     (41, Doubt(&[(1079, "4"), (1094, "4")])),
-    // The documentation of the field states that it contains a number from 1 to 4, and not one bit per latch. The test `akd`
-    // checks the values of this field.
+    // The documentation of the field states that it contains a number from 1 to 4, and not one bit per latch. The test
+    // `latch_words` in `akd.rs` checks the values of this field.
     (42, Doubt(&[(1096, "z1zz")])),
     (43, Doubt(&[(1100, "12-15"), (1103, "stato 1")])),
     // Section 4.6: the mailbox.

@@ -10,8 +10,8 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// Each item of section 4, with the first words of its `doubt` entries. The numbers occur in the text of the item, but no `doubt`
-/// entry has to cite them, because most of them are not line numbers.
+/// Each item of section 4, with the first words of its `doubt` entries, and with numbers in the text of the item that no `doubt`
+/// entry cites. Most of these numbers are not line numbers.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["On 104 pages,"], &[104]),
@@ -106,7 +106,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
 ];
 
 /// Each item in section 4 of the notes must have `doubt` entries. These entries must cite each line that the item mentions, and
-/// at least one line of each line range.
+/// at least one line of each line range. [`ITEMS`] lists the exceptions.
 #[test]
 fn every_contradiction_has_its_doubts() {
     let Some(notes) = notes() else { return };

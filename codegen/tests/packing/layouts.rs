@@ -212,7 +212,7 @@ fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
     }
 }
 
-/// Returns the bits of a PROFINET field. Returns `None` if the field is outside the data or has no Rust equivalent.
+/// Returns the pieces of a PROFINET field. Returns `None` if the field is outside the data or has no Rust equivalent.
 fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec<Piece>> {
     let end = u64::from(offset) + u64::from(bits);
     if bits == 0 || end > 8 * u64::from(length) {
@@ -248,7 +248,7 @@ fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     (0..=last - byte).map(piece).collect()
 }
 
-/// Returns the bits of a time: milliseconds in 28 bits of 4 bytes, and days in 2 bytes (IEC 61158-6, TimeOfDay with date
+/// Returns the pieces of a time: milliseconds in 28 bits of 4 bytes, and days in 2 bytes (IEC 61158-6, TimeOfDay with date
 /// indication).
 fn time(byte: u32) -> Vec<Piece> {
     let mut pieces = number(byte, 0, 28, 0);

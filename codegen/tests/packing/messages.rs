@@ -22,7 +22,7 @@ impl<'t> Messages<'t> {
         }
     }
 
-    /// Returns the name of a message in the device description.
+    /// Returns the name of a message in the device description, or an empty text if the message is unknown.
     pub fn title(&self, message: &str) -> &'t str {
         self.titles.get(message).copied().unwrap_or_default()
     }
@@ -106,7 +106,7 @@ fn constants(text: &str) -> HashMap<&str, &str> {
     constants
 }
 
-/// Returns the rule that each request uses to read its settings.
+/// Returns the rule for reading the settings of each request that has settings.
 fn rules(text: &str) -> HashMap<&str, &str> {
     let (mut rules, mut owner) = (HashMap::new(), "");
     for line in text.lines().map(str::trim_start) {

@@ -19,7 +19,8 @@ impl Random {
         (0..self.next() & 3).map(|_| one(self)).collect::<Vec<_>>().leak()
     }
 
-    /// Returns up to three parameters with values that `rule` allows. The slice is valid until the program ends.
+    /// Returns up to three random parameters. `rule` determines the parameter numbers and the lengths of the values. The slice
+    /// is valid until the program ends.
     fn settings(&mut self, rule: SettingsRule) -> &'static [Setting] {
         self.several(|random| {
             let (first, last, length) = rule.lengths[random.next() as usize % rule.lengths.len()];
@@ -34,7 +35,7 @@ impl Random {
         bytes.iter_mut().for_each(|byte| *byte = (self.next() >> 32) as u8);
     }
 
-    /// Returns a random number. Numbers of all lengths in bits are equally likely, and so are positive and negative numbers.
+    /// Returns a random number. Numbers of all lengths in bits are about equally likely, and so are positive and negative numbers.
     fn number(&mut self) -> i64 {
         let (number, shift) = (self.next() as i64, self.next() & 63);
         number >> shift
@@ -54,7 +55,7 @@ impl Random {
 
 const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The bytes of packed data, and their unpacked fields as text.
+/// Packed data, and the unpacked fields as text. For process data, the text is empty if a field was set.
 type Packed = (Vec<u8>, String);
 
 /// Unpacks data, sets a field to the bits of a value, and packs the fields. The second argument is the number of the field, or
@@ -87,7 +88,7 @@ impl Layout {
         }
     }
 
-    /// Returns a mask that contains the bits of all fields.
+    /// Returns a mask in which the bits of all fields are 1, except reserved bits.
     fn mask(&self) -> Vec<u8> {
         let mut mask = vec![0; self.len()];
         for field in 0..self.fields.len() {
@@ -357,8 +358,8 @@ fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Res
     Ok(to.written().to_vec())
 }
 
-/// Checks a message. Requests and replies that can be written must be read unchanged. `request` returns the data of a
-/// request, and `reply` checks replies to it. Random values that cannot be sent are skipped.
+/// Checks a message. `request` checks the round trip of a random request and returns its data. `reply` checks the round
+/// trip of a random reply to this request. Random requests and replies that are invalid are skipped.
 fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
     let mut random = Random(SEED);
     let (mut requests, mut replies) = (0, 0);

@@ -30,8 +30,8 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
 }
 
-/// Compiles all devices and modules of a file together. If an earlier device or module of the file has
-/// the same definition, the generated Rust module re-exports this definition.
+/// Compiles and documents all devices and modules of a file together. If an earlier device or module of the file has
+/// the same definition, the generated Rust module re-exports this definition. Files without such definitions are skipped.
 #[test]
 fn all_devices_of_a_file_compile_and_are_documented_together() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");

@@ -11,8 +11,8 @@ fn program_of(table: String) -> Program {
     program(&catalog.devices[0], &catalog.files[0], None).expect("a program")
 }
 
-/// Returns a table with a state machine. Each state has a number as its value. A transition has the form `FROM >COMMAND TO`, or
-/// `FROM > TO` if it is automatic.
+/// Returns a table with a state machine. The value of each state is its position in `states`. A transition has the form
+/// `FROM >COMMAND TO`, or `FROM > TO` if it is automatic.
 fn with_machine(keys: &str, states: &[&str], transitions: &[&str]) -> String {
     let mut table = format!(
         "lexibus = 1\n[device]\nname = \"D\"\nbuses = [\"modbus\"]\n[spaces.holding]\nmodbus = {{ table = \"holding\", first = 0 }}\n\
@@ -84,7 +84,7 @@ fn the_path_enters_no_fault_state() {
     assert_eq!(through("off >trip alarm"), no_path("Off", "Operating"));
     assert_eq!(through("off > alarm"), no_path("Off", "Operating"));
     assert_eq!(through("* >trip alarm"), no_path("Off", "Operating"));
-    // A state is also a fault state if an automatic transition leads to it from any state.
+    // An automatic transition from all states (`*`) also makes its target a fault state.
     assert_eq!(
         initial_and_target("", &states, &["* > alarm", "off >trip alarm", "alarm >reset operating"]),
         no_path("Off", "Operating")

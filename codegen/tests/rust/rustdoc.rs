@@ -53,7 +53,7 @@ fn rustdoc_has_nothing_to_say_of_the_examples() {
     examples.retain(|path| lane::is_full() || path.parent().is_some_and(|folder| folder.ends_with("data")));
     on_all_processors(examples, |path| {
         let compilation = read(&path, &Options::default());
-        // Use only one set of options for the drives, because the crate `lexibus-drives` documents them with all options.
+        // Use only one set of options for the drives, because rustdoc also runs on the crate `lexibus-drives`.
         let chosen =
             if path.parent().is_some_and(|entry| entry.ends_with("data")) { &choices[..] } else { &choices[1..2] };
         let texts: Vec<String> = chosen.iter().filter_map(|entry| compilation.rust(entry)).collect();
@@ -181,7 +181,7 @@ fn no_text_breaks_out_of_its_cell() {
     assert_eq!(bits[3][1..], ["reserved", "A write to an item sets the value 0."]);
 }
 
-/// Time limit for running rustdoc on corpus files.
+/// Time limit for running rustdoc on corpus files. The first five devices of each format are not subject to the limit.
 const TIME: Duration = Duration::from_secs(25);
 
 /// Maximum number of devices per file for which rustdoc runs.

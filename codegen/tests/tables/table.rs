@@ -1,4 +1,4 @@
-//! Tests register tables: the diagnostics of mistakes, and the results of the examples in the documentation.
+//! Tests register tables: the diagnostics for mistakes, and the results of the examples in the documentation.
 
 use crate::table_support;
 

@@ -406,7 +406,7 @@ fn findings_say_what_and_where() {
     assert_eq!(reported(&mapped), [""; 0]);
 }
 
-/// A table that uses all keys of rows that affect generated code.
+/// A table whose rows use many of the keys that affect generated code.
 const EVERYTHING: &str = r#"lexibus = 1
 [device]
 name = "Pump"

@@ -52,8 +52,7 @@ pub fn node_id() -> NodeId {
 }
 
 /// Exports the description in `file` as an EDS, starts a node with this EDS, and returns a client of the node. `test` is the
-/// name of the test.
-/// Returns `None` if Python or a library is missing.
+/// name of the test. Returns `None` if Python or a library is missing.
 pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     let line = Pty::open();
     let script = run(test, file, line.path())?;

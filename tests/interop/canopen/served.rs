@@ -15,7 +15,8 @@ use crate::slcan::Slcan;
 /// Time to wait for a frame before the thread advances the clock and checks whether the test has ended.
 const POLL: Duration = Duration::from_millis(2);
 
-/// Returns whether the line loses a frame. `number` counts the frames with this CAN-ID.
+/// Returns whether the line loses a frame. `number` is the position of the frame among the SDO requests to the node, or among all
+/// other frames, starting at 1.
 pub type Loses = fn(id: u32, number: usize) -> bool;
 
 /// The simulated node on a serial line, in a thread.

@@ -146,7 +146,7 @@ impl SetPoints {
     }
 }
 
-/// A PDO of 96 bits with numbers that are not byte-aligned.
+/// A PDO of 96 bits in which most numbers are not byte-aligned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActualValues {
     /// Bits 0 to 15.

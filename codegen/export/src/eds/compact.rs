@@ -84,7 +84,7 @@ impl Elements<'_> {
         self.group.items.iter().skip(1).filter_map(|item| Some((item.object()?.1, item)))
     }
 
-    /// Returns the element names that differ from those that CompactSubObj implies.
+    /// Returns the sub-index and the name of each element whose name is not the one that CompactSubObj implies.
     pub(super) fn names(&self) -> Vec<(u8, String)> {
         let follows = |sub: u8, item: &Item| {
             let number = item.name.strip_prefix(self.group.name.as_str());
@@ -105,7 +105,7 @@ impl Elements<'_> {
         self.numbered().filter(|(_, item)| item.configured.is_some()).count()
     }
 
-    /// Returns the denotations of the elements: their names in the application.
+    /// Returns the sub-index and the denotation (the name in the application) of each element that has one.
     pub(super) fn denotations(&self) -> Vec<(u8, String)> {
         let text = |item: &Item| Some(item.configured.as_ref()?.denotation.as_ref()?.to_string());
         self.numbered().filter_map(|(sub, item)| Some((sub, text(item)?))).collect()

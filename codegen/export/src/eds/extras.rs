@@ -1,8 +1,8 @@
 //! Extension attributes and comments of the device, and the sections of the file that contain them.
 //!
 //! The IR lists the attributes as `section/key`, in the order of the source; those of header sections come first. The
-//! export writes each attribute to its section. The header sections have the order in which their first attributes
-//! occur in the IR.
+//! export writes each attribute to its section. Header sections with attributes have the order in which their first
+//! attributes occur in the IR.
 
 use super::note::{NoteKind, Notes, Subject};
 use super::writer::Writer;
@@ -127,7 +127,7 @@ impl<'a> Extras<'a> {
         HEADERS.into_iter().filter_map(ordered).collect()
     }
 
-    /// Returns the extension attributes of a section of the header.
+    /// Returns the extension attributes of a header section.
     pub(super) fn of(&self, header: Header) -> impl Iterator<Item = Extra<'a>> + Clone + use<'_, 'a> {
         self.header.iter().filter(move |(other, _)| *other == header).map(|&(_, extra)| extra)
     }

@@ -20,7 +20,7 @@ pub(super) struct Context<'a> {
     pub(super) missing: MissingFacts,
     /// ETG.2000 unit numbers, keyed by unit symbol.
     pub(super) units: HashMap<CompactString, Option<String>>,
-    /// True if the source is an ESI. The export then adds no missing facts.
+    /// True if the source is an ESI. The export then does not require facts that the source lacks.
     pub(super) is_esi: bool,
 }
 

@@ -151,7 +151,8 @@ fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
     }
 }
 
-/// Returns the timeouts with these names if all of them exist. Otherwise, adds a note for those that exist.
+/// Returns the timeouts with these names if all of them exist. Otherwise, adds a note for those that exist, and returns
+/// an empty list.
 fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
     let limit = |name: &&'static str| {
         let found = settings.timeouts.iter().find(|(known, _)| known == *name);

@@ -1,5 +1,5 @@
-//! Exports EtherCAT slave information (ESI, ETG.2000): all slaves of a catalog, or the dictionary of any device with
-//! objects.
+//! Exports EtherCAT slave information (ESI, ETG.2000): the EtherCAT slaves of a catalog, and its other devices with
+//! objects, except PROFINET devices.
 //!
 //! If the source is an ESI, the export has all its facts that the schema allows, in the order that the schema requires.
 //! If the source has another format, the export has the facts that ETG.2000 can express. [`Export::notes`] lists the

@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Extension, Module};
 
-/// CoE flags of a module, which the IR stores as extensions.
+/// Attributes of a module's CoE element, which the IR stores as extensions.
 const COE: [&str; 9] = [
     "CoE@SdoInfo",
     "CoE@PdoAssign",
@@ -73,8 +73,8 @@ fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.close();
 }
 
-/// Writes the Profile element of a module. ETG.2000 allows only one per module, so other profile numbers are left out
-/// with a note.
+/// Writes the Profile element of a module. ETG.2000 allows only one such element per module, so other profile numbers
+/// are left out with a note.
 fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
     let objects = objects::all(module.groups.iter(), &mut context.notes);
     if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {

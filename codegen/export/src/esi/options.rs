@@ -19,7 +19,7 @@ options! {
         order_code: String = "order-code",
         /// Kind of each port as up to four letters: Y (MII), K (LVDS), H (MII with Fast Hot Connect) or space (none).
         physics: String = "physics",
-        /// Key of the group that contains the device; also the name of the group if the description file has no name.
+        /// Key of the group that contains the device; also the name of the group if the source does not define the group.
         group: String = "group",
         /// Start address and length in bytes of the receive mailbox, such as 0x1000:128.
         mailbox_out: Area = "mailbox-out",

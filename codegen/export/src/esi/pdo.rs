@@ -46,8 +46,7 @@ fn attributes(xml: &mut Xml, pdo: &Pdo) {
     }
 }
 
-/// Returns whether an extension is a PDO attribute that the schema defines, and whether the value of the attribute is
-/// valid.
+/// Returns whether an extension is a PDO attribute that the schema defines, with a valid value.
 fn is_attribute(extension: &Extension) -> bool {
     let Some(("RxPdo" | "TxPdo", name)) = extension.key.split_once('@') else { return false };
     match name {

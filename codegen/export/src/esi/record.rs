@@ -21,7 +21,7 @@ pub(super) struct Entry {
     pub(super) element: Option<u32>,
 }
 
-/// The properties that a record type states for a field. All items of this type have the same properties.
+/// The properties that a record type states for a field. All items that the field describes have these properties.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FieldFacts {
     pub(super) access: Access,

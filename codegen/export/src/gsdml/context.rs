@@ -20,7 +20,7 @@ pub(super) struct Context<'a> {
     pub(super) texts: TextList,
     /// Positions of the pluggable ports in the list of submodules.
     pub(super) pluggable_ports: HashSet<u32>,
-    /// True if the source is a GSDML. The export then adds no missing facts.
+    /// True if the source is a GSDML. The export then does not require facts that the source lacks.
     pub(super) is_gsdml: bool,
 }
 

@@ -55,7 +55,7 @@ pub(super) fn is_list(name: &str) -> bool {
     name == "log_book" || lists.iter().any(|list| name == list.table || name == list.extended)
 }
 
-/// Writes all diagnosis lists.
+/// Writes all diagnosis lists and the log book.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog) {
     code_list(xml, context, catalog, &CHANNEL_DIAGNOSIS);
     code_list(xml, context, catalog, &PROCESS_ALARMS);

@@ -38,8 +38,8 @@ pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
 pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
 pub(super) static FAMILY: Element = leaf("Family");
 
-/// The child element of an interface before the interface's records. [`OF_INTERFACE`] and [`MEDIA_REDUNDANCY`] list the
-/// child elements after the records.
+/// The child element of an interface before the interface's records. [`OF_INTERFACE`], [`RELATIONS`] and
+/// [`MEDIA_REDUNDANCY`] are the child elements after the records.
 pub(super) static GENERAL: Element = element("General", &SIGNAL);
 pub(super) static OF_INTERFACE: [Element; 4] =
     [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];

@@ -1,5 +1,5 @@
-//! Exports PROFINET device descriptions (GSDML). The export has all device access points of a catalog. For another
-//! format, the export has a new device access point for each device with fixed process images.
+//! Exports PROFINET device descriptions (GSDML). The export of a GSDML has all device access points of the source. The
+//! export of another format has a new device access point for each device with fixed process images.
 //!
 //! If the source is a GSDML, the export has all its facts that the schema allows, in the order that the schema
 //! requires. The export keeps attributes of later schema versions. If the source has another format, one submodule of

@@ -15,7 +15,7 @@ use lexibus_codegen::ir::{
 /// Subslot of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// Returns whether the element of the submodule is inside of a device access point or module, and not in the submodule
+/// Returns whether the element of the submodule is inside a device access point or module, and not in the submodule
 /// list.
 fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     let Some(submodule) = context.catalog.submodules.get(at as usize) else { return false };
@@ -26,8 +26,8 @@ fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     }
 }
 
-/// Returns the ports for the submodule list: ports that several elements use, that fit several subslots, or that no
-/// element uses.
+/// Returns the ports for the submodule list: ports that several elements use, that an element allows or uses in
+/// subslots without fixing them there, or that no element uses.
 pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let uses = |list: &[SubmoduleUse]| -> Vec<(u32, bool)> {
         let is_anywhere = |submodule_use: &SubmoduleUse| {

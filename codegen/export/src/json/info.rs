@@ -58,9 +58,9 @@ pub struct DeviceInfo {
     /// Argument of `--device` that selects only this device; `None` if no argument does. Not part of the JSON object.
     #[serde(skip)]
     pub argument: Option<String>,
-    /// Number of distinct indices that the file and the dictionary file of the device declare.
+    /// Number of objects that the file and the dictionary file of the device declare.
     pub objects: usize,
-    /// Number of addressable entries that the file and the dictionary file of the device declare, including sub-index 0.
+    /// Number of entries of these objects, including sub-index 0.
     pub entries: usize,
     /// Number of registers (items of chapters), for register tables.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,9 +74,9 @@ pub struct DeviceInfo {
 /// The summary of a dictionary without a device.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
 pub struct DictionaryInfo {
-    /// Number of distinct indices that the file declares.
+    /// Number of objects that the file declares.
     pub objects: usize,
-    /// Number of addressable entries that the file declares, including sub-index 0.
+    /// Number of entries of these objects, including sub-index 0.
     pub entries: usize,
 }
 
@@ -126,9 +126,9 @@ pub enum ModuleContent {
     },
     /// The facts of an EtherCAT module.
     EtherCat {
-        /// Number of distinct indices that the file declares for the module.
+        /// Number of objects that the file declares for the module.
         objects: usize,
-        /// Number of addressable entries that the file declares for the module, including sub-index 0.
+        /// Number of entries of these objects, including sub-index 0.
         entries: usize,
         /// RPDOs of the module.
         rx_pdos: Vec<PdoInfo>,

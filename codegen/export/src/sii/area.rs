@@ -67,7 +67,7 @@ impl Area {
             self.set_bytes(0x14, used);
             context.notes.add_many(NoteKind::ConfigData, !rest.is_empty(), Subject::Named("BootStrap"));
         }
-        // The mailboxes are written in reverse order, so that the first of several mailboxes takes precedence.
+        // Process the sync managers in reverse order, so that the first mailbox of each direction takes precedence.
         for manager in context.device.process_data.sync_managers.iter().rev() {
             let word = match manager.purpose {
                 SyncManagerPurpose::MailboxOut => 0x18,
@@ -86,14 +86,14 @@ impl Area {
     }
 }
 
-/// Returns the first 14 bytes of the EEPROM: those of the options or of the description, with the station alias from
-/// the options.
+/// Returns the first 14 bytes of the EEPROM: those of the options or, if the options contain none, those of the
+/// description. The station alias comes from the options.
 fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8> {
     let declared = context.settings.eeprom.as_ref().map(|eeprom| eeprom.config_data.clone());
     let declared = declared.filter(|bytes| !bytes.is_empty());
     let given = context.options.config_data().map(|octets| octets.0);
     let mut bytes = missing.require(given.or(declared), "config-data", super::Options::KEYS);
-    // A description may contain the checksum after the bytes that it covers. The image contains a computed checksum.
+    // A description may contain the checksum after the first 14 bytes. The image contains a computed checksum.
     let is_more = !matches!(bytes.len(), 0..=CHECKED | CHECKED_WITH_SUM);
     context.notes.add_many(NoteKind::ConfigData, is_more, Subject::Named("ConfigData"));
     if let [.., low, high] = bytes.get(..CHECKED_WITH_SUM).unwrap_or_default() {
@@ -130,7 +130,8 @@ fn checksum(bytes: &[u8]) -> u8 {
 mod tests {
     use super::*;
 
-    /// Checks the first words of the EEPROM of a published device. The CRC of these words including the checksum is 0.
+    /// Checks the first words of the EEPROM of a published device. The CRC of the first 15 bytes, the last of which is
+    /// the checksum, is 0.
     #[test]
     fn checksums() {
         let image = [0x80, 0x06, 0x03, 0x4C, 0x64, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xEC, 0];

@@ -40,7 +40,8 @@ pub(super) fn bits(flags: &[bool]) -> u8 {
     flags.iter().rev().fold(0, |bits, flag| bits << 1 | u8::from(*flag))
 }
 
-/// Returns the current drawn from the E-bus in milliamperes, or 0 if the field is too short for the value.
+/// Returns the current drawn from the E-bus in milliamperes, or 0 if the value is unknown or does not fit into the
+/// field.
 fn current(milliamperes: Option<i32>, notes: &mut Notes) -> i16 {
     let milliamperes = milliamperes.unwrap_or(0);
     i16::try_from(milliamperes).unwrap_or_else(|_| {

@@ -45,7 +45,7 @@ enum Detail {
 /// # Errors
 ///
 /// Returns an error if the device has no EtherCAT settings, if the source describes only a dictionary, if a required
-/// fact is missing, or if the content is too long for the EEPROM.
+/// fact is missing, or if the shortest possible content is too long for the EEPROM.
 pub fn export(device: &Device, options: &Options) -> Result<Image, Refusal> {
     let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only).ok_or(Refusal::Nothing)?;
     let options = &TrackedOptions::new(options);
@@ -63,8 +63,8 @@ fn declared(eeprom: &Eeprom, options: &TrackedOptions<'_>) -> Image {
     Image { bytes: eeprom.data.clone(), notes: notes.finish() }
 }
 
-/// Returns the content with as many details of the PDOs as fit into the EEPROM. If nothing fits, returns the error for the complete
-/// content.
+/// Returns the content with as many details of the PDOs as fit into the EEPROM. If even the shortest content is too long, returns
+/// the error for the complete content.
 fn composed(device: &Device, settings: &EtherCatSettings, options: &TrackedOptions<'_>) -> Result<Image, Refusal> {
     let complete = with_detail(device, settings, options, Detail::Complete);
     let Err(Refusal::TooLong { .. }) = complete else { return complete };

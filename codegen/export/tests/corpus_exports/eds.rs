@@ -14,7 +14,7 @@ use lexibus_codegen::source::Source;
 use lexibus_export::eds::{export, Export, Flavor};
 use serde_json::Value;
 
-/// Codes of diagnostics that the export of a file may cause although the original does not cause them, with the reason.
+/// Codes of diagnostics that the export of a file may cause more often than its original, with the reason.
 const MAY_APPEAR: [(&str, &str); 0] = [];
 
 /// Removes facts that only a DCF can contain.

@@ -14,7 +14,7 @@ use lexibus_export::esi::{export, NoteKind, Options, Refusal};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Removes facts that the comparison ignores. The comments in the function state the reasons.
+/// Removes differences that the comparison ignores. The comments in the function state the reasons.
 fn comparable(before: &mut Value, after: &mut Value) {
     for value in [&mut *before, &mut *after] {
         each_object(value, &mut |fields| {
@@ -117,7 +117,8 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     }
 }
 
-/// Returns all ESI files of the corpus that contain a catalog, with their exports.
+/// Returns the name, catalog and export of each ESI file of the corpus that can be read. Returns `None` if the corpus
+/// is missing.
 fn exports() -> Option<&'static Vec<(String, Catalog, Export)>> {
     static EXPORTS: OnceLock<Option<Vec<(String, Catalog, Export)>>> = OnceLock::new();
     EXPORTS.get_or_init(make_exports).as_ref()
@@ -155,7 +156,7 @@ fn esi_to_ir_to_esi_to_ir_is_the_identity() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Returns facts that an EtherCAT slave requires and a CANopen device does not have.
+/// Returns facts that an ESI requires and the description of a CANopen device can lack.
 fn of_a_slave() -> Options {
     let mut options = Options::default();
     let facts = [
@@ -176,8 +177,8 @@ fn of_a_slave() -> Options {
     options
 }
 
-/// Returns the entries of a CANopen device that its ESI omits or changes. Ignores objects that the ESI omits completely
-/// if `kinds` contains [`NoteKind::CanObject`].
+/// Returns the entries of a CANopen device that its ESI omits or changes. If `kinds` contains [`NoteKind::CanObject`],
+/// ignores objects that the ESI omits completely.
 fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<String> {
     let mut lost = Vec::new();
     for item in before.groups.iter().flat_map(|group| &group.items) {

@@ -13,7 +13,7 @@ use lexibus_export::gsdml::{export, file_name, NoteKind, Options};
 use lexibus_export::Export;
 use serde_json::Value;
 
-/// Removes facts that the comparison ignores. The comments in the function state the reasons.
+/// Normalizes facts whose differences the comparison ignores. The comments in the function state the reasons.
 fn comparable(value: &mut Value) {
     // Sort the diagnosis lists, because the export writes them in the order of the schema.
     if let Some(tables) = value["code_tables"].as_array_mut() {
@@ -35,7 +35,7 @@ fn noted(exported: &Export, kind: NoteKind) -> usize {
     exported.notes.iter().filter(|note| note.kind == kind).map(|note| note.count).sum()
 }
 
-/// Returns the difference between `catalog` and its reread export.
+/// Returns the first difference between `catalog` and its reread export, or `None` if there is none.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let name = file_name(catalog, &Options::default()).unwrap_or_else(|| "export".into()) + ".xml";
     let again = read(Source::new(name.as_str(), exported.text.clone().into()), &options());

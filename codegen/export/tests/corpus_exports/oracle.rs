@@ -102,8 +102,8 @@ fn e68_commissioned(text: &str) -> bool {
     names.into_iter().any(|name| ["devicecomissioning", "devicecommissioning"].contains(&name.as_str()))
 }
 
-/// Compares the formats that the compiler and the script recognize. The compiler prefers the extension `.eds` or `.dcf` of
-/// the file name. The results may differ only if the extension and the content differ.
+/// Compares the formats that the compiler and the script recognize. If the file name ends with `.eds` or `.dcf`, the compiler uses
+/// this extension and not the content. The results may differ only if the extension does not match the content.
 #[test]
 fn formats_follow_from_extension_or_content() {
     let Some(cases) = cases() else { return };

@@ -25,7 +25,8 @@ struct Exported {
     notes: Vec<&'static str>,
 }
 
-/// Exports a device. Adds the facts that the device lacks to `options`.
+/// Exports a device. Adds the facts that the device lacks to `options`, and a sufficient EEPROM size if the content is
+/// too long.
 fn image(device: &Device, options: &mut Options) -> Result<Image, Refusal> {
     let mut result = export(device, options);
     if let Err(Refusal::Missing(facts)) = &result {

@@ -9,7 +9,7 @@ use lexibus_export::{eds, esi, gsdml};
 use crate::corpus_support::lane;
 use crate::corpus_support::root::root;
 
-/// Names with line ends, sections, keys, comments, elements, attributes and entities.
+/// Names with line ends, sections, keys, comments, elements, attributes, entities and control characters.
 const HOSTILE: [&str; 12] = [
     "a\nAccessType=wo",
     "b\r\n[6FFF]\r\nParameterName=x",

@@ -41,7 +41,7 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// Compares a device or module, which has its own list of types.
+    /// Calls `compare` for a device or module, with its lists of types as the current types.
     pub fn in_types(&mut self, old: &'a [TypeDef], new: &'a [TypeDef], compare: impl FnOnce(&mut Self)) {
         let outer = (self.types, self.types_owner);
         (self.types, self.types_owner) = ((old, new), self.types_owners);

@@ -286,7 +286,7 @@ fn meaning(bit_meaning: &BitMeaning) -> &'static str {
 }
 
 fn values(old: &[EnumValue], new: &[EnumValue], comparison: &mut Comparison<'_>) {
-    // A generated enumeration has a variant for each value, and Rust code may match all variants.
+    // A generated enumeration has a variant for each value that is not a range, and Rust code may match all variants.
     let is_variant = |value: &EnumValue| value.last.is_none();
     let judge = move |value: &EnumValue| if is_variant(value) { Judgment::API } else { Judgment::NONE };
     let key = |value: &EnumValue| match value.when.as_ref() {

@@ -104,8 +104,8 @@ impl Description {
     }
 }
 
-/// Returns descriptions sorted by size: inputs of the UI cases, dictionaries, and catalogs from random bytes. The full
-/// lane adds a part of the corpus.
+/// Returns descriptions sorted by size: inputs of the UI cases, test data, dictionaries, and catalogs from random
+/// bytes. The full lane adds a part of the corpus and more of these catalogs.
 fn descriptions() -> Vec<Description> {
     let root = root();
     let mut paths = Vec::new();
@@ -145,15 +145,15 @@ const BYTES: usize = 1500;
 /// Results of comparing descriptions with changed leaves.
 #[derive(Default)]
 struct Tally {
-    /// Number of changed leaves for each path.
+    /// Number of leaves for each path.
     paths: BTreeMap<String, usize>,
     changes: usize,
     reported: usize,
     /// Keys in [`UNREPORTED`] that match a changed leaf.
     listed: BTreeSet<&'static str>,
-    /// For each path without a reported change, an example of a change.
+    /// For each path with a change that must be reported but is not, an example of such a change.
     missed: BTreeMap<String, String>,
-    /// For each path whose changes are all invalid, an example of a change. Removals of required parts are not included.
+    /// For each path at which all changes to a number, text or truth value are invalid, an example of such a leaf.
     invalid: BTreeMap<String, String>,
 }
 

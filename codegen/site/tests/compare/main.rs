@@ -1,4 +1,4 @@
-//! Tests the comparison of two versions of a description, and whether each change breaks code for the old version.
+//! Tests the comparison of two versions of a description, including the effects of each change.
 
 mod complete;
 mod leaves;

@@ -36,7 +36,7 @@ fn data(name: &str) -> String {
     std::fs::read_to_string(path).expect("a description")
 }
 
-/// Returns a register table in which all texts contain the markup.
+/// Returns a register table in which texts of all kinds contain the markup.
 pub fn table() -> String {
     format!(
         "lexibus = 1\n[device]\nname = \"{HOSTILE}\"\nvendor = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\nbuses = [\"modbus\", \"serial\"]\n\

@@ -41,7 +41,7 @@ pub fn files(format: Format, paths: &[&str]) -> Vec<Page> {
     site(format, paths.iter().map(read).collect())
 }
 
-/// Paths of descriptions, at least one in each format.
+/// Paths of register tables and of EDS, ESI and GSDML files.
 pub const ALL: [&str; 10] = [
     "dictionaries/aec-vector-step.toml",
     "dictionaries/demo-drive.eds",
@@ -65,7 +65,7 @@ pub fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
 ///
 /// # Panics
 ///
-/// Panics if a link is invalid or an id occurs twice.
+/// Panics if a link is invalid or an ID occurs twice on a page.
 pub fn html_links(pages: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for page in pages {
@@ -86,7 +86,7 @@ pub fn html_links(pages: &[Page]) -> usize {
 ///
 /// # Panics
 ///
-/// Panics if a link is invalid or an id occurs twice.
+/// Panics if a link is invalid or an ID occurs twice on a page.
 pub fn markdown_links(all: &[Page]) -> usize {
     let mut ids: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     let mut links = Vec::new();
@@ -161,11 +161,11 @@ fn placed(pages: &[Page]) {
     }
 }
 
-/// Checks that descriptions do not add HTML elements to the pages of a site.
+/// Checks that descriptions do not add HTML elements or event handlers to the pages of a site.
 ///
 /// # Panics
 ///
-/// Panics if a description adds an HTML element.
+/// Panics if a description adds an HTML element or an event handler.
 pub fn html_markup(all: &[Page]) {
     placed(all);
     for page in all.iter().filter(|page| page.path.ends_with(".html")) {

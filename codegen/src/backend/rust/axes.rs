@@ -1,4 +1,4 @@
-//! Devices with several axes: the constant `AXES`, from which the runtime calculates the object addresses of each axis.
+//! Devices with several axes: the static `AXES`, from which the runtime calculates the object addresses of each axis.
 
 use super::code::{Data, Doc};
 use super::docs;
@@ -9,7 +9,7 @@ pub(super) struct AxesModel {
     /// A phrase ` of …, …` with the names of the device models that have several axes. The phrase is empty if all
     /// models of the device have several axes.
     pub models: String,
-    /// Value of the constant `AXES`.
+    /// Value of the static `AXES`.
     pub constant: Doc,
 }
 

@@ -30,14 +30,14 @@ pub(super) struct BitFieldModel {
     pub native: &'static str,
     /// Initial value, in which only the reserved bits that must be 1 are set.
     pub initial: String,
-    /// Expression that clears the bits of `raw` beyond the width of the bit field.
+    /// Expression that returns `raw` without the bits beyond the width of the bit field.
     pub cut: String,
     /// Expression that returns the value to write to the device. `None` if no reserved bit has a required value.
     pub written: Option<String>,
     pub allow: Option<String>,
     pub fields: Vec<FieldModel>,
     pub views: Vec<ViewModel>,
-    /// Mask of all flags. `None` if the bit field has views, fields of several bits, reserved bits or active-low flags.
+    /// Mask of all flags. `None` if the bit field has views, no entries, or entries other than active-high flags.
     pub flags: Option<String>,
 }
 
@@ -101,8 +101,8 @@ pub(super) struct ViewModel {
 }
 
 /// Names that getters must not have: keywords that cannot be raw identifiers, other methods of bit fields, methods that
-/// clippy expects in trait implementations only, and methods that all types have. A call could otherwise choose the
-/// method that all types have, and not the getter.
+/// clippy expects in trait implementations only, and methods that all types have. Otherwise, a call could select the
+/// method that all types have instead of the getter.
 const RESERVED: [&str; 17] = [
     "self",
     "super",
@@ -259,8 +259,8 @@ fn snake(name: &str) -> String {
     names::unique(&[name_request], &RESERVED, Case::Snake).remove(0)
 }
 
-/// Returns the reserved bits that must be written as 0, and those that must be written as 1. Bits that also belong to an
-/// entry without such a requirement are left out.
+/// Returns the reserved bits that must be written as 0, and those that must be written as 1. Bits that also belong to
+/// an entry with a condition or without such a requirement are left out.
 fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     let bits_of = |entry: &BitFieldEntry| mask(entry.bits.into()) << entry.offset;
     let (mut zeros, mut ones, mut used) = (0, 0, 0);

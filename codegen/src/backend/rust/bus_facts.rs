@@ -74,7 +74,7 @@ fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Ve
 }
 
 /// Returns the address ranges of a Modbus table that a read request for other items may include. Values that are too
-/// long for one Modbus request are excluded.
+/// long for one read request are excluded.
 fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Doc> {
     let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
     let all = items(device).flat_map(|item| registers(item).map(move |register| (item, register)));

@@ -1,4 +1,4 @@
-//! Generates one Rust module with all devices and modules of a file.
+//! Generates the Rust code for the devices and modules of a file.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,7 +12,7 @@ use super::{docs, header, print};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that the Rust module of a device must not have, because the code in the module uses these names.
+/// Names that the Rust module of a device or module must not have: keywords, and names that the generated code uses.
 const RESERVED: [&str; 18] = [
     "self",
     "super",

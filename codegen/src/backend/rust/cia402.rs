@@ -47,7 +47,7 @@ const CONTROLWORD: Role = Role { object: (0x6040, 0), function: "controlword", a
 const STATUSWORD: Role = Role { object: (0x6041, 0), function: "statusword", access: READ };
 const MODE: Role = Role { object: (0x6060, 0), function: "modes_of_operation", access: WRITE };
 const ACTIVE_MODE: Role = Role { object: (0x6061, 0), function: "modes_of_operation_display", access: READ };
-/// The error code is read from object 0x1003:1 if the device has no object 0x603F.
+/// The error code is read from object 0x1003:1 if a client cannot read object 0x603F.
 const ERROR_CODE: Role = Role { object: (0x603F, 0), function: "error_code", access: READ };
 const FOLLOWING_ERROR: Role = Role { object: (0x60F4, 0), function: "following_error", access: READ };
 
@@ -67,8 +67,8 @@ const CAPABILITIES: [(&str, Role, &str); 3] = [
 type Played<'r, 'c> = (&'r Role, Constant<'c>);
 
 impl Cia402Model {
-    /// Returns the model of a device. The device must have the CiA 402 state machine and the objects 0x6060 and 0x6061
-    /// (mode of operation). Their access rights must allow the operations. Otherwise, returns `None`.
+    /// Returns the model of a device. Returns `None` unless the device has the CiA 402 state machine, and the objects
+    /// 0x6040, 0x6041, 0x6060 and 0x6061 with access rights that allow the operations.
     pub(super) fn new(constants: &Constants<'_, '_>, walks: &[WalkModel]) -> Option<Self> {
         let find = |role: &Role| {
             let (reads, writes) = role.access;

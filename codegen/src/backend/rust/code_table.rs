@@ -66,8 +66,8 @@ fn model(
     }
     let rows = table.rows.iter().filter_map(|code_row| row(code_row, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|model| CodeTypeModel { name: type_name, ..model });
-    // If the name of a code table is a single letter, its constant and its enumeration have the same name. The link
-    // must therefore state which of the two it means.
+    // The static and the enumeration of a code table can have the same name, for example a single letter. A name can
+    // also be that of a derive macro. In both cases, the link must state the kind of its target.
     let link = |name: &str, kind: &str, other: &str| match name == other || is_derive(name) {
         true => format!("[`{name}`]({kind}@{name})"),
         false => format!("[`{name}`]"),
@@ -80,7 +80,7 @@ fn model(
     CodeTableModel { name, link: static_link, docs, rows, has_real, ty }
 }
 
-/// Returns the expression for a row of a code table. Returns `None` if the code does not fit in 64 bits.
+/// Returns the expression for a row of a code table. Returns `None` if the first or last code does not fit in an `i64`.
 fn row(row: &CodeRow, columns: usize) -> Option<Doc> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());

@@ -50,10 +50,12 @@ const NATIVES: [(&str, i64, i64); 4] = [
 
 type Span = (i64, i64);
 
-/// Returns the enumeration for `table`, without its name. Returns `None` if no row has a code that fits in 64 bits.
+/// Returns the enumeration for `table`, without its name. Returns `None` if no row has a valid range of codes within
+/// `i64`.
 pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOptions) -> Option<CodeTypeModel> {
     let mut seen = HashSet::new();
-    // If several rows describe the same code for different models, the first row determines the name of the variant.
+    // If several rows describe the same code or range, for example for different models, the first row determines the
+    // name of the variant.
     let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|row_span| seen.insert(*row_span))?, row));
     let rows: Vec<(Span, &CodeRow)> = table.rows.iter().filter_map(first_of_its_span).collect();
     let low = rows.iter().map(|(span, _)| span.0).min()?;

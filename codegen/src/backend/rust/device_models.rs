@@ -12,7 +12,7 @@ use super::variant;
 use crate::ir::{Device, Value, Variant};
 use crate::names::{self, Case, NameRequest};
 
-/// A model of the device that differs from other models.
+/// A model of the device that has constants or different items, ready to be printed.
 pub(super) struct DeviceModel {
     pub name: String,
     pub docs: Vec<String>,

@@ -4,8 +4,8 @@ use super::literal;
 use crate::ir::{Device, FileInfo};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that the type of a device must not have. The generated module uses these names, or clippy would mistake a
-/// function with such a name for a constructor.
+/// Names that the type of a device must not have: the keyword `Self`, names that the generated code uses, and names of
+/// constructors, because clippy reports a constructor that has the name of its type.
 const RESERVED: [&str; 8] = ["Self", "C", "S", "X", "Option", "Result", "New", "On"];
 
 /// Names that the module of a file must not have.

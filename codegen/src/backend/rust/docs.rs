@@ -30,9 +30,9 @@ fn links_from<'c>(
     move |id, name| (id != entry.id.into()).then(|| context.link_to(id, name, doc_module))?
 }
 
-/// Returns the documentation of an item's constant. The first paragraph contains the name, unit, limits, default value,
-/// addresses, type and access rights, and links to related elements. Lists of constants show only this paragraph. The
-/// description of the item and its other facts follow. Links are relative to `doc_module`.
+/// Returns the documentation of an item's constant. The first paragraph contains the name, the main facts (such as
+/// unit, limits, addresses, type and access rights), and links to related elements. Rustdoc shows only this paragraph
+/// in lists of constants. The description of the item and its other facts follow. Links are relative to `doc_module`.
 pub(super) fn item(
     entry: &NamedItem<'_>,
     name: &str,
@@ -84,8 +84,8 @@ pub(super) fn item(
     lines
 }
 
-/// Returns the documentation of an item's accessor: the description's text or `name`, facts, storage, ambiguities and
-/// related elements. Links are relative to `doc_module`.
+/// Returns the documentation of an item's accessor: the text of the description, if there is one, the name, facts,
+/// storage, related elements and ambiguities. Links are relative to `doc_module`.
 pub(super) fn method(
     entry: &NamedItem<'_>,
     name: &str,

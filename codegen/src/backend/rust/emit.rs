@@ -1,4 +1,4 @@
-//! Entry points of the back end: generated modules, and names of generated elements.
+//! Entry points of the back end: generated modules, calls and names.
 
 use std::collections::HashMap;
 
@@ -18,7 +18,7 @@ pub const INTERFACE_VERSION: u32 = 1;
 /// Returns the Rust module for `catalog`. Returns `None` if the catalog has no element for which code can be generated.
 ///
 /// The code of a single device is at the top level. If the catalog has several devices, each device has its own Rust
-/// module. The Rust modules for plug-in modules are next to those for devices.
+/// module. The Rust modules for plug-in modules are in the Rust module `modules`.
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
     let file = catalog.files.first()?;
     #[cfg(feature = "gsdml")]
@@ -50,7 +50,7 @@ pub(super) fn header(file: &FileInfo) -> String {
 /// Rust calls that read and write each item, such as `device.identity().vendor_id().read()?`.
 pub type Calls = HashMap<ItemId, Vec<String>>;
 
-/// The names of a device's elements in the generated code, for documentation.
+/// The calls and PDO names of a device in the generated code, for documentation.
 pub struct Usage {
     /// Calls that read and write the items of the device.
     pub calls: Calls,
@@ -58,7 +58,7 @@ pub struct Usage {
     pub pdos: HashMap<(u16, Option<ObjectBuses>), String>,
 }
 
-/// Returns the names of a device's elements in the generated code.
+/// Returns the calls and PDO names of a device in the generated code.
 pub fn usage(device: &Device) -> Usage {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
     let calls = objects::calls(&context)
@@ -82,8 +82,8 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
 }
 
-/// Returns the calls that read and write an item: first as a physical value, then as a raw value. `handle` is the
-/// expression of the item.
+/// Returns the calls that read and write an item: first those for the physical value if the runtime can express the
+/// scale of the item, then those for the value without a conversion. `handle` is the expression of the item.
 fn calls_of(context: &Context<'_>, item: &Item, handle: &str) -> Vec<String> {
     let (suffix, other) = match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::ByItem { .. } | Scale::Fraction { .. } | Scale::Exponent { .. }) => ("_by", "other"),

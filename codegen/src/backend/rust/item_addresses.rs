@@ -34,7 +34,7 @@ pub(super) struct ItemAddresses<'i> {
     is_bytes: bool,
     /// True if the value is a text with 16-bit characters. Each register contains the code of one character.
     is_wide: bool,
-    /// True if the value is a signed number.
+    /// True if the value is a signed integer.
     is_signed: bool,
 }
 

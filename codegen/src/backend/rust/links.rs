@@ -32,7 +32,7 @@ impl<'h> DocModule<'h> {
     pub const PDO: DocModule<'static> = DocModule::new("super::", "pdo::");
     #[cfg(feature = "messages")]
     pub const MESSAGES: DocModule<'static> = DocModule::new("super::", "messages::");
-    /// Any other module in the device's module. No link leads to such a module.
+    /// Any other module in the device's module. All links in its comments lead through `super::`.
     pub const OTHER: DocModule<'static> = DocModule::new("super::", "::");
 
     pub const fn new(outer: &'h str, module: &'h str) -> Self {
@@ -127,8 +127,8 @@ struct Handle {
 /// Maximum number of elements that a sentence lists.
 const LISTED: usize = 8;
 
-/// The paths of all elements that are generated for a device or module, and the relations between items, types, PDOs
-/// and composite numbers. The paths are relative to the device's module.
+/// The paths of items and messages in the generated code of a device or module, and the relations between items, types,
+/// PDOs and composite numbers. The paths are relative to the device's module.
 #[derive(Debug, Default)]
 pub(super) struct Links {
     handles: HashMap<ItemId, Handle>,
@@ -146,7 +146,7 @@ pub(super) struct Links {
 }
 
 impl Links {
-    /// Collects the paths of all generated elements. `device_name` is the name of the device's type.
+    /// Collects the paths of items and messages, and the relations. `device_name` is the name of the device's type.
     pub fn of(scope: &Located<'_>, names: &Names<'_>, options: &RustOptions, device_name: &str) -> Self {
         let mut links = Links::default();
         let has_objects = !names.handles.is_empty() && scope.device.is_some_and(has_object_access);
@@ -196,7 +196,8 @@ impl Links {
 
     fn add_handle(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, device: Option<&str>) {
         let name = &entry.name;
-        // The link must state that it means the constant, because a module may have the same name.
+        // If the name has no letters, a module may have the same name, so the link must state that it means the
+        // constant.
         let kind = if is_cased(name) { "" } else { "const@" };
         let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
         self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
@@ -236,14 +237,14 @@ impl Links {
     }
 
     /// Returns the sentences that link the documentation of an item's accessor to the item's constant and type, and to
-    /// the PDOs that map it.
+    /// the composite numbers and PDOs that contain the item.
     pub fn related_to_method(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let constant = self.path(entry.id.into()).map(|path| format!("Constant: {}.", doc_module.whole(path)));
         self.related(entry, [constant, values(ty, doc_module)], doc_module)
     }
 
     /// Returns the sentences that link the documentation of an item's constant to the item's accessor and type, and to
-    /// the PDOs that map it.
+    /// the composite numbers and PDOs that contain the item.
     pub fn related_to_constant(&self, entry: &NamedItem<'_>, ty: Option<&str>, doc_module: DocModule<'_>) -> String {
         let method = self.handles.get(&entry.id).and_then(|handle| handle.method.as_ref());
         let link = |path: &String| if doc_module.is_of(path) { doc_module.whole(path) } else { doc_module.code(path) };

@@ -290,7 +290,7 @@ fn steps(
             Some(CommandId::Pattern(position)) => commands.variant(position),
             _ => None,
         });
-        // Without a variant, the command is a message or has no bit pattern.
+        // Leave out the transition if its target state or its command has no variant.
         let (Some(to), false) = (states.state(&transition.to), command == Some(None)) else { continue };
         let command = command.flatten();
         let from = match &transition.from {

@@ -102,7 +102,7 @@ pub(super) struct Model {
     /// True if PDOs have views within a process image.
     pub has_views: bool,
     pub ethercat: Option<EtherCatModel>,
-    /// Value of the constant `MODULE`. `None` for a device.
+    /// Value of the static `MODULE`. `None` for a device.
     pub module: Option<Doc>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
@@ -113,7 +113,7 @@ pub(super) struct Model {
 }
 
 impl Model {
-    /// Creates the model of a device. `modules` contains the paths of the modules' constants.
+    /// Creates the model of a device. `modules` contains the paths of the modules' statics `MODULE`.
     pub(super) fn new(device: &Device, file: &FileInfo, options: &RustOptions, modules: &ModulePaths) -> Self {
         let device_name = device_names::device_name(device, file, options.device_name.as_deref());
         let context = context(Scope::of_device(device), options, &device_name);

@@ -14,8 +14,8 @@ use crate::facts::{area, register};
 use crate::ir::{Binding, Item, ObjectCode};
 use crate::names;
 
-/// An object or register, ready to be printed. A register or an object without entries becomes a handle. An object with
-/// entries becomes a module.
+/// An object or register, ready to be printed. An object becomes a module if it has sub-indices above 0 or several
+/// values. Other objects and registers become handles.
 pub(super) struct ObjectModel {
     pub name: String,
     /// Title of the area: a chapter, a range of objects, or "Process images".
@@ -73,7 +73,7 @@ impl ObjectModel {
     }
 }
 
-/// Returns the registers of all chapters, followed by the objects.
+/// Returns the models of the registers and process image fields, followed by those of the objects.
 pub(super) fn models(context: &Context<'_>, locations: &Locations) -> Vec<ObjectModel> {
     let HandleNames { registers, objects } = &context.names.handles;
     let registers = registers.iter().map(|named| register(context, locations, named));

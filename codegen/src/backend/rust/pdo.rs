@@ -50,7 +50,7 @@ pub(super) struct PdoModel {
     pub fields: Vec<FieldModel>,
     pub mapping: Vec<Doc>,
     pub word: bool,
-    /// Mask of the bits that unpacking and packing preserve.
+    /// Mask of those bits in the first 64 bits that unpacking and packing preserve.
     pub covered: String,
     pub cob_id: Option<String>,
     pub configuration: Vec<String>,
@@ -355,7 +355,7 @@ impl PdoModel {
         lines
     }
 
-    /// Returns a struct literal that reads all fields from the bytes of the frame.
+    /// Returns a struct literal that reads all fields of the PDO.
     pub(super) fn unpacked(&self) -> Doc {
         let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
         Data::fields("Self", self.fields.iter().map(|field| (field.name.as_str(), value(field))))
@@ -398,7 +398,8 @@ impl FieldModel {
             (offset, None) => format!("word >> {offset}"),
             (offset, Some(mask)) => format!("(word >> {offset}) & {mask}"),
         };
-        // Parentheses around the expression clarify the precedence of `&` and `==`.
+        // An expression with operators needs parentheses before a cast. For a Boolean, parentheses clarify the
+        // precedence of `>>` and `&`.
         let is_plain = match self.kind {
             FieldType::Bool => false,
             _ => shifted == "word" || !self.kind.is_cast(),

@@ -1,5 +1,4 @@
-//! The last stage of the back end. This stage prints the models of devices and modules as Rust code. The functions have
-//! the same order as the output.
+//! The last stage of the back end. This stage prints the models of devices and modules as Rust code.
 
 mod accessors;
 pub(super) mod bit_field;

@@ -1,4 +1,4 @@
-//! Types of numbers with a unit or a scale, which represent physical values.
+//! Types of numbers that have a scale or raw values with a special meaning.
 
 use super::code::{generic, list, Doc};
 use super::context::Context;
@@ -12,8 +12,9 @@ pub(super) struct QuantityType {
     pub word: String,
 }
 
-/// Returns the type of an item's value. Returns `None` if the value is a plain number or not a number, or if its scale
-/// differs between models or buses. Also returns `None` if no type of the runtime can express the scale.
+/// Returns the type of an item's value. Returns `None` if the value is not a number, if it has neither a scale nor raw
+/// values with a special meaning, or if its scale differs between models or buses. Also returns `None` if no type of
+/// the runtime can express the scale.
 pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
     if item.variants.iter().any(|variant| variant.scale.is_some()) {
@@ -123,8 +124,9 @@ fn gcd(a: i64, b: i64) -> i64 {
     }
 }
 
-/// Returns the simplest fraction whose quotient, as an `f64`, is `real`: 0.01 gives 1/100. Returns `None` for 0,
-/// subnormal numbers, NaN and infinity, and if the numerator or denominator does not fit in 64 bits.
+/// Returns the first convergent of the continued fraction of `real` whose quotient, as an `f64`, is `real`: 0.01 gives
+/// 1/100. Returns `None` for 0, subnormal numbers, NaN and infinity, and if the numerator or denominator does not fit
+/// in 64 bits.
 fn rational(real: f64) -> Option<(i64, i64)> {
     if !real.is_normal() {
         return None;

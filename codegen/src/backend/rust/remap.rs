@@ -83,8 +83,8 @@ fn model(context: &Context<'_>, device: &Device, pdo: &Pdo, name: String) -> Opt
     })
 }
 
-/// Adds the constants that a CANopen PDO needs. Returns the Rust type of the COB-ID, or `None` if the mapping of the
-/// PDO is fixed or the PDO has no communication parameters.
+/// Adds the constants that a CANopen PDO needs. Returns the Rust type of the COB-ID, or `None` if the device supports
+/// only fixed mappings or the PDO has no communication parameters.
 fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<Doc>) -> Option<&'static str> {
     let communication = pdo.communication.as_ref()?;
     let settings = device.canopen.as_deref();

@@ -1,4 +1,4 @@
-//! The static table of all items that clients can access.
+//! The static table of all objects and registers that clients can access.
 
 use super::code::{call, Doc};
 use super::constructor::flags;
@@ -45,7 +45,7 @@ pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     rows.into_iter().map(|(_, row)| row).collect()
 }
 
-/// Sort key of a row. The runtime sorts objects and registers in the same way.
+/// Sort key of a row. The runtime searches the objects of the table in this order.
 type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
 /// Adds the rows of an item. An item has several rows if its object addresses on CANopen and EtherCAT differ. It also

@@ -67,7 +67,8 @@ fn walk(
     let reads_control = control.is_readable();
     let accesses =
         accesses([(status.location.as_str(), (true, false)), (control.location.as_str(), (reads_control, true))]);
-    // The error code must exist on all buses on which the machine is accessed.
+    // Use the error code only if its item has the same location type as an item that the method reads. Otherwise, the
+    // error code would restrict the buses of the method.
     let code =
         constants.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
     let bounds = accesses.iter().map(|(location, access)| bound(location, "C::Bus", *access)).collect();

@@ -7,8 +7,8 @@ use super::scope::Scope;
 use crate::ir::{Binding, Device, IndirectBinding, Item, ItemId, ItemRef, Procedure, Step, WindowSide};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum number of polls until the device clears the register number in the window. This value applies if the description
-/// states no timeout in milliseconds.
+/// Maximum number of polls until the device clears the number in the window. This value applies if the description
+/// states no timeout. Otherwise, the timeout in milliseconds is the number of polls.
 const POLLS: u32 = 100;
 
 /// A window through which a client reads or writes items on one bus.
@@ -88,7 +88,7 @@ fn title(window: &Window) -> String {
 }
 
 /// Returns the read or write window of a binding on one bus. Returns `None` if the number or the value has no usable
-/// address on this bus.
+/// address on this bus, or does not have 1 to 64 bits.
 fn window(scope: &Scope<'_>, device: &Device, side: &WindowSide, key: (String, u8, RouteBus, bool)) -> Option<Window> {
     let (_, _, bus, is_write) = key;
     let (number, value) = (scope.referred(&side.number)?, scope.referred(&side.value)?);

@@ -24,8 +24,8 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the problem in an example conversion, and a help text. The problem is that the physical values differ by
-/// more than 1 LSB, or that they cannot be computed.
+/// Returns the problem in an example conversion, and a help text. The problem is that the printed and the computed
+/// physical value differ by more than 1 LSB, or that no physical value can be computed.
 fn problem(
     device: &Device,
     item: &Item,
@@ -57,8 +57,8 @@ fn problem(
     })
 }
 
-/// Returns the physical value of a raw value. Returns an error text if the scale needs a value that the conversion does not
-/// state.
+/// Returns the physical value of a raw value. Returns an error text if the scale needs a value that neither the conversion
+/// nor its model states.
 fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: f64) -> Result<f64, String> {
     let model = conversion.model.as_ref().and_then(|model| device.variant(model));
     physical::of_raw(quantity.scale.as_ref(), raw, |name| {
@@ -71,7 +71,7 @@ fn physical(device: &Device, quantity: &Quantity, conversion: &Conversion, raw: 
 }
 
 /// Converts the physical value `number` to the unit of the example conversion. Returns an error text if this unit is neither
-/// the unit of the item nor its machine unit.
+/// the unit of the item nor its machine unit, or if a machine constant has no value.
 fn in_unit(device: &Device, quantity: &Quantity, conversion: &Conversion, number: f64) -> Result<f64, String> {
     let Some(unit) = conversion.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
     match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {

@@ -19,7 +19,8 @@ const NO_REFUSAL: Problem = "the error message has no reply, no generated code, 
 const NO_END: Problem = "no byte marks the end of a frame";
 const UNKNOWN_CHECK: Problem = "the runtime supports only the checks `xor`, `sum`, `lrc` and `crc16`";
 
-/// Reports messages and framings for which no code is generated, and parameters that no message transfers.
+/// Reports messages and framings for which no code is generated, parameters that no message transfers, and parameter numbers that
+/// occur twice.
 pub(in crate::check) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
     let shapes = shapes(device);

@@ -70,7 +70,7 @@ fn length(framed: &Framed<'_>, max: Option<usize>, diagnostics: &mut Diagnostics
 }
 
 /// Reports a reply whose first constant is probably that of another message. The constant is not in the request of this
-/// message, but in the request of another message whose reply begins with the same constant.
+/// message, but in the request of another message whose reply has the same first constant in the same byte.
 fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let first =
         |framed: &Framed<'_>| framed.reply.constants.first_key_value().map(|(position, byte)| (*position, *byte));

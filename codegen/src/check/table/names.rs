@@ -1,5 +1,5 @@
 //! Checks that row names exist, are not hyphenated at the edge of a table column, and are not descriptions. Also checks
-//! that names differ in more than upper and lower case.
+//! that no two registers of a chapter have names that differ only in upper and lower case.
 
 use std::collections::HashMap;
 
@@ -36,8 +36,8 @@ fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports registers whose names differ only in upper and lower case. Equal names are skipped, because they were already
-/// reported.
+/// Reports a register whose name differs from an earlier name only in upper and lower case. Equal names are skipped,
+/// because they were already reported.
 fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, diagnostics: &mut Diagnostics) {
     let first = *names.entry(item.name.to_lowercase()).or_insert(item);
     if first.name != item.name {

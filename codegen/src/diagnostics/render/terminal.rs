@@ -12,7 +12,8 @@ use crate::text::steers;
 /// Maximum number of marked lines. If a span has more lines, only its first line is marked.
 const MAX_LINES: u32 = 6;
 
-/// Maximum number of characters of a message, label or replacement. Longer texts are shortened.
+/// Maximum number of characters of a label or replacement, and of each line of a message, note or help text. Longer
+/// texts are shortened.
 const MAX_TEXT: usize = 2000;
 
 /// Width of the rendered text. The width exceeds any terminal window, so that the renderer does not shorten lines a second time.
@@ -24,9 +25,9 @@ const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
 ///
-/// `color` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as `�`. For a
-/// diagnostic about a whole file, the output contains the name of the file instead of marked lines. The rendering time depends on
-/// the marked lines, not on the size of the file.
+/// `color` adds ANSI escapes for colors. Tabs in the file or message are rendered as spaces, and other control characters as
+/// pictures (`␛`) or as `�`. For a diagnostic about a whole file, the output contains the name of the file instead of marked
+/// lines. The rendering time depends on the marked lines, not on the size of the file.
 pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
     let location = MarkedSource::of(diagnostic.span, sources);
     let suggestion = suggestion(diagnostic, location);

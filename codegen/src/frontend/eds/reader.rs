@@ -24,8 +24,8 @@ pub(super) struct Reader<'a, 'd> {
     pub announced_modules: Option<(u32, Span)>,
     /// Number of items that were announced by the `CompactSubObj` entries read so far.
     pub derived_items: usize,
-    /// Remaining number of text bytes that may be copied: names of unknown sections, and texts of objects with
-    /// `CompactSubObj`.
+    /// Remaining number of text bytes that may be copied: names of sections in the keys of extensions, and texts of
+    /// objects with `CompactSubObj`.
     pub copies_left: usize,
     pub copies_exceeded: bool,
     /// Comments after values. They are collected until the element that contains the values is complete.

@@ -1,4 +1,4 @@
-//! Limits the number of items and text bytes that are copied because of references to data types, vendors and files.
+//! Limits the number of items and text bytes that are copied because of references, such as those to data types and files.
 //! Without this limit, a small file could become a very large description, because a short reference can copy a large
 //! definition.
 

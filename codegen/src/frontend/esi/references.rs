@@ -45,8 +45,8 @@ pub(super) fn follow(
     let main_name = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     // Content of each file for later references; `None` if later references cannot use the file.
     let mut files: HashMap<String, Option<Content>> = HashMap::new();
-    // A description with devices does not use the devices of referenced files. A description without devices only lists
-    // other files, and uses the devices of these files.
+    // A description with devices does not use the devices of referenced files. A description without devices may be a
+    // list of other files, so it uses their devices.
     let only_modules = !description.catalog.devices.is_empty();
     let mut is_reported = false;
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();

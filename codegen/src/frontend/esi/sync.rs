@@ -79,7 +79,7 @@ pub(super) fn settle(
     pdos: &[Pdo],
 ) -> Vec<SyncManager> {
     use SyncManagerPurpose::{Inputs, MailboxIn, MailboxOut, Outputs};
-    // A device with a mailbox has at least four sync managers. The first two sync managers are for the mailbox.
+    // A device with at least four sync managers is assumed to have a mailbox, which uses the first two.
     let has_mailbox = list.len() >= 4;
     let mut managers = Vec::with_capacity(list.len());
     for (position, (mut manager, given)) in list.into_iter().enumerate() {

@@ -553,7 +553,8 @@ fn extents(one: &Field, other: &Field) -> String {
 }
 
 /// Returns the lower bound and the number of elements of each dimension, for at most three dimensions. If the array has one
-/// dimension and the number is missing or 0, calculates the number from `BitSize`. Reports a missing number and the number 0.
+/// dimension and the number is missing or 0, calculates the number from `BitSize`. Reports a missing number, the number 0
+/// and further dimensions.
 fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
     const MAX_DIMENSIONS: usize = 3;
     if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {

@@ -57,8 +57,8 @@ const fn number(name: &'static str, base: Type, factor: Option<f64>) -> NumberTy
     NumberType { name, base, factor }
 }
 
-/// Normalized values of PROFIdrive, and fixed-point numbers of IEC 61158-6-10. A value of 100 % is 2^14 for N2 and 2^30
-/// for N4.
+/// Numbers with a defined meaning, such as normalized values of PROFIdrive and fixed-point numbers of IEC 61158-6-10. A
+/// value of 100 % is 2^14 for N2 and 2^30 for N4.
 static NUMBERS: [NumberType; 13] = [
     number("N2", Type::Integer(16), Some(100.0 / 16_384.0)),
     number("N4", Type::Integer(32), Some(100.0 / 1_073_741_824.0)),

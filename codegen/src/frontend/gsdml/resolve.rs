@@ -135,8 +135,8 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Resolver { list, references, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
     }
 
-    /// Replaces the placeholder in `name` with its text, or with the text identifier if the text is missing. Stores the
-    /// translations of the text in `names`.
+    /// Replaces the placeholder in `name` with its text, or with the text identifier if the text is missing or the budget
+    /// is too small. Stores the translations of the text in `names`.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
         let digits = name.bytes().take_while(u8::is_ascii_digit).count();
         let (placeholder, suffix) = name.split_at(digits);

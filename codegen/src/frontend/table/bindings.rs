@@ -275,7 +275,8 @@ impl Rows {
         })
     }
 
-    /// Returns the first bit of the key `part`, which names the bits of a register that contain the value.
+    /// Returns the first bit of the key `part`, which names the bits of a register that contain the value. Returns `None`
+    /// and reports the key if it is invalid.
     fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>, unit: u32) -> Option<u8> {
         let text = part.value.to_string();
         let Some((offset, count)) = notation::bits(&text) else {

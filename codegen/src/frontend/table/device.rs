@@ -13,7 +13,7 @@ use crate::ir::{
 };
 use crate::text::brief;
 
-/// Adds the facts in `[device]` to the device. Returns the buses of the device.
+/// Adds the facts in `[device]` to the device. Returns the buses of the device, or all buses if `[device]` lists none.
 pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device: &mut Device) -> Buses {
     let head = &table.value;
     device.origin = reader.origin(table);
@@ -52,7 +52,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     buses
 }
 
-/// Reads the range of valid node-IDs. Returns `None` and reports a range that is descending or not within 1 to 255.
+/// Reads the range of valid node-IDs. Returns `None` and reports an error if `given` is not a valid range within 1 to 255.
 fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8, u8)> {
     let range = match &given.value {
         NumberOrText::Number(number) => Some((i128::from(*number), i128::from(*number))),

@@ -56,7 +56,7 @@ const KEYS: [&str; 25] = [
 
 /// Reads the device that a table describes. `chosen` contains the choices for the options of the table.
 ///
-/// Returns `None` and reports an error if `source` is not valid TOML or does not describe a device.
+/// Returns `None` and reports an error if `source` is not valid TOML or has no `[device]`.
 pub fn read(
     source: &Source,
     file: FileId,
@@ -99,7 +99,7 @@ pub fn read(
     for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
         device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
     }
-    // The fields of images and messages have types, so the reader needs the definitions in `rows`.
+    // Fields of images and messages have types, so they are read before the types are moved from `rows` to the device.
     table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
@@ -314,7 +314,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Reports names without a definition in rows, definitions, messages and sequences.
+/// Reports names that do not refer to an element of the device, and ambiguous item names.
 pub(super) fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
     let all = rows.references.iter().chain(&rows.definitions.mentioned);
     references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);

@@ -46,7 +46,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
     }
 }
 
-/// Reports conflicts between the start, end and escape bytes of the frames.
+/// Reports conflicts between the start byte, the end byte, the escape byte and the escaped bytes of the frames.
 fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
     let framing = &table.value;
     let special = [("start", framing.start), ("end", framing.end), ("escape", framing.escape)];

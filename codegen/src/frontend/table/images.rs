@@ -22,7 +22,7 @@ struct FieldPosition {
     ty: Option<Type>,
 }
 
-/// Items of the images that were read so far.
+/// New items of the images that were read so far, and the positions of all items.
 pub(super) struct Images {
     /// Items that exist only in images, in one group per image.
     groups: Vec<Group>,
@@ -210,7 +210,7 @@ fn end(field: &PdoEntry) -> u64 {
     u64::from(field.bit_offset) + u64::from(field.bits)
 }
 
-/// Fields of an image by start, end and number, without overlaps.
+/// Fields of an image, by first bit, bit after the last bit, and number. The fields do not overlap.
 #[derive(Default)]
 struct Fields(BTreeMap<(u64, u64, usize), PdoEntry>);
 

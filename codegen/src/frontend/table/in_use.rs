@@ -1,4 +1,4 @@
-//! Finds items with the same name, the same address or overlapping registers.
+//! Finds items with the same name, the same address, overlapping registers, or overlapping bits of a register.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};

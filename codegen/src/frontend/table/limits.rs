@@ -1,4 +1,4 @@
-//! Reads the default value, limits and allowed values of a row, and reports contradictions between them.
+//! Reads the default value, limits, allowed values and fixed value of a row, and reports contradictions between them.
 
 use super::at::{At, Literal, OneOrMany};
 use super::format::Row;
@@ -10,7 +10,7 @@ use crate::ir::{excluded, Access, Item, Limits, Shape, Type, TypeId, Value};
 use crate::source::Span;
 
 impl Rows {
-    /// Adds the default value, limits and allowed values of a row to its item.
+    /// Adds the default value, limits, allowed values and fixed value of a row to its item.
     pub(super) fn values(&self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
         let (base, count) = self.element(item.ty);
         let mut row_limits = Limits::default();

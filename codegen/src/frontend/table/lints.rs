@@ -1,4 +1,5 @@
-//! Lints that depend on the notation of a table: digits, printed objects next to register numbers, state patterns.
+//! Lints that depend on the notation of a table: digits, printed objects next to register numbers, patterns of states and
+//! commands.
 
 use super::at::{At, Entries, Literal, TextOr};
 use super::format::{MachineTable, NumberOrText, PatternTable, Row};
@@ -106,7 +107,7 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     }
 }
 
-/// Returns a description of the wrong number of digits in an index or range, or `None` if the number of digits is correct.
+/// Returns a message if a hexadecimal index, or the start or end of a range of indices, does not have four digits.
 pub(super) fn digits_of_index<T>(reader: &Reader<'_, '_>, given: &At<T>) -> Option<String> {
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
     let mut indices = text.split(':').next().unwrap_or_default().split("..");

@@ -1,5 +1,5 @@
 //! Limits the size of the state machines of a device. A transition from a list of states is copied for each of these
-//! states. The texts of a matrix row are copied for each state of the row.
+//! states. The state names of a matrix are copied for each row, and a note for each cell that refers to it.
 
 use std::collections::HashMap;
 use std::fmt::Debug;

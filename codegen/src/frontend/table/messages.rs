@@ -326,7 +326,8 @@ impl Fields<'_, '_, '_> {
         Some(fixed.unwrap_or(MessageField::Rest))
     }
 
-    /// Compares the printed byte numbers of fields with their positions, up to the first field without a fixed length.
+    /// Reports the first printed byte number that contradicts the lengths of the preceding fields. The check ends at the
+    /// first field without a fixed length.
     fn numbers(&mut self, list: &[At<FieldTable>], fields: &[MessageField]) {
         if list.len() != fields.len() {
             return;
@@ -389,7 +390,7 @@ impl Fields<'_, '_, '_> {
         found
     }
 
-    /// Reads a field of constant bits, whose type is an unsigned integer of less than 64 bits.
+    /// Reads a field with constant bits. The type of the field must be an unsigned integer of 1 to 63 bits.
     fn fixed(&mut self, fixed: &At<Literal>, field: &At<FieldTable>) -> Option<MessageField> {
         let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
         let Some(ty @ Type::Unsigned(bits @ 1..=63)) = ty else {
@@ -410,8 +411,8 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    /// Returns the length of a parameter number in bits: that of the field's type, or 16 if the field has no unsigned
-    /// integer type.
+    /// Returns the length of a parameter number in bits: that of the field's type, or 16 if the field has no type. Reports
+    /// a type that is not an unsigned integer type, and also returns 16.
     fn code_bits(&mut self, field: &At<FieldTable>) -> u8 {
         let Some(ty) = &field.value.ty else { return 16 };
         match types::named(&ty.value).map(|named| named.ty) {

@@ -5,7 +5,7 @@ use super::format::{NumberOrText, Row};
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 
-/// Keys, each with a flag that is true if the row has the key, and with the help text for a misplaced key.
+/// Keys, each with a flag that is true if the key has no effect in the row, and with the help text for this case.
 type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
 
 /// Checks a row in `[chapters.registers]` of a register table.

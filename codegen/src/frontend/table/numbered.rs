@@ -11,7 +11,7 @@ use crate::ir::{texts, Device};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Maximum number of items that a message lists for a range of register numbers.
+/// Maximum number of items that a diagnostic message lists by name.
 const MAX_LISTED: usize = 4;
 
 /// Item with its first and last register number.
@@ -21,7 +21,8 @@ pub(super) struct Numbered {
     pub name: CompactString,
 }
 
-/// Reports a register number or a range of register numbers in place of an item name. Returns `false` for any other text.
+/// Reports a register number or a range of register numbers in place of an item name. Returns `false` for any other text,
+/// and if `list` is empty.
 pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str, span: Span) -> bool {
     let Some((first, last)) = notation::registers(text).filter(|_| !list.is_empty() && !text.starts_with("0x")) else {
         return false;
@@ -73,8 +74,8 @@ pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: 
     }
 }
 
-/// Returns the register numbers in a text, and only the first number of a range. A word such as `register` precedes
-/// each number or range: `register 10015`, `registro 10086-87`.
+/// Returns the register numbers in a text, and the first number of each range. A word such as `register` precedes each
+/// number or range: `register 10015`, `registro 10086-87`. Numbers with only one digit are ignored.
 fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
     const WORDS: [&str; 4] = ["register", "registers", "registro", "registri"];
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>'));

@@ -41,7 +41,7 @@ impl Repeats {
         self.take(reader, items, span)
     }
 
-    /// Subtracts the items of the row `key` after the first one from the budget. Returns false if the budget is too small for
+    /// Subtracts all items of the row `key` except the first from the budget. Returns false if the budget is too small for
     /// `count` items.
     pub fn repeat(&mut self, reader: &mut Reader<'_, '_>, key: &str, row: &Row, count: u32, span: Span) -> bool {
         let each = || 1 + items(row) + beyond(key.len()) + expanded(row);

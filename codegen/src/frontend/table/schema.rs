@@ -35,7 +35,7 @@ fn text() -> String {
     format!("{:#}\n", schema.as_value())
 }
 
-/// Removes `null` from a schema. TOML has no `null`, so optional keys are left out.
+/// Removes `null` from a schema. TOML has no `null`: a table omits an optional key instead.
 fn without_null(schema: &mut Schema) {
     let null = json!("null");
     if schema.get("default") == Some(&Value::Null) {

@@ -236,7 +236,7 @@ impl Space {
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
             bit_offset: numbers.bit_offset,
-            // A register number that addresses 32 bits has one wire address, but contains two 16-bit words.
+            // A register number that addresses 32 bits has one wire address for two 16-bit words.
             words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
             extended,
         };

@@ -32,7 +32,7 @@ pub(super) fn item(reader: &mut Reader<'_, '_>, definitions: &Definitions, given
 
 /// Compares objects that have sub-entries with the statements of other sections. The name, the object code and the
 /// number of sub-indices in a statement are compared with those of the object. All other facts are compared with each
-/// sub-entry except sub-index 0, and only the first sub-entry that differs is reported.
+/// sub-entry that has a type, except sub-index 0. Only the first sub-entry that differs is reported.
 pub(super) fn objects(
     reader: &mut Reader<'_, '_>,
     definitions: &Definitions,

@@ -36,7 +36,7 @@ pub(super) struct Reader<'a, 'd> {
     pub diagnostics: &'d mut Diagnostics,
     /// Language of the manual.
     pub language: CompactString,
-    /// Standard from which a profile was transcribed; empty if the file describes a device.
+    /// Standard from which a profile was transcribed; empty if the file is not a profile.
     pub standard: CompactString,
     /// Byte ranges of the elements in each list, by the byte range of the list.
     pub lists: RefCell<HashMap<ByteRange, Rc<[ByteRange]>>>,
@@ -221,7 +221,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the literals of the list at the byte range `whole`, each with its span. The span is that of the whole
-    /// list if the file does not contain this number of elements.
+    /// list if the list in the file and `list` differ in length.
     pub fn each(&self, list: &[Literal], whole: ByteRange) -> Vec<At<Literal>> {
         let ranges = self.element_ranges(whole);
         let range = |at: usize| if ranges.len() == list.len() { ranges[at] } else { whole };
@@ -229,8 +229,8 @@ impl<'a> Reader<'a, '_> {
         list.iter().enumerate().map(at).collect()
     }
 
-    /// Returns the byte range of the element `at` in a list with `length` elements, or `whole` if the file does not
-    /// contain this number of elements.
+    /// Returns the byte range of the element `at` in a list with `length` elements, or `whole` if the list in the
+    /// file has a different length.
     pub fn element_range(&self, length: usize, at: usize, whole: ByteRange) -> ByteRange {
         let ranges = self.element_ranges(whole);
         ranges.get(at).copied().filter(|_| ranges.len() == length).unwrap_or(whole)
@@ -267,7 +267,7 @@ impl<'a> Reader<'a, '_> {
         let text = doc.unwrap_or_default().to_owned();
         let (cite, text_from) = match self.standard.as_str() {
             "" => (cite.map(CompactString::from), None),
-            // An element that cites no clause needs no origin, because it is part of an element that cites a clause.
+            // An element that cites no clause has no recorded origin. Usually, it is part of an element that cites a clause.
             standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
         Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))

@@ -82,7 +82,7 @@ pub fn usual_unit(text: &str) -> Option<&'static str> {
     ];
     let lower = text.to_lowercase();
     let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
-    // The case of these symbols can be ignored, because no lower-case form is the symbol of another unit.
+    // These symbols are recognized in upper case and lower case, except `a`.
     let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
     let cased = || cased.into_iter().find(|symbol| symbol.to_lowercase() == lower && !matches!(text, "a" | "mw"));
     known.map(|&(symbol, _)| symbol).or_else(cased)

@@ -103,7 +103,7 @@ pub(super) fn listed(reader: &mut Reader<'_, '_>, list: &[Literal], whole: (u32,
 }
 
 /// Converts a literal to a value. `is_pattern` means that the digits are a bit pattern, whose highest bit is the sign
-/// of a signed type. Returns `None` if the type has no such value.
+/// of a signed type. Returns `None` if the literal does not suit the type. The range of the type is not checked.
 pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
     if let Literal::Text(text) = literal {
         return of_text(text, ty);

@@ -9,7 +9,7 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Binding, Buses, IndirectBinding, WindowSide};
 
-/// A window through which a client accesses the parameters of a space.
+/// Window through which the driver accesses the registers of a space.
 #[derive(Clone, Debug)]
 pub(super) struct Window {
     buses: Buses,

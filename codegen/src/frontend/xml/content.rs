@@ -34,7 +34,7 @@ impl<'a, F: Format> Reader<'a, '_, F> {
 }
 
 impl<'a> Given<'a> {
-    /// Adds a piece of the content. Comments and CDATA sections divide the content of an element into pieces.
+    /// Adds a piece of the content. Comments, CDATA sections and child elements divide the content of an element into pieces.
     fn add(&mut self, piece: &Text<'a>, diagnostics: &mut Diagnostics) {
         let value = piece.value(diagnostics);
         if !self.span.is_empty() {

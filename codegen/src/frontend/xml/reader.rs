@@ -16,7 +16,7 @@ pub type Read<T> = Result<T, Box<Diagnostic>>;
 /// Names and values of attributes.
 pub type Attributes = Vec<(CompactString, CompactString)>;
 
-/// State of a front end, and the settings with which its format reads elements.
+/// State of a front end, and the settings for reading files of its format.
 pub trait Format {
     /// Name of the standard in diagnostics.
     const STANDARD: &'static str;
@@ -35,7 +35,8 @@ pub trait Format {
     const ELEMENT_IN_KEY: bool = false;
     /// True if an empty attribute or element is treated as missing.
     const EMPTY_IS_MISSING: bool = true;
-    /// Name and value of the attribute that marks a text as English. This attribute does not become an extension.
+    /// Name and value of the attribute that marks a text as English. [`Reader::keep`] and [`Reader::text`] do not store this
+    /// attribute as an extension.
     const ENGLISH: (&'static str, &'static str) = ("", "");
 }
 

@@ -1,6 +1,6 @@
 //! Elements and attributes that the standard does not define, or for which the IR has no field. They become extensions.
-//! The reader reports likely misspellings by default, and all other names that the standard does not define if the user
-//! enables the diagnostic.
+//! By default, the reader reports only likely misspellings. If the user enables the diagnostic for unknown names, the reader
+//! reports all names that the standard does not define.
 
 use compact_str::{format_compact, CompactString};
 
@@ -92,8 +92,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         Ok(())
     }
 
-    /// Stores the attributes of a start tag as extensions, or an empty extension for an empty element without
-    /// attributes.
+    /// Stores the attributes of a start tag as extensions. An empty element without attributes becomes an empty extension,
+    /// unless the format treats empty elements as missing.
     fn keep_start(&mut self, tag: &Tag<'a>) -> Read<()> {
         let before = self.extensions.len();
         self.keep_attributes(tag)?;

@@ -236,7 +236,8 @@ impl<'p> Completion<'p> {
         self.added.clear();
     }
 
-    /// Moves the types from this struct back to `types`. Renames a new type if one of the first `before` types has the same name.
+    /// Moves the types from this struct back to `types`. The types after the first `before` types are new. Renames a new type if
+    /// its name has the same [`letters`] as that of an older type.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
         *types = std::mem::take(&mut self.types);
         let before = before.min(types.len());

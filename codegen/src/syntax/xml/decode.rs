@@ -55,11 +55,11 @@ pub(super) fn decode<'a>(raw: &'a str, span: Span, blanks: Blanks, diagnostics: 
     Cow::Owned(value)
 }
 
-/// Maximum number of bytes after an `&` in which the end of an entity name is searched.
+/// Maximum number of bytes after an `&` in which `reference_at` searches for the end of an entity name.
 const MAX_ENTITY_NAME: usize = 64;
 
-/// Returns the character of the reference at the start of `text`, and the length of the reference. The character is
-/// `None` if the reference is invalid or unknown.
+/// Returns the character of the reference at the start of `text`, and the length of the reference. The character is `None` if the
+/// reference is invalid or unknown. The length is 1 if the `&` does not start a reference.
 fn reference_at(text: &str) -> (Option<char>, usize) {
     let name = text[1..].bytes().take(MAX_ENTITY_NAME).position(|byte| !byte.is_ascii_alphanumeric() && byte != b'#');
     let Some(length) = name.filter(|&length| length > 0 && text.as_bytes()[1 + length] == b';') else {

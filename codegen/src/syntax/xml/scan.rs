@@ -11,7 +11,7 @@ pub(super) struct Name {
     colon: Option<usize>,
 }
 
-/// Minimum value of the bytes that never end a name, such as letters.
+/// Bytes with this value or a higher value, such as letters, never end a name.
 const LETTER: u8 = b'@';
 
 impl Name {

@@ -84,7 +84,8 @@ impl Printer<'_, '_> {
         }
     }
 
-    /// Writes the separator after a member: a comma, followed by a space or a new line.
+    /// Writes the comma after a member of a broken list. Starts a new line, unless the members are numbers or names and
+    /// the next member fits.
     fn next(&mut self, position: usize) {
         let Some(list) = self.open.last().copied().filter(|list| list.is_broken) else { return };
         self.text_to(self.at + 1);

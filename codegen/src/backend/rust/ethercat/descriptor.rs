@@ -1,4 +1,4 @@
-//! The constants `DEVICE` and `MODULE`, which describe a slave or a module with the types of the runtime.
+//! The statics `DEVICE` and `MODULE`, which describe a slave or a module with the types of the runtime.
 
 use super::{Assigned, ModulePaths};
 use crate::backend::rust::code::{Data, Doc};

@@ -100,7 +100,8 @@ fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModel
 /// traits that any type may implement.
 const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super", "crate"];
 
-/// Maximum length of a field's name. The limit keeps the generated lines that unpack the field short.
+/// Maximum length of a field's name, without a suffix that makes the name unique. The limit keeps the generated lines
+/// that unpack the field short.
 const MAX_NAME: usize = 30;
 
 fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {

@@ -1,4 +1,4 @@
-//! The EtherCAT settings of a device as constants.
+//! The EtherCAT settings of a device as statics and constants.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, Mo
 
 /// The description of a device for an EtherCAT master, ready to be printed.
 pub(in super::super) struct EtherCatModel {
-    /// Value of the constant `DEVICE`.
+    /// Value of the static `DEVICE`.
     pub device: Doc,
     /// Value of the constant `FMMUS`.
     pub fmmus: Option<Doc>,
@@ -26,7 +26,7 @@ pub(in super::super) struct EtherCatModel {
     pub images: Vec<ImageModel>,
 }
 
-/// Paths of the modules' constants, by the module's position in the catalog.
+/// Paths of the modules' statics `MODULE`, by the module's position in the catalog.
 pub(in super::super) type ModulePaths = HashMap<ModuleId, String>;
 
 impl EtherCatModel {
@@ -48,7 +48,7 @@ impl EtherCatModel {
     }
 }
 
-/// Returns the value of the constant `MODULE`.
+/// Returns the value of the static `MODULE`.
 pub(in super::super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
     descriptor::module(module, &PdoModels::new(pdos))
 }

@@ -23,7 +23,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
             .filter(move |assignment| assignment.sync_manager == number)
             .map(|assignment| assignment.pdo.mapping_index)
     };
-    // An assignment with more PDOs does not fit into the sub-indices of the assignment object.
+    // More than `MAX_PDO_SUBS` PDOs do not fit into the sub-indices of an assignment object.
     if device.process_data.sync_managers.iter().any(|manager| of(manager.number).count() > MAX_PDO_SUBS) {
         return Vec::new();
     }

@@ -70,7 +70,7 @@ impl ItemAddresses<'_> {
     pub fn suffix(&self) -> String {
         match (self.modbus, self.canopen.or(self.coe), self.serial) {
             (Some(register), _, _) => {
-                // Different Modbus tables use the same addresses.
+                // Registers in different Modbus tables can have the same address.
                 let table = match register.space {
                     RegisterSpace::Holding => "",
                     RegisterSpace::Input => "input_",

@@ -30,8 +30,8 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
 }
 
 /// Returns the body of the method `is_complete` of a reply. The expression uses the first polling condition that can be
-/// evaluated from fields of the reply. Returns `None` if there is no such condition, or if the fields of the reply may
-/// still refer to the previous command.
+/// evaluated from fields of the reply. Returns `None` if there is no such condition, or if the completion must be
+/// polled with another message.
 pub(super) fn expression(
     context: &Context<'_>,
     conditions: &Conditions<'_>,
@@ -95,7 +95,7 @@ fn compare(
         Some(bit) => bits(context, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
-    // The polling condition is never true if the type of the field or the mask excludes the expected bits.
+    // The polling condition is never true if the mask is 0 or excludes a bit of the expected value.
     if mask == 0 || expected.is_some_and(|expected| expected & !mask != 0) {
         return None;
     }
@@ -110,7 +110,7 @@ fn compare(
     })
 }
 
-/// Returns the offset and mask of the bits named `name` in a bit field.
+/// Returns the offset of the bits named `name` in a bit field, and a mask with as many bits that starts at bit 0.
 fn bits(context: &Context<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
     let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
     let field = fields.iter().find(|field| field.name == name)?;

@@ -91,7 +91,7 @@ fn arguments(fields: &[Field]) -> Vec<String> {
     names
 }
 
-/// Returns the documentation of a method: the lines about the message, and a link to the type of the request.
+/// Returns the documentation of a method: the documentation of the message, and a link to the type of the request.
 fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     let sends = format!("Sends the message {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()

@@ -14,7 +14,8 @@ use crate::ir::{Item, MessageValue, Type};
 use crate::names::{self, Case};
 use crate::resolve::messages::Step;
 
-/// Maximum length of a field's name. The limit keeps the generated lines that write the field short.
+/// Maximum length of a field's name, without a suffix that makes the name unique. The limit keeps the generated lines
+/// that write the field short.
 const MAX_NAME: usize = 24;
 
 /// A field, ready to be printed.
@@ -148,8 +149,8 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
                 _ => base,
             };
             let check = match &other {
-                // The check uses the raw value, because the allowed values are in a constant, and constants cannot
-                // contain the calls that create variants.
+                // This check uses the raw value. The list of allowed values is a `'static` slice, which cannot contain
+                // the calls that create variants.
                 FieldType::Named(_, native)
                     if other.cut(bits).is_some() || !variant::widest(item).allowed.is_empty() =>
                 {

@@ -147,7 +147,8 @@ impl ProtocolModel {
         self.messages.iter().any(|message| message.is_selector)
     }
 
-    /// Returns whether some methods are available regardless of which selecting request was sent last.
+    /// Returns whether some methods, except those of selecting requests, are available regardless of which selecting
+    /// request was sent last.
     pub(in super::super) fn has_free(&self) -> bool {
         self.calls.iter().any(|call| call.after.is_none() && !call.is_selector)
     }

@@ -9,7 +9,8 @@ use crate::ir::{Device, ParameterSpace, SpaceRef, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::resolve::messages::{numbered, Step};
 
-/// Maximum length of a constant's name. The limit keeps the generated lines that use the constant short.
+/// Maximum length of a constant's name, without a suffix that makes the name unique. The limit keeps the generated
+/// lines that use the constant short.
 const MAX_NAME: usize = 24;
 
 /// A constant with an encoding rule, ready to be printed.

@@ -134,8 +134,8 @@ fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: 
     names::unique(&name_requests, &reserved, Case::Pascal)
 }
 
-/// Reserved names: those used in the generated code of PDOs, and type names that would make clippy mistake a method for
-/// a constructor.
+/// Reserved names: the keyword `Self`, names that the generated code of PDOs uses, and names of constructors, because
+/// clippy reports a constructor that has the name of its type.
 const RESERVED: [&str; 13] =
     ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B", "At", "New", "Unpack"];
 

@@ -58,8 +58,8 @@ pub(in crate::backend::rust) struct TypeNames<'a> {
     pub machines: Vec<NamedMachine<'a>>,
 }
 
-/// Reserved names: names of the prelude that the module uses, and names that would make clippy mistake a method for a
-/// constructor.
+/// Reserved names: the keyword `Self`, names that the generated code uses, and names of constructors, because clippy
+/// reports a constructor that has the name of its type.
 const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 impl<'a> TypeNames<'a> {
@@ -256,7 +256,8 @@ fn views(scope: &Scope<'_>, handles: &HandleNames<'_>, position: u32) -> Vec<Vie
 }
 
 /// Returns the names of the values in a condition: from the enumeration of the item, or as the condition states them.
-/// Returns `None` if neither source names all values, or if the condition has a mask.
+/// Returns `None` if the enumeration does not name all values and the condition states no names, or if the condition
+/// has a mask.
 pub(in crate::backend::rust) fn value_names(scope: &Scope<'_>, condition: &Condition) -> Option<Vec<String>> {
     let item = scope.referred(&condition.item);
     let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);

@@ -1,5 +1,5 @@
-//! Prints the modules that `lexibus::pdo!` uses: PDOs with a writable mapping, and the items, each with whether it
-//! can be mapped.
+//! Prints the modules that `lexibus::pdo!` uses: PDOs with a writable mapping, and items, each of which is marked as
+//! mappable or not mappable.
 
 use crate::backend::rust::code::{line, list, open, Code, Stop};
 use crate::backend::rust::model::Model;

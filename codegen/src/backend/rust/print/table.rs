@@ -1,4 +1,4 @@
-//! Prints the static table of all items.
+//! Prints the static table of all objects and registers.
 
 use crate::backend::rust::code::{call, line, open, Code, Doc};
 use crate::backend::rust::model::Model;

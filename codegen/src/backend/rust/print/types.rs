@@ -108,7 +108,8 @@ pub(in crate::backend::rust) fn equality(code: &mut Code, name: &str, gate: &[St
     code.close("}");
 }
 
-/// Writes the implementations of `rt::Named`, which contains the names of the values, `Display` and `FromStr`.
+/// Writes the implementations of `Display`, `FromStr` and `rt::Named`. The implementation of `rt::Named` contains the
+/// names of the values.
 fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     let name = &enumeration.name;
     code.lines(gate);

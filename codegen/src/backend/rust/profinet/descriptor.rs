@@ -1,4 +1,4 @@
-//! Constants that describe modules, submodules and device access points.
+//! Statics that describe modules, submodules and device access points.
 
 use super::docs;
 use super::f_record::{self, FRecordModel};

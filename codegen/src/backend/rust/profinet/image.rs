@@ -9,10 +9,11 @@ use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::names::{self, Case, NameRequest};
 
-/// Maximum length of a field's name. The limit keeps the generated lines that read and write the field short.
+/// Maximum length of a field's name, without a suffix that makes the name unique. The limit keeps the generated lines
+/// that read and write the field short.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names that fields must not have: keywords, and methods of the struct or of all types.
+/// Names that fields must not have: keywords, and methods of the views or of all types.
 const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
 
 /// The cyclic data of a submodule in one direction, ready to be printed.
@@ -25,7 +26,7 @@ pub(in crate::backend::rust) struct ImageModel {
     pub length: u32,
     pub trailer: u32,
     pub status: u8,
-    /// Attribute that suppresses lints about field names.
+    /// Attribute that suppresses lints about the names of getters.
     pub allow: Option<&'static str>,
     pub fields: Vec<FieldModel>,
 }

@@ -1,4 +1,4 @@
-//! PROFINET devices: submodules, parameter records, diagnosis, and constants with which a program plans the modules in
+//! PROFINET devices: submodules, parameter records, diagnosis, and statics with which a program plans the modules in
 //! slots.
 //!
 //! The device access points of a file share modules and submodules. No code is generated for modules and submodules

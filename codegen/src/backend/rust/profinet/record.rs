@@ -17,14 +17,15 @@ use crate::names::{self, Case, NameRequest};
 use bytes::{default_bytes, value_of};
 use check::{check, ranges};
 
-/// Maximum length of a record's name. The limit keeps the generated lines that contain the record's type short.
+/// Maximum length of a record's name, without a suffix that makes the name unique. The limit keeps the generated lines
+/// that contain the record's type short.
 const MAX_NAME: usize = 32;
 
-/// Maximum length of a field's name.
+/// Maximum length of a field's name, without a suffix that makes the name unique.
 const MAX_FIELD_NAME: usize = 30;
 
-/// Names that the constants for fields of a record must not have: keywords, and the constants and methods that all
-/// records have.
+/// Names that the constants for fields of a record must not have: keywords, and the names of constants that all records
+/// have.
 const RESERVED_CONSTANTS: [&str; 8] =
     ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
 

@@ -14,9 +14,9 @@ use crate::names::{self, Case, NameRequest};
 /// Names that variants must not have: the keyword `Self`, and `Unknown`, the variant for unlisted values.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
-/// Names that enumerations must not have. `Self` is a keyword, and the generated code uses `Option` to `Err` from the
-/// prelude. On an enumeration named `FromRaw`, clippy would report the function `from_raw`, because a constructor must
-/// not have the name of its type.
+/// Names that enumerations must not have. `Self` is a keyword, and the generated code uses names of the prelude, such
+/// as `Option`. On an enumeration named `FromRaw`, clippy would report the function `from_raw`, because a constructor
+/// must not have the name of its type.
 const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
 /// The enumerations of a catalog that generated code uses.

@@ -327,7 +327,7 @@ impl<'o> Applied<'o> {
                 RowEffect::Changed => {}
             }
         }
-        // Unused definitions are not reported if a row was not applied, because this row might use them.
+        // Unused definitions are not reported if a row matches nothing or has an error, because this row might use them.
         let whole = Span::new(reader.file, 0, u32::MAX);
         if self.effects.contains(&RowEffect::NoMatch) || reader.diagnostics.error_spans().any_in(whole) {
             return;
@@ -450,7 +450,7 @@ fn is_for(device: &Device, applies: &AppliesTable) -> bool {
         && applies.device.as_ref().is_none_or(by_name)
 }
 
-/// Returns whether `pattern` matches the name, identifier or number of a module.
+/// Returns whether `pattern` matches the name, identifier or number of a module or submodule.
 fn is_called(pattern: &str, names: [&CompactString; 2], number: u32) -> bool {
     let by_number = super::super::notation::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
     by_number || names.iter().any(|name| glob(pattern, &name.to_lowercase()))

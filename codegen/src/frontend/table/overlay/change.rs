@@ -224,7 +224,7 @@ impl RowPatcher<'_> {
         self.rows.meaning(reader, named, row, base)
     }
 
-    /// Returns whether both items are equal except for their spans.
+    /// Returns whether both items are equal except for their spans. Different types are equal if they have the same shape.
     fn is_same(&self, item: &Item, before: &Item) -> bool {
         let types = &self.rows.definitions.types;
         let shape = |ty: Type| match ty {

@@ -43,7 +43,7 @@ pub(super) struct PatchRow {
 pub(super) enum Target {
     /// Objects, or sub-entries of objects.
     Objects(Objects),
-    /// Item whose name is in the key of the row.
+    /// Item that the key of the row names.
     Name,
 }
 

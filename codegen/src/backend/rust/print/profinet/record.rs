@@ -112,7 +112,8 @@ fn record_data(code: &mut Code, name: &str) {
     code.close("}");
 }
 
-/// Writes the constant `F_PARAMETERS`, which describes the F-parameter record of PROFIsafe.
+/// Writes the constant `F_PARAMETERS`, which describes the F-parameter record of PROFIsafe, and a static with the
+/// default bytes of the record.
 pub(super) fn f_parameters(code: &mut Code, record: &FRecordModel) {
     code.docs(&record.docs);
     let length = record.length;

@@ -72,7 +72,7 @@ fn number_of(field: &Field<'_>, bytes: &[u8]) -> u64 {
     })
 }
 
-/// Returns a literal with the value of the field in these bytes.
+/// Returns an expression for the value of the field in these bytes.
 pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
     let position = field.position;
     if let Some(length) = field.byte_string() {
