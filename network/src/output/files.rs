@@ -2,7 +2,7 @@
 
 use lexibus_codegen::RustOptions;
 
-use super::{concise, dbc, dcf, master_dcf, master_writes, rust};
+use super::{concise, dbc, dcf, master_dcf, master_writes, rust, segment_json};
 use crate::model::Network;
 
 /// An output file.
@@ -20,9 +20,16 @@ impl OutputFile {
     }
 }
 
-/// Returns all output files of a network: for each node a DCF, and a concise DCF if the node is configured; the DCF of the master, and
-/// its concise DCF; a DBC; and a Rust module.
+/// Returns all output files of a network: those of the CANopen nodes, and `segment.json` for an EtherCAT segment.
 pub fn files(network: &Network) -> Vec<OutputFile> {
+    let mut files = if network.is_only_segment() { Vec::new() } else { canopen_files(network) };
+    files.extend(network.segment.as_ref().map(|segment| OutputFile::new("segment.json", segment_json(segment))));
+    files
+}
+
+/// Returns the output files of the CANopen nodes: for each node a DCF, and a concise DCF if the node is configured; the DCF of the master,
+/// and its concise DCF; a DBC; and a Rust module.
+fn canopen_files(network: &Network) -> Vec<OutputFile> {
     let mut files = Vec::new();
     for node in &network.nodes {
         let stem = node.file_stem();

@@ -11,6 +11,7 @@ mod identity;
 mod master;
 mod master_objects;
 mod rust;
+mod segment;
 mod site;
 
 pub use concise::concise;
@@ -20,4 +21,5 @@ pub use dcf::dcf;
 pub use files::{files, OutputFile};
 pub use master::{master_dcf, master_writes};
 pub use rust::rust;
+pub use segment::segment_json;
 pub use site::{announce, pages};
