@@ -128,6 +128,21 @@ fn parameters_follow_the_assignment() {
 }
 
 #[test]
+fn objects_of_modules_have_the_address_in_their_slot() {
+    let keys =
+        |object: &str| format!("{COUPLER}modules = {{ 1 = \"AI-2\" }}\nparameters = {{ \"{object}\" = \"60 Hz\" }}\n");
+    let compilation = network("slots", &format!("[segment.subdevices.coupler]\n{}", keys("0x8010:1")));
+    let commands = &segment(&compilation).subdevices[0].startup;
+    let last = commands.last().map(|command| (command.index, command.sub_index, command.data.as_slice()));
+    assert_eq!(last, Some((0x8010, 1, &[2][..])));
+    assert_eq!(faults("slots", &keys("0x8000:1")), ["NET010 `CP-32 coupler with 32 slots` has no object 0x8000"]);
+    assert_eq!(
+        faults("slots", &keys("0x8010:2")),
+        ["NET010 object 0x8010 `Settings` of `2 analogue inputs` has no sub-index 2"]
+    );
+}
+
+#[test]
 fn logical_addresses_are_outputs_then_inputs() {
     let text = format!(
         "[segment]\ncycle = 500\n[segment.subdevices.axis1]\n{DRIVE}\n\

@@ -123,21 +123,27 @@ fn combined(device: &Device, pdo: &Pdo, others: &[Assigned<'_>], span: Span) -> 
 
 /// Returns the default sync manager of a PDO, or the first one with its direction that the PDO does not exclude.
 pub(super) fn sync_manager(data: &ProcessData, pdo: &Pdo) -> Option<u8> {
-    let purpose = match pdo.direction {
-        Direction::Receive => SyncManagerPurpose::Outputs,
-        Direction::Transmit => SyncManagerPurpose::Inputs,
-    };
     if pdo.sync_manager.is_some() {
         return pdo.sync_manager.filter(|number| data.has_sync_manager(*number));
     }
     let is_allowed = |number: u8| !pdo.excluded_sync_managers.contains(&number);
     let mut managers = data.sync_managers.iter();
-    let listed = managers.find(|manager| manager.purpose == purpose && is_allowed(manager.number));
+    let listed =
+        managers.find(|manager| direction(manager.purpose) == Some(pdo.direction) && is_allowed(manager.number));
     let of_others =
         || assignable(data).filter(|other| other.direction == pdo.direction).find_map(|other| other.sync_manager);
     match listed {
         Some(manager) => Some(manager.number),
         None if data.sync_managers.is_empty() => of_others(),
         None => None,
+    }
+}
+
+/// Returns the direction of process data; `None` for a mailbox.
+pub(super) fn direction(purpose: SyncManagerPurpose) -> Option<Direction> {
+    match purpose {
+        SyncManagerPurpose::Outputs => Some(Direction::Receive),
+        SyncManagerPurpose::Inputs => Some(Direction::Transmit),
+        SyncManagerPurpose::MailboxOut | SyncManagerPurpose::MailboxIn => None,
     }
 }

@@ -5,6 +5,7 @@ mod clock;
 mod declared;
 mod frontend;
 mod modules;
+mod parameters;
 mod process_data;
 mod resolve;
 mod segment;

@@ -4,10 +4,9 @@ use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::{self, Device, Direction, Pdo, MAX_PDO_SUBS};
 use lexibus_codegen::source::Span;
 
-use super::assignment::{assignable, sync_manager, Assigned};
+use super::assignment::{assignable, direction, sync_manager, Assigned};
 use super::modules::{Offsets, Plugged};
 use super::segment::AssignedPdo;
-use super::sync_managers::direction;
 
 /// A PDO or padding in the process data of a sync manager.
 #[derive(Clone, Copy)]
@@ -107,8 +106,8 @@ fn add_group<'d>(
     if let Some(rules) = group.map(|group| &groups[group]).filter(|rules| rules.alignment > 0 && !pdos.is_empty()) {
         let index = if direction == Direction::Receive { rules.rx_pdo } else { rules.tx_pdo };
         let end = layout.end(manager);
-        let bits = end.next_multiple_of(u32::from(rules.alignment) * 8) - end;
-        layout.add(None, index.unwrap_or(0), manager, bits, PlacedContent::Padding);
+        let aligned = end.checked_next_multiple_of(u32::from(rules.alignment) * 8).unwrap_or(end);
+        layout.add(None, index.unwrap_or(0), manager, aligned - end, PlacedContent::Padding);
     }
     for (plugged, pdo) in pdos {
         let index = plugged.pdos().apply(pdo.mapping_index, pdo.depends_on_slot, pdo.depends_on_slot_group);

@@ -11,18 +11,23 @@ use super::declared::{DeclaredSegment, DeclaredSubDevice};
 use super::modules::{plug, Plugged};
 use super::segment::{Identity, PluggedModule, Segment, SubDevice};
 use super::startup::Startup;
-use super::{clock, process_data, sync_managers};
+use super::{clock, parameters, process_data, sync_managers};
 use crate::description::{Description, Descriptions, DeviceReference};
-use crate::resolve::Writer;
-use crate::values::Write;
+
+/// Maximum number of SubDevices: their configured station addresses have 16 bits.
+const MAX_SUBDEVICES: usize = 65535;
 
 /// Resolves a declared segment. SubDevices without a usable description are reported and left out.
 pub(crate) fn resolve(source: &Source, declared: &DeclaredSegment, diagnostics: &mut Diagnostics) -> Segment {
     check_aliases(&declared.subdevices, diagnostics);
+    if let Some(subdevice) = declared.subdevices.get(MAX_SUBDEVICES) {
+        let message = format!("the segment has more than {MAX_SUBDEVICES} SubDevices");
+        diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, subdevice.name.span, message));
+    }
     let cycle_time = declared.cycle.as_ref().map(|cycle| u64::from(cycle.value) * 1000);
     let mut descriptions = Descriptions::new(source, Bus::EtherCat);
     let mut subdevices = Vec::new();
-    for (declared, position) in declared.subdevices.iter().zip(0..) {
+    for (declared, position) in declared.subdevices.iter().zip(0..=u16::MAX) {
         if let Some(description) = descriptions.of(&reference(declared), diagnostics) {
             subdevices.push(subdevice(declared, position, &description, cycle_time, diagnostics));
         }
@@ -68,7 +73,7 @@ fn subdevice(
     let plugged = plug(description.catalog(), device, declared, diagnostics);
     let placed = process_data::place(device, &assigned, &plugged);
     process_data::check(device, &placed, assignment_at(declared), diagnostics);
-    let parameters = parameters(declared, description, diagnostics);
+    let parameters = parameters::resolve(device, &plugged, declared, diagnostics);
     let sync_managers = sync_managers::sync_managers(device, &placed);
     SubDevice {
         name: declared.name.value.clone(),
@@ -97,14 +102,6 @@ fn assignment_at(declared: &DeclaredSubDevice) -> Span {
 fn shown_module(plugged: &Plugged<'_>) -> PluggedModule {
     let Plugged { number, module, .. } = plugged;
     PluggedModule { slot: *number, ident: module.number, name: module.name.to_string() }
-}
-
-/// Looks up the objects of `parameters`, and converts their values.
-fn parameters(declared: &DeclaredSubDevice, description: &Description, diagnostics: &mut Diagnostics) -> Vec<Write> {
-    let device = description.device();
-    let mut writer = Writer { device, bus: Bus::EtherCat, id: 0, writes: Vec::new(), diagnostics };
-    declared.parameters.iter().for_each(|parameter| writer.parameter(parameter));
-    writer.writes
 }
 
 /// Gives the FMMUs of one direction consecutive logical addresses from `start`. Returns their total length in bytes.

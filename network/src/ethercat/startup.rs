@@ -3,10 +3,10 @@
 use lexibus_codegen::facts::pdo::{assigns, configures, MAX_ENTRY};
 use lexibus_codegen::ir::{Device, InitCommand, Pdo, PdoEntry, MAX_PDO_SUBS};
 
+use super::assignment::direction;
 use super::modules::{Offsets, Plugged};
 use super::process_data::{Placed, PlacedContent};
 use super::segment::StartupCommand;
-use super::sync_managers::direction;
 use crate::values::Write;
 
 /// State transitions in the order of their commands.

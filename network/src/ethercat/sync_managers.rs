@@ -1,7 +1,8 @@
 //! Sync managers and FMMUs of a SubDevice.
 
-use lexibus_codegen::ir::{self, Device, Direction, SyncManagerPurpose};
+use lexibus_codegen::ir::{self, Device};
 
+use super::assignment::direction;
 use super::process_data::{bytes, Placed};
 use super::segment::{Fmmu, SyncManager};
 
@@ -25,15 +26,6 @@ fn sync_manager(manager: &ir::SyncManager, placed: &[Placed<'_>]) -> SyncManager
         control: manager.control,
         enable: manager.enable && length > 0,
         op_only: manager.op_only,
-    }
-}
-
-/// Returns the direction of process data; `None` for a mailbox.
-pub(super) fn direction(purpose: SyncManagerPurpose) -> Option<Direction> {
-    match purpose {
-        SyncManagerPurpose::Outputs => Some(Direction::Receive),
-        SyncManagerPurpose::Inputs => Some(Direction::Transmit),
-        SyncManagerPurpose::MailboxOut | SyncManagerPurpose::MailboxIn => None,
     }
 }
 

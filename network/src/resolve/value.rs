@@ -93,10 +93,12 @@ fn text_value(device: &Device, item: &Item, bus: Bus, text: &str) -> Result<Valu
             _ => Ok(Value::NodeId(offset)),
         };
     }
-    if let Some((number, unit)) = quantity(text) {
-        return physical(item, number, unit, ty);
+    // The name of a value can have the form of a physical value: `50 Hz`.
+    match (named(device, item, bus, text), quantity(text)) {
+        (Some(value), _) => Ok(value),
+        (None, Some((number, unit))) => physical(item, number, unit, ty),
+        (None, None) => Err(unnamed(device, item, bus, text)),
     }
-    named(device, item, bus, text)
 }
 
 /// Reads `$NODEID`, `$NODEID+0x180`.
@@ -159,23 +161,28 @@ fn decimal(number: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// Returns the names and values of the object's enumeration.
+fn enumeration<'d>(device: &'d Device, item: &Item, bus: Bus) -> Option<impl Iterator<Item = (&'d str, i128)>> {
+    let (values, _) = Owner::of_types(&device.types).enumeration(declared_type(item, bus))?;
+    Some(values.iter().filter(|value| value.is_named()).map(|value| (value.name.as_str(), value.value)))
+}
+
 /// Returns the value with a name of the object's enumeration.
-fn named(device: &Device, item: &Item, bus: Bus, text: &str) -> Result<Value, WrongValue> {
-    let values = Owner::of_types(&device.types).enumeration(declared_type(item, bus));
-    let Some((values, _)) = values else {
-        return Err(WrongValue::new(format!("{text:?} is not a value of the type {}", basic_type(device, item, bus))));
+fn named(device: &Device, item: &Item, bus: Bus, text: &str) -> Option<Value> {
+    let mut values = enumeration(device, item, bus)?;
+    let named = values.find(|(name, _)| name.eq_ignore_ascii_case(text));
+    named.map(|(_, value)| Value::Int(value))
+}
+
+/// Returns the reason why a text is not the name of a value.
+fn unnamed(device: &Device, item: &Item, bus: Bus, text: &str) -> WrongValue {
+    let Some(values) = enumeration(device, item, bus) else {
+        return WrongValue::new(format!("{text:?} is not a value of the type {}", basic_type(device, item, bus)));
     };
-    let is_named = |name: &str| name.eq_ignore_ascii_case(text);
-    match values.iter().find(|value| value.is_named() && is_named(&value.name)) {
-        Some(value) => Ok(Value::Int(value.value)),
-        None => {
-            let wrong = WrongValue::new(format!("the object has no value `{text}`"));
-            let names = values.iter().filter(|value| value.is_named()).map(|value| value.name.as_str());
-            Err(match similar(text, names) {
-                Some(name) => wrong.help(format!("write `{name}`")),
-                None => wrong.help("write a number"),
-            })
-        }
+    let wrong = WrongValue::new(format!("the object has no value `{text}`"));
+    match similar(text, values.map(|(name, _)| name)) {
+        Some(name) => wrong.help(format!("write `{name}`")),
+        None => wrong.help("write a number"),
     }
 }
 
