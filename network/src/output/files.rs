@@ -2,7 +2,7 @@
 
 use lexibus_codegen::RustOptions;
 
-use super::{concise, dbc, dcf, master_dcf, master_writes, rust, segment_json};
+use super::{concise, dbc, dcf, master_dcf, master_writes, rust, segment_json, segment_rust};
 use crate::model::Network;
 
 /// An output file.
@@ -20,10 +20,13 @@ impl OutputFile {
     }
 }
 
-/// Returns all output files of a network: those of the CANopen nodes, and `segment.json` for an EtherCAT segment.
+/// Returns all output files of a network: those of the CANopen nodes, and `segment.json` and `segment.rs` for an EtherCAT segment.
 pub fn files(network: &Network) -> Vec<OutputFile> {
     let mut files = if network.is_only_segment() { Vec::new() } else { canopen_files(network) };
-    files.extend(network.segment.as_ref().map(|segment| OutputFile::new("segment.json", segment_json(segment))));
+    if let Some(segment) = &network.segment {
+        files.push(OutputFile::new("segment.json", segment_json(segment)));
+        files.push(OutputFile::new("segment.rs", segment_rust(segment)));
+    }
     files
 }
 

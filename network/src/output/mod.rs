@@ -12,6 +12,7 @@ mod master;
 mod master_objects;
 mod rust;
 mod segment;
+mod segment_rust;
 mod site;
 
 pub use concise::concise;
@@ -22,4 +23,5 @@ pub use files::{files, OutputFile};
 pub use master::{master_dcf, master_writes};
 pub use rust::rust;
 pub use segment::segment_json;
+pub use segment_rust::segment_rust;
 pub use site::{announce, pages};

@@ -1,6 +1,11 @@
 //! EtherCAT segments: the start-up commands are compared with those of the runtime, and sync managers and identity with the SII
 //! image of the same device.
 
+#[rustfmt::skip]
+#[allow(dead_code)]
+#[deny(missing_docs, clippy::all)]
+mod generated;
+#[path = "../support/mod.rs"]
 mod support;
 
 use lexibus::ethercat::{Assignment, Device, Module, SlotPlan, StartupCommand as Command, Transition};
@@ -10,7 +15,7 @@ use lexibus_codegen::source::Source;
 use lexibus_export::sii;
 use lexibus_network::compile::Compilation;
 use lexibus_network::ethercat::{Segment, StartupCommand, SubDevice};
-use lexibus_network::output::files;
+use lexibus_network::output::{files, segment_rust};
 use support::{compiled, messages, root, valid};
 
 lexibus::dictionary! {
@@ -211,11 +216,11 @@ fn defaults_are_those_of_the_sii_image() {
 }
 
 #[test]
-fn a_file_with_only_a_segment_has_one_output_file() {
+fn a_file_with_only_a_segment_has_only_its_output_files() {
     let compilation =
         network("json", &format!("[segment]\ncycle = 1000\n[segment.subdevices.axis]\n{DRIVE}alias = 3\n"));
     let files = files(valid(&compilation));
-    assert_eq!(files.iter().map(|file| file.name.as_str()).collect::<Vec<_>>(), ["segment.json"]);
+    assert_eq!(files.iter().map(|file| file.name.as_str()).collect::<Vec<_>>(), ["segment.json", "segment.rs"]);
     let json: serde_json::Value = serde_json::from_slice(&files[0].content).expect("JSON");
     let axis = &json["subdevices"][0];
     assert_eq!(
@@ -255,4 +260,29 @@ fn the_cycle_time_is_required_if_a_clock_needs_it() {
     assert_eq!(of(""), ["NET004 the mode `DC` of the distributed clocks needs the cycle time of the segment"]);
     assert_eq!(of("dc = \"SM\"\n"), Vec::<String>::new());
     assert_eq!(of("dc = \"DX\"\n"), ["NET028 `SV-1 servo drive` has no mode `DX` of the distributed clocks"]);
+}
+
+/// Compares the generated module with `generated.rs`, which is compiled with this test. `LEXIBUS_BLESS=1` writes the file.
+#[test]
+fn the_rust_module_has_the_data_of_the_segment() {
+    let text = format!(
+        "[segment]\ncycle = 1000\n[segment.subdevices.terminals]\n{COUPLER}alias = 5\nmodules = {{ 0 = \"DO-8\", 2 = \"AI-2\" }}\n\
+         [segment.subdevices.\"Axis 1\"]\n{DRIVE}\n[segment.subdevices.command]\n{DRIVE}pdos = [\"0x1A01\"]\n"
+    );
+    let compilation = network("rust", &text);
+    let segment = segment(&compilation);
+    let path = root().join("network/tests/segment/generated.rs");
+    if std::env::var_os("LEXIBUS_BLESS").is_some() {
+        std::fs::write(&path, segment_rust(segment)).expect("a file");
+    }
+    assert_eq!(segment_rust(segment), std::fs::read_to_string(&path).expect("the module"));
+    let [terminals, axis, last] = &segment.subdevices[..] else { panic!("three SubDevices") };
+    assert_eq!(of_runtime(generated::terminals::STARTUP.iter().copied()), terminals.startup);
+    assert_eq!(of_runtime(generated::axis_1::STARTUP.iter().copied()), axis.startup);
+    assert_eq!(of_runtime(generated::command_2::STARTUP.iter().copied()), last.startup);
+    assert_eq!((generated::terminals::POSITION, generated::axis_1::POSITION, generated::terminals::ALIAS), (0, 1, 5));
+    assert_eq!(generated::axis_1::PRODUCT_CODE, axis.identity.product_code);
+    assert_eq!((generated::terminals::OUTPUTS, generated::axis_1::OUTPUTS), (0..1, 1..7));
+    assert_eq!((generated::terminals::INPUTS, generated::axis_1::INPUTS), (7..13, 13..20));
+    assert!(generated::command_2::OUTPUTS.is_empty());
 }
