@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures the build time that the compiler adds as a build dependency. Runs a cold `cargo build` in the dev profile for a crate
-# whose build script uses the compiler.
+# Measures the build time that a code generator, such as the Lexibus compiler, adds to a crate as a build dependency. Runs a cold
+# `cargo build` in the dev profile for a crate whose build script uses the generator.
 #
 #     benches/build-time.sh                 # Lexibus, with EDS and tables, with EDS alone, prost-build, svd2rust
 #     benches/build-time.sh lexibus         # only Lexibus
@@ -44,7 +44,7 @@ lexibus() {
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"
     measure lexibus
 }
-# Measures the build time of the compiler with the features $2 and no others. Prints the time next to the label $1.
+# Measures the build time of the Lexibus compiler with only the features $2. Prints the time next to the label $1.
 lexibus-with() {
     crate "$1" "lexibus-codegen = { path = \"$root/codegen\", default-features = false, features = [$2] }" \
         "fn main() { lexibus_codegen::Builder::new().compile(\"$root/dictionaries/demo-drive.eds\").unwrap() }"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures the peak memory of `lexibus check` and `lexibus generate`. Subtracts the memory for the smallest file and prints
-# the rest as a multiple of the input size.
+# Measures the peak memory of `lexibus check` and `lexibus generate`. Subtracts the peak memory for a minimal description and
+# prints the rest as a multiple of the input size.
 #
 #     benches/memory.sh [FILE...]
 #
@@ -20,8 +20,8 @@ peak() {
     tail -1 "$work/peak"
 }
 
-# Writes the smallest description with the extension of $1 and prints its path. For XML files of all formats, writes an
-# ESI. The memory for compiling this description, for example for the profiles, does not depend on the input.
+# Writes a minimal description with the extension of $1 and prints its path. For XML files of all formats, the description is an
+# ESI. Compiling it takes only the memory that the compiler needs for every input, such as the memory for the profiles.
 empty() {
     case $1 in
     *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;

@@ -16,7 +16,7 @@ if ! cargo public-api --version >/dev/null 2>&1 || ! cargo +nightly --version >/
     exit
 fi
 cargo +nightly public-api -p lexibus --all-features -sss >"$new"
-# A shorter list means that the tool does not understand the format of the rustdoc JSON.
+# If the list has at most 1000 lines, the tool does not understand the format of the rustdoc JSON.
 (($(wc -l <"$new") > 1000)) || { echo "cargo-public-api printed only $(wc -l <"$new") lines"; exit 1; }
 if [[ ${1:-} == --bless ]]; then
     cp "$new" "$snapshot"

@@ -513,7 +513,8 @@ fn operations_never_enable_a_drive() {
         assert!(refused(rig.motion().set_velocity(1)));
         assert_eq!(rig.writes, []);
     }
-    // After a local quick stop, the controlword still contains "enable operation", but must not be written.
+    // After a local quick stop, the controlword still contains "enable operation". The driver must not write it again, because this
+    // would enable the drive.
     let mut rig = Rig::enabled(6).at(20, |rig| {
         (rig.set, rig.cleared) = (0, 1 << 5);
     });
@@ -617,7 +618,7 @@ fn halt_and_resume() {
     assert_eq!(rig.motion().resume(), Ok(()));
     assert_eq!(rig.motion().wait_reached(DEADLINE), Ok(()));
     assert_eq!(rig.drive.device().get(VELOCITY), Ok(700));
-    // If halt misses its deadline, its bit stays set. Halt isn't possible if the operation isn't enabled.
+    // If `halt` misses its deadline, the halt bit stays 1. Halt isn't possible if the operation isn't enabled.
     rig.cleared = 1 << 10;
     assert!(matches!(rig.motion().halt(ms(100)), Err(MotionError::Deadline { .. })));
     assert_eq!(rig.control(), 0x010F);
@@ -745,7 +746,7 @@ fn generated_drives() {
     drive.cia402().move_to(Target::absolute(-5), DEADLINE).unwrap();
     drive.cia402().wait_reached(DEADLINE).unwrap();
     assert_eq!(drive.position_actual_value().read(), Ok(-5));
-    // The description declares the range of the target position, and the modes up to 8.
+    // The description limits the range of the target position, and limits the mode to at most 8.
     let refused = drive.cia402().move_to(Target::absolute(1_000_001), DEADLINE);
     let text = "write 1000001 to Target position (0x607A:00): outside the range -1000000 to 1000000";
     assert_eq!(refused.as_ref().err().map(ToString::to_string).as_deref(), Some(text));

@@ -148,7 +148,7 @@ const THING: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </ApplicationProcess></ProfileBody></ISO15745Profile>
 "#;
 
-/// A message with a text of 40 bytes, and a message with a list of such texts.
+/// A register table with two messages. One message contains a text of 40 bytes, and the other contains a list of such texts.
 const NAMES: &str = "lexibus = 1\n[device]\nname = \"Sign\"\nvendor = \"Example\"\n\
     [[messages]]\nname = \"Name\"\nrequest = [{ bytes = [1] }, { field = \"text\", type = \"str(40)\" }]\nreply = [{ bytes = [1] }]\n\
     [[messages]]\nname = \"Names\"\nrequest = [{ bytes = [2] }]\n\
@@ -188,7 +188,8 @@ fn traits_of_other_crates_reach_every_generated_type() {
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
-/// A crate with ten descriptions: a change to one description rewrites only its bindings, and an unchanged build runs nothing.
+/// Tests a crate with ten descriptions. If one description changes, the build script must rewrite only the bindings of this
+/// description. If nothing changes, Cargo must run no command.
 #[test]
 fn a_change_rewrites_only_its_bindings() {
     const COUNT: usize = 10;
@@ -251,7 +252,7 @@ fn out_folder() -> PathBuf {
     outs.max_by_key(|out| std::fs::metadata(out).and_then(|out| out.modified()).ok()).expect("an output folder")
 }
 
-/// The first program of the book must print the output in the chapter. The test assembles the program from the blocks
+/// The first program of the book must print the output that the chapter shows. The test assembles the program from the blocks
 /// of the chapter.
 #[test]
 fn the_crate_of_the_book() {

@@ -20,7 +20,7 @@ lexibus::dictionary! {
 }
 
 lexibus::dictionary! {
-    /// A device with slot groups and PDOs of any length in bits.
+    /// A device with slot groups, and with PDOs whose lengths are not multiples of 8 bits.
     #[allow(deprecated)]
     pub mod bits = "tests/data/gateway.esi.xml";
 }

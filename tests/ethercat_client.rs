@@ -387,7 +387,7 @@ fn a_client_with_a_timer_can_wait() {
         assert!(matches!(walked, Err(WalkError::Wait(Error::NoClock))), "{walked:?}");
         let mut drive = DemoServo::new(Sdo::new(maindevice, &subdevice).with_timer(tokio::time::sleep));
         let start = tokio::time::Instant::now();
-        // The servo changes its state only in Operational.
+        // The servo changes its drive state only in the EtherCAT state Operational.
         let walked = drive.walk_async(State::OperationEnabled, limit).await;
         assert!(matches!(walked, Err(WalkError::Deadline { state: Some(State::SwitchOnDisabled), .. })), "{walked:?}");
         assert!(start.elapsed() > Duration::ZERO, "the timer runs in simulated time");
@@ -417,7 +417,7 @@ fn faults_of_a_cycle() {
         }
         faults.clear_faults();
         assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
-        // The frame is lost. `ethercrab` would report it after its own timeout, in real time.
+        // The frame is lost. `ethercrab` would report the loss after its own timeout, in real time.
         faults.inject_nth(EtherCatFault::LostFrame, 1);
         let lost = tokio::time::timeout(Duration::from_secs(1), cycle.run(maindevice, &group)).await;
         assert!(lost.is_err(), "{lost:?}");
@@ -448,7 +448,7 @@ fn a_lost_mailbox_reply_is_requested_again() {
     });
 }
 
-/// The description of the servo without its mailbox.
+/// The description of the servo, but without mailbox and sync managers.
 static MUTE: Device = Device { mailbox: Mailbox::NONE, sync_managers: &[], ..servo::DEVICE };
 
 #[test]

@@ -42,7 +42,8 @@ fn build() -> PathBuf {
         .args(["build", "--quiet", "--release", "-p", "lexibus-instructions"])
         .current_dir(root())
         .env("CARGO_TARGET_DIR", &target)
-        // Do not use separate codegen units, because functions are not inlined across them.
+        // Turn off incremental compilation, because it splits the crate into more codegen units, and functions are not inlined
+        // across codegen units.
         .env("CARGO_INCREMENTAL", "0")
         .env_remove("RUSTFLAGS")
         .output()

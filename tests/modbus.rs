@@ -154,7 +154,7 @@ fn what_the_device_does_not_take_is_not_sent() {
     assert!(matches!(refused, Err(Error::Client(ModbusError::TooLong { count: 5, max: 4 }))));
     assert!(matches!(inverter.speed_setpoint().write(3001).map_err(Error::from), Err(Error::OutOfRange(_))));
     assert_eq!(device.requests(), ["ReadHoldingRegisters(19, 5)"]);
-    // The device supports no function for several registers and allows reading the registers of a value separately.
+    // With these limits, the client has no function for writing several registers, and may split a value into several requests.
     let context = inverter.into_client().into_context();
     let holding = TableLimits { functions: &[3, 6], max_read: 3, split: true, ..TableLimits::HOLDING };
     let mut inverter = Inverter::new(ModbusClient::new(context).with_limits(Limits { holding, ..Limits::STANDARD }));
@@ -227,7 +227,7 @@ fn addresses_of_32_bits() {
             &[0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D],
             &[0x05, 0x03, 0x08, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0x61, 0xAC],
         ),
-        // A request for a single register must return the low half of the value.
+        // A request for a single register must return the low word of the value.
         (&[0x05, 0x03, 0x80, 0x06, 0x00, 0x01, 0x4C, 0x4F], &[0x05, 0x03, 0x02, 0xFF, 0xFE, 0x89, 0xF4]),
     ];
     runtime().block_on(async {
@@ -242,7 +242,7 @@ fn addresses_of_32_bits() {
             }
         };
         let (values, ()) = tokio::join!(drive.read_block_async((LOW_R06, LOW_R01, R01, R00)), answers);
-        // The low half of R01 is the second word of the value.
+        // The low word of R01 is the second word of the value in the reply.
         assert_eq!(values.unwrap(), (-2, 0x7788, 0x5566_7788, 0x1122_3344));
     });
 }

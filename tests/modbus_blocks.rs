@@ -20,8 +20,8 @@ const LIMITS: Limits = Limits {
     discrete: TableLimits { readable: &[Span::new(5, 30)], ..TableLimits::DISCRETE },
 };
 
-/// A simulated device that records its requests. The input registers of the device have 32 bits, with the high half
-/// first. A request for one word returns the low half.
+/// A simulated device that records its requests. The input registers of the device have 32 bits, with the high word
+/// first. A request for one word returns the low word.
 #[derive(Default)]
 struct Device {
     requests: Vec<Register>,

@@ -70,7 +70,7 @@ fn read(binary: &Path) -> Program {
     program
 }
 
-/// Returns the string literals of at least five bytes in the bindings: names of registers, units, texts of codes and others.
+/// Returns the string literals of at least five bytes in the bindings, such as names of registers, units, and texts of codes.
 fn texts(bindings: &str) -> BTreeSet<&str> {
     let code = bindings.lines().filter(|line| !line.trim_start().starts_with("//"));
     code.flat_map(|line| line.split('"').skip(1).step_by(2)).filter(|text| text.len() >= 5).collect()

@@ -1,4 +1,4 @@
-//! Tests the bindings of one device on all buses. The accessors of `data/one-drive.toml` use objects, windows,
+//! Tests the bindings of one device on all buses. The accessors that are generated from `data/one-drive.toml` use objects, windows,
 //! registers and a process image.
 
 #![cfg(all(feature = "macros", feature = "std"))]
@@ -76,7 +76,7 @@ fn windows_are_as_addresses() {
     assert_eq!(drive.master_speed().read(), Ok(-5));
     now(drive.gain().write_async(70_001)).unwrap();
     assert_eq!(now(drive.gain().read_async()), Ok(70_001));
-    // The accessor also checks the range of the item.
+    // An accessor that uses the window also checks the range of the item.
     assert_eq!(drive.gain().write(100_001).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     // An item that has its own object must not use the window.
     drive.target_position().write(60_000).unwrap();
@@ -320,8 +320,8 @@ fn the_image_is_a_bus() {
     assert_eq!((drive.ready().read(), drive.alarm().read()), (Ok(true), Ok(0)));
     drive.mode().write(Modes::SaveParameters).unwrap();
     assert_eq!(drive.client().outputs()[0], 0xCE);
-    // Fields that are only outputs are read through the parameter channel. Items without a field use the channel for
-    // reading and writing.
+    // An item whose field is only in the outputs is read through the parameter channel. An item without a field uses
+    // the channel for reading and writing.
     assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
     drive.gain().write(70_000).unwrap();
     assert_eq!(drive.gain().read(), Ok(70_000));

@@ -48,7 +48,7 @@ fn set(drive: &mut Drive, statusword: u16) {
     drive.port().device().set_bytes(Object::new(0x6041, 0), &statusword.to_le_bytes()).expect("a statusword");
 }
 
-/// Returns the number of PDOs with COB-ID 0x185 that the node sends within a time.
+/// Returns the number of PDOs with COB-ID 0x185 that the node sends within the time `time`.
 fn count(drive: &mut Drive, time: Duration) -> usize {
     let mut count = 0;
     let end = drive.port().now() + time;

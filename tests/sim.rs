@@ -527,7 +527,7 @@ fn process_images_of_ethercat() {
     assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 0x56]));
     assert_eq!(device.receive_image(0x1C12, &[0; 3]), Err(AbortCode::TOO_SHORT));
     assert_eq!(device.transmit_image(0x1C14), Err(AbortCode::NO_OBJECT));
-    // The device refuses the write of one value. It must keep the old value, and must store the other new value.
+    // The device refuses one of the two values. It must keep the old value of this object, and store the new value of the other.
     device.on_any_write(|_, entry| match entry.object {
         Some(Object { index: 0x2000, .. }) => Err(AbortCode::INVALID_VALUE),
         _ => Ok(()),
@@ -691,7 +691,7 @@ fn a_device_that_is_only_on_modbus() {
     client.write(SPEED, &70_000_i32.to_le_bytes()).unwrap();
     assert_eq!(client.write(SPEED, &70_001_i32.to_le_bytes()), exception(Exception::IllegalDataValue));
     assert_eq!(device.read_words(RegisterTable::Holding, 5, 3), Ok(vec![0x8001, 1, 0x1170]));
-    // A write to half of a value must change only that half.
+    // A write to one of a value's two registers must change only this register.
     device.write_words(RegisterTable::Holding, 7, &[9]).unwrap();
     assert_eq!(device.bytes(SPEED), Ok(0x0001_0009_i32.to_le_bytes().as_slice()));
     let mut client = device.client::<Modbus>();

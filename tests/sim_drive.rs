@@ -69,7 +69,7 @@ const fn sub_entry(index: u16, sub_index: u8, data_type: DataType) -> Entry {
 fn drive() -> Device {
     let mut entries = demo_drive::ENTRIES.to_vec();
     entries.extend(MORE);
-    // The description of the demo drive limits the mode to 8, but these tests use higher modes.
+    // The description of the demo drive limits the mode to at most 8, but these tests use higher modes.
     let mode = entries.iter_mut().find(|entry| entry.object == Some(Object::new(0x6060, 0))).unwrap();
     mode.high = Bound::Unlimited;
     Device::new(&entries).with_node_id(NODE).with_cia402()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Creates a Python environment in the folder target/python next to this script, and installs the libraries in
-# requirements.txt there. The benchmark measures these libraries.
+# Creates a Python environment in the folder target/python next to this script. Installs the libraries that requirements.txt lists
+# in this environment. The benchmark measures these libraries.
 set -euo pipefail
 cd "$(dirname "$0")"
 mkdir -p target

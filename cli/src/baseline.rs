@@ -93,8 +93,8 @@ impl Baseline {
         Ok(baseline)
     }
 
-    /// Returns the diagnostics of a compilation that the baseline does not contain. If a diagnostic occurs more often
-    /// in this run than in the baseline, returns only the additional occurrences, which are the last ones.
+    /// Returns the diagnostics of a compilation, except those in the baseline. If a diagnostic occurs more often in
+    /// this run than in the baseline, returns only the additional occurrences, which are the last ones.
     pub(super) fn without_known<'c>(&mut self, compilation: &'c Compilation) -> Vec<Cow<'c, Diagnostic>> {
         let names: Vec<String> = compilation.sources.iter().map(|source| self.name(source)).collect();
         let mut found: BTreeMap<Key, usize> = BTreeMap::new();
@@ -125,8 +125,8 @@ impl Baseline {
         format!(" ({} in the baseline)", self.left_out)
     }
 
-    /// Returns a note about diagnostics of the baseline that the checked files no longer have, or `None` if there are
-    /// none.
+    /// Returns a note with the number of diagnostics in the baseline that no longer occur in the checked files, or
+    /// `None` if there are none.
     pub(super) fn obsolete(&self) -> Option<String> {
         let is_checked = |key: &Key| self.checked.contains(&key.file);
         let counts = self.counts.iter().filter(|(key, _)| is_checked(key));

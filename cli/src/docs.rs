@@ -96,7 +96,7 @@ fn pairs(paths: &[PathBuf]) -> Result<impl Iterator<Item = [&Path; 2]>, Failure>
 }
 
 /// The names of the descriptions: the file name without its extension, or the whole path if several files have the same
-/// name.
+/// name without extension.
 struct Names(HashMap<PathBuf, String>);
 
 impl Names {

@@ -139,9 +139,9 @@ fn write(
 
 /// Returns the exported files of an input: one EDS or SII per device, or one file for all devices.
 ///
-/// Returns `None` if the input contains nothing to export. Reports this as an error only if there is a single input.
-/// Also reports an error and returns `None` if facts that the format requires are missing, or if the content is too
-/// long for an EEPROM.
+/// Returns `None` if the input contains nothing to export. Reports this as an error unless the command has several
+/// inputs or a folder as an input. Also reports an error and returns `None` if facts that the format requires are
+/// missing, or if the content is too long for an EEPROM.
 fn files<'c>(
     format: &Format,
     input: &Path,

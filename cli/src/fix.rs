@@ -94,7 +94,7 @@ impl Fixed {
         Err(format!("fixes are left after {MAX_ROUNDS} rounds"))
     }
 
-    /// Returns the number of fixes in other files, such as an overlay, by file name.
+    /// Returns the number of suggested fixes in each other file of the compilation, such as an overlay, by file name.
     fn elsewhere(&self) -> BTreeMap<&str, usize> {
         let mut counts = BTreeMap::new();
         let is_elsewhere = |diagnostic: &&Diagnostic| diagnostic.fix.is_some() && diagnostic.span.file.0 > 0;
@@ -243,7 +243,8 @@ mod tests {
     use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
     use lexibus_codegen::source::{FileId, Span};
 
-    /// The test holds the guard `settled`, which a program acquires before it ends on a signal.
+    /// A program acquires the guard `settled` before it ends on a signal. While the test holds this guard, no backup
+    /// must be started.
     #[test]
     fn a_backup_is_complete_when_the_program_ends() {
         let folder = std::env::temp_dir().join(format!("lexibus-fix-copy-{}", std::process::id()));

@@ -65,8 +65,8 @@ fn summary(network: &Network) -> String {
     canopen.into_iter().chain(segment).collect::<Vec<_>>().join("\n")
 }
 
-/// Returns a summary: the number of nodes, the bus load of the cyclic frames, and the PDOs without inhibit time. The
-/// bus load does not include these PDOs.
+/// Returns a summary: the number of nodes, the bus load of the cyclic frames, and the PDOs that the bus load does not
+/// include because they have no inhibit time.
 fn canopen_summary(network: &Network) -> String {
     let nodes = network.nodes.len() + usize::from(network.master.is_some());
     format!("{}; {}", counted(nodes, "node"), bus_load(network).summary())

@@ -91,7 +91,8 @@ impl<'g> Target<'g> {
         }
     }
 
-    /// Returns a path in a folder that no earlier output of this run has.
+    /// Returns the path of a file in `folder`. If an earlier output of this run has the same path, adds a number to the
+    /// name.
     fn file_in(&mut self, folder: &Path, name: &str, ending: &str) -> PathBuf {
         let mut path = folder.join(format!("{name}.{ending}"));
         let mut number = 2;
@@ -139,8 +140,8 @@ impl Difference {
     }
 }
 
-/// Reports an error if the content of a file differs from `content`. If `content` is a text, also prints the first
-/// lines of the unified diff.
+/// Reports an error if the content of a file differs from `content`, or if the file cannot be compared. If `content` is
+/// UTF-8 and the file can be read, also prints the first lines of the unified diff.
 pub(super) fn check_bytes(path: &Path, content: &[u8], reporter: &mut Reporter) {
     match std::str::from_utf8(content) {
         Ok(text) => check(path, text, reporter),

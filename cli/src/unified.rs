@@ -38,8 +38,8 @@ pub(super) fn lines(old: (&str, &str), new: (&str, &str)) -> Vec<String> {
     lines
 }
 
-/// Returns the first lines of the unified diff of two texts, shortened to [`SHORT_LINE`] characters. If lines are left
-/// out, a last line states their number.
+/// Returns at most [`SHORT`] lines of the unified diff of two texts. Shortens each line to [`SHORT_LINE`] characters.
+/// If lines are left out, an additional last line states their number.
 pub(super) fn short(old: (&str, &str), new: (&str, &str)) -> Vec<String> {
     let mut lines = lines(old, new);
     let left = lines.len().saturating_sub(SHORT);

@@ -78,8 +78,8 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Runs a command line of the book in `folder`. Returns `None` if the program is on the list of programs that are not
-/// run.
+/// Runs a command line of the book in `folder`. Returns `None` if the program is one of [`OTHERS`], which the test does
+/// not run.
 fn run(line: &str, folder: &Path) -> Option<Output> {
     let words = words(line);
     let (program, arguments) = words.split_first()?;
@@ -143,7 +143,7 @@ fn commands(block: &Block, folder: &Path, position: &str) -> usize {
     count
 }
 
-/// Runs the commands after `$` in a block and compares their output with the block.
+/// Runs the commands after `$` in a block, compares their output with the block, and returns the number of commands.
 fn sessions(block: &Block, folder: &Path, position: &str) -> usize {
     let mut count = 0;
     for session in block.text.split("$ ").skip(1) {

@@ -208,7 +208,7 @@ fn a_report_is_written_in_each_format() {
     let output = run(&[&common[..], &["--format", "html", "--out", &page.to_string_lossy()]].concat());
     assert!(output.status.success(), "{:?}", texts(&output));
     assert!(std::fs::read_to_string(page).expect("a page").starts_with("<!DOCTYPE html>"));
-    // The drive deviates from the description of another device, so the exit code is 1.
+    // The description is that of another device, so `verify` finds deviations and the exit code is 1.
     let pump = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/examples/pump.eds");
     let overlay = folder("overlay").join("found.toml");
     let pump = pump.to_string_lossy().into_owned();
@@ -242,7 +242,7 @@ fn a_blf_file_is_not_read_as_text() {
     );
 }
 
-/// Writes a network with the simulated drive and another node to a folder. Returns the path of the file.
+/// Writes a network file with the simulated drive and another node. Returns the path of the file.
 fn network(name: &str, bus: &str, more: &str) -> PathBuf {
     let folder = folder(name);
     let eds = dictionary("demo-drive.eds");
@@ -278,12 +278,14 @@ fn a_node_of_a_network_is_accessed_by_name() {
     assert!(code == Some(0) && text.contains(",5,sdo,0x6081:00,Profile velocity,20000\n"), "{text}{error}");
     let (code, text, error) = in_folder(&["monitor", "--duration", "500"]);
     assert!(code == Some(0) && text.contains("node 5: state Pre-operational\n"), "{text}{error}");
-    // A node that the file does not contain, and options that a network file states itself.
+    // A node that the network file does not contain is an error. `--overlay` is an error, because the network file
+    // names the overlays itself.
     let (code, _, error) = in_folder(&["read", "axis3", "0x6081"]);
     assert!(code == Some(2) && error.contains("has no node `axis3`. Its nodes are axis2 (6), axis1 (5)."), "{error}");
     let (code, _, error) = in_folder(&["read", "axis1", "0x6081", "--overlay", "x.toml"]);
     assert!(code == Some(2) && error.contains("need a description file"), "{error}");
-    // The file has another name or another folder.
+    // `--network` selects a network file in another folder. Without it, a node name is an error, because the working
+    // folder has no `network.toml`.
     let path = file.to_string_lossy();
     let output = run(&["read", "--network", &path, "--bus", &format!("slcan:{adapter}@500k"), "axis1", "0x6081"]);
     assert_eq!(texts(&output).0, "0x6081:00 Profile velocity = 20000\n", "{:?}", texts(&output));

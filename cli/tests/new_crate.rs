@@ -167,7 +167,8 @@ fn cargo(folder: &Path, arguments: &[&str]) -> String {
     text(&output)
 }
 
-/// Creates the crate `name` from a description. The crate uses the packages of this workspace instead of the published ones.
+/// Creates the crate `name` from a description. The crate uses the packages of this workspace instead of those in the
+/// Git repository.
 fn create(name: &str, description: &Path, options: &[&str]) -> PathBuf {
     let folder = temporary().join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -453,7 +454,7 @@ fn crates_with_long_names_are_formatted() {
     }
 }
 
-/// The build of the crate must find a dictionary that the description names in a subfolder.
+/// The description refers to a dictionary in a subfolder. The build of the crate must find this dictionary.
 #[test]
 fn a_crate_contains_the_files_to_which_its_description_refers() {
     let folder = temporary().join("new-references");

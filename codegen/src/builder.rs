@@ -46,14 +46,15 @@ impl Builder {
         Builder::default()
     }
 
-    /// Turns every repair of the input into an error, unless a level is set for its code.
+    /// Turns every repair of the input into an error, unless a level is set for the diagnostic code of the repair.
     pub fn strict(mut self) -> Self {
         self.strict = true;
         self
     }
 
     /// Suppresses the diagnostics with a code, which is given by its identifier (`EDS020`) or name (`octal-number`).
-    /// The name `warnings` means all codes that are warnings by default. Errors cannot be suppressed.
+    /// The name `warnings` means all codes that are warnings by default, except codes with their own level and, in
+    /// strict mode, repairs. Errors cannot be suppressed.
     pub fn allow(self, code: impl Into<String>) -> Self {
         self.level(code, Level::Allow)
     }
@@ -112,7 +113,7 @@ impl Builder {
 
     /// Adds an overlay: a table that corrects and completes the description. Overlays are applied in the order of the calls.
     ///
-    /// A relative path starts at the folder of the crate, like the path of the input file.
+    /// Relative paths are relative to the folder of the crate, like the path of the input file.
     pub fn overlay(mut self, path: impl Into<PathBuf>) -> Self {
         self.overlays.push(path.into());
         self
@@ -179,13 +180,13 @@ impl Builder {
 
     /// Compiles `input` to `<stem>.rs` in the output directory.
     ///
-    /// A relative path starts at the folder of the crate, because cargo runs build scripts there.
+    /// Relative paths are relative to the folder of the crate, because cargo runs build scripts there.
     ///
     /// # Errors
     ///
     /// Fails if the input or an overlay cannot be read, the input has errors, or there is nothing to generate. Also
-    /// fails if a level is set for an unknown code, a filter is invalid, `OUT_DIR` is missing, or the output cannot be
-    /// written.
+    /// fails if a level is set for an unknown code, a filter is invalid, no output directory is set (with
+    /// [`out_dir`](Self::out_dir) or as `OUT_DIR`), or the output cannot be written.
     pub fn compile(&self, input: impl AsRef<Path>) -> Result<(), BuildError> {
         self.compile_to(input, None)
     }

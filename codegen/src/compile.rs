@@ -42,7 +42,7 @@ pub struct Compilation {
     pub diagnostics: Diagnostics,
     /// Format of the description, if the compiler recognized it.
     pub format: Option<Format>,
-    /// Missing files to which the description refers, in the folder of the description or below it.
+    /// Files to which the description refers, but which do not exist. Each path is in the folder of the description or below it.
     pub missing: Vec<PathBuf>,
 }
 

@@ -25,8 +25,9 @@
 //! | texts in messages | [`text`] |
 //! | writing output files | [`output`] |
 //!
-//! Other crates use the same [`ir`]: `lexibus-site` generates documentation and compares versions, and `lexibus-export` writes EDS, DCF,
-//! ESI, GSDML and JSON. `lexibus-import` converts lists of registers (CSV) to register tables, `lexibus-device` accesses devices on a bus, and `lexibus-cli` is the command `lexibus`.
+//! Other crates use the same [`ir`]: `lexibus-site` generates documentation and compares versions, and `lexibus-export` writes
+//! EDS, DCF, ESI, GSDML and JSON. `lexibus-import` converts lists of registers (CSV) to register tables, `lexibus-device`
+//! accesses devices on a bus, and `lexibus-cli` is the command `lexibus`.
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
 //! has a chapter for each format, and a chapter about writing a front end.
 //!

@@ -14,7 +14,8 @@ pub const MAX_REPEAT: u32 = 0x1_0000;
 /// Maximum number of derived items in a file. A derived item has no separate line in the file.
 ///
 /// Derived items come from CompactSubObj of an EDS, arrays and shared dictionaries of an ESI, and `count` of a register table. For
-/// GSDML, the limit applies to the values that are copied if a value list is used with several types.
+/// GSDML, the limit applies to the values that are copied if a value list is used with several types. In addition, the limit
+/// applies to the items that `import` creates.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Maximum number of implicit PDOs (CompactPDO) in each direction. CiA 301 defines 512 PDOs in each direction.
@@ -27,7 +28,8 @@ pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 /// Maximum number of messages of a register table. The number is limited because each message is compared with all others.
 pub const MAX_MESSAGES: usize = 4_096;
 
-/// Maximum number of ignored unknown keys in one part of a register table, such as a row or a list of codes.
+/// Maximum number of unknown keys that the compiler reports in one part of a register table, such as a row or a list of codes. A
+/// part with more unknown keys is left out.
 pub const MAX_UNKNOWN_KEYS: usize = 100;
 
 /// Maximum number of states, commands, transitions, rows and notes of all state machines of a device. The number must be limited

@@ -29,7 +29,7 @@ pub struct NameRequest<'a> {
     pub name: &'a str,
     /// Name such as `object 6040`, which is used if the name in the description has no words.
     pub fallback: String,
-    /// Suffix that distinguishes the element from others with the same name, such as `6040`. No other element in the scope has
+    /// Suffix, such as `6040`, that distinguishes the element from others with the same name. No other element in the scope has
     /// the same suffix.
     pub suffix: String,
 }
@@ -72,8 +72,8 @@ pub fn joined(owner: &str, name: &str) -> String {
     joined
 }
 
-/// Makes equal and reserved identifiers unique: appends their suffixes, if necessary a second time, and then a number. None of the
-/// resulting identifiers is in `reserved`.
+/// Makes equal and reserved identifiers unique: appends the suffix of the element, if necessary a second time. If the result is
+/// still not unique, also appends a number. None of the resulting identifiers is in `reserved`.
 pub fn distinct<'s>(
     plain: &[String],
     suffixes: impl Iterator<Item = &'s str>,
@@ -89,7 +89,7 @@ pub fn distinct<'s>(
     let mut used: HashSet<String> =
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
-    // Last number that was appended to each name that its suffix did not make unique.
+    // For each name that is not unique even with its suffix: the last number that was appended.
     let mut numbers: HashMap<String, u32> = HashMap::new();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {

@@ -313,7 +313,7 @@ fn indices(catalog: &Catalog) -> BTreeSet<u16> {
     parts.flat_map(|(groups, data)| of_part((groups, data))).collect()
 }
 
-/// Returns the help text for a range without objects, which names the nearest existing objects.
+/// Returns the help text for a range that contains no objects. The text names the nearest existing objects.
 fn nearest(existing: &BTreeSet<u16>, filter: ObjectFilter) -> String {
     let below = existing.range(..filter.first).next_back().map(|&last| {
         let first = (0..=last).rev().take_while(|index| existing.contains(index)).last().unwrap_or(last);

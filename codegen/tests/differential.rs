@@ -1,6 +1,6 @@
-//! Compares the facts that Lexibus reads from corpus files with independent readers: Python's `canopen` for EDS and DCF, and
-//! lxml's XPath for ESI and GSDML. Each difference must have a reason: a row of the table of quirks, or a known limitation of
-//! the independent reader. See `differential/README.md`.
+//! Compares the facts that Lexibus reads from corpus files with the facts that independent readers find: Python's `canopen`
+//! for EDS and DCF, and lxml's XPath for ESI and GSDML. Each difference must have a reason: a row of the table of quirks, or a
+//! known limitation of the independent reader. See `differential/README.md`.
 
 mod corpus_support;
 #[path = "differential/eds.rs"]

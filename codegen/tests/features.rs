@@ -1,6 +1,6 @@
-//! Tests files whose format needs a disabled feature. The error must name the feature. The part `features` of
-//! `tests/full.sh` runs these tests without the features. If all features are enabled, the tests check that this
-//! error does not occur.
+//! Tests that reading a file causes an error if its format needs a disabled feature. The error must name the feature. The
+//! part `features` of `tests/full.sh` runs these tests without the features. If all features are enabled, the tests check
+//! that this error does not occur.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::source::Source;

@@ -13,7 +13,8 @@ pub const fn foreign(frame: CanFrame) -> CanFault {
     CanFault::Foreign { frame, count: 300, period: Duration::from_millis(200) }
 }
 
-/// Returns the faults of the table with their names. `frame` is a frame of another node or service.
+/// Returns the faults of the test `matrix`, with the names in the table that it prints. `frame` is a frame of another node or
+/// service.
 pub fn faults(frame: CanFrame) -> [(&'static str, CanFault); 9] {
     [
         ("late", CanFault::Late(TIMEOUT + Duration::from_millis(100))),

@@ -142,7 +142,8 @@ fn a_second_slave_that_answers_later_is_noticed() {
     let answer = |command| CanFrame::new(0x7E4, &[command, 0, 0, 0, 0, 0, 0, 0]).expect("a frame");
     let mut master = master();
     master.switch_global(LssState::Configuration).expect("a bus");
-    // The same answer arrives again after 200 ms, which is longer than the window in which the master collects answers.
+    // An answer arrives every 200 ms, which is longer than the window. After an answer to this service, the master waits for
+    // further answers for the whole timeout.
     set(master.port(), foreign(answer(0x11)));
     assert_eq!(master.configure_node_id(id(5)), Err(LssError::SeveralAnswers));
     assert_eq!(node_ids(&mut master), [None]);

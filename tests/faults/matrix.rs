@@ -49,7 +49,8 @@ const BOOK_NAMES: [(&str, &str); 11] = [
     ("error frame", "error frame"),
 ];
 
-/// Returns the result that the tables of the book contain, or `None` if they have no column for the client.
+/// Returns the result that the tables of the book contain for this client and fault. Returns `None` if no table contains both.
+/// Panics if no table contains the fault.
 fn book_result(row: &Row) -> Option<&'static str> {
     const BOOK: &str = include_str!("../../docs/src/buses.md");
     let (_, name) = BOOK_NAMES.into_iter().find(|(name, _)| *name == row.fault).expect("a fault of the book");

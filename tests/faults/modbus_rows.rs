@@ -34,7 +34,7 @@ const CLIENTS: [(Kind, [&str; 2]); 3] = [
     (Kind::Exchange, ["Modbus RTU, write and read", "Modbus TCP, write and read"]),
 ];
 
-/// Number of rows.
+/// Number of rows that [`rows`] returns.
 pub const COUNT_OF_ROWS: usize = CLIENTS.len() * 2 * FAULTS * 2 + 2 * FAULTS;
 
 /// Returns the rows for Modbus in the table of faults.
@@ -58,7 +58,7 @@ pub fn rows() -> Vec<Row> {
     }
     for (fault_name, fault) in faults(true) {
         // A device that replies to a broadcast violates the standard. The link discards only replies that arrive
-        // within the turnaround delay, so a late reply must arrive within half of the delay.
+        // within the turnaround delay, so in this test, a late reply arrives after half of this delay.
         let is_late = fault == StreamFault::Late(TIMEOUT);
         let fault = if is_late { StreamFault::Late(TURNAROUND / 2) } else { fault };
         for is_async in [false, true] {
@@ -130,7 +130,8 @@ fn blocking_twice(is_rtu: bool, world: &Shared, fault: &StreamFault, kind: Kind)
     ((name(&first), time), next)
 }
 
-/// Returns the result and duration of a broadcast to a device that replies wrongly, and the duration of the next read.
+/// Returns the result and duration of a broadcast to a device that replies although it must not, and the duration of the
+/// next read.
 fn broadcast(fault: &StreamFault) -> Twice {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().start_paused(true).build();
     runtime.expect("a runtime").block_on(async {

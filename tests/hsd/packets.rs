@@ -34,8 +34,8 @@ fn answered<'r>(reply: &impl Reply<'r>, request: &[u8]) -> Vec<u8> {
     to.written().to_vec()
 }
 
-/// Checks that a packet is decoded in three cases: in two pieces, after noise, and with bytes that need an escape at
-/// any position.
+/// Checks that a packet is decoded in three cases: if it arrives in two pieces, if it follows noise, and if any one of its
+/// bytes needs an escape.
 fn framing_holds(data: &[u8]) {
     let frame = framed(data);
     let whole = [Ok(data.to_vec())];

@@ -19,7 +19,8 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// The folder that contains these tests.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/interop");
 
-/// Returns the path of a Python that has the libraries of the scripts, or `None` if there is none. Searches only once.
+/// Returns the path of a Python interpreter that has the libraries of the scripts, or `None` if there is none. Searches only
+/// once.
 pub fn python() -> Option<&'static Path> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
     PYTHON.get_or_init(|| finder::with(&["canopen", "pymodbus", "serial"])).as_deref()

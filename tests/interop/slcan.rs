@@ -51,7 +51,8 @@ impl Received {
 /// Parses a line as a frame. Returns `None` if the line is empty or a setup command of the adapter.
 fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     let wrong = || io::Error::new(io::ErrorKind::InvalidData, format!("no frame: {}", line.escape_ascii()));
-    // `t` and `T` are data frames with CAN-IDs of 11 and 29 bits, `r` and `R` are remote frames.
+    // `t` and `T` mark data frames, and `r` and `R` mark remote frames. Frames with lowercase letters have CAN-IDs of 11 bits,
+    // and frames with uppercase letters have CAN-IDs of 29 bits.
     let (kind, digits) = match line {
         [kind @ (b't' | b'T' | b'r' | b'R'), digits @ ..] => (*kind, std::str::from_utf8(digits).map_err(|_| wrong())?),
         [b'C' | b'O' | b'S', ..] | [] => return Ok(None),

@@ -9,7 +9,7 @@ use lexibus::Error;
 pub const INVALID_INDEX: PnioStatus = PnioStatus(0xDE80_B000);
 pub const STATE_CONFLICT: PnioStatus = PnioStatus(0xDE80_B500);
 
-/// A device with records in memory and a drive that answers its parameter records.
+/// A device that stores records in memory, and contains a drive that answers parameter requests.
 #[derive(Default)]
 pub struct Device {
     pub records: HashMap<RecordAddress, Vec<u8>>,
@@ -18,9 +18,10 @@ pub struct Device {
     pub pauses: u32,
 }
 
-/// Parameters by axis, number and subindex, each with its format and bytes. Parameter 100 has a maximum of 3000.
+/// A drive with PROFIdrive parameters. Parameter 100 has a maximum of 3000.
 #[derive(Default)]
 pub struct Drive {
+    /// Format and bytes of each parameter, by axis, parameter number and subindex.
     pub values: HashMap<(u8, u16, u16), (Format, Vec<u8>)>,
     pub response: Vec<u8>,
     /// Number of reads before the response is available.

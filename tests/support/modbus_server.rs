@@ -247,7 +247,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Ignore errors. Both calls fail only if the thread has already ended.
+        // Ignore errors. `send` fails only if the thread has already ended, and `join` fails only if the thread panicked.
         if let Some(stop) = self.stop.take() {
             let _ = stop.send(());
         }

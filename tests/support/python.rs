@@ -1,16 +1,16 @@
-//! Finds a Python for tests with independent programs.
+//! Finds a Python interpreter for tests with independent programs.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Returns the path of a Python that can import `modules`. If there is no such Python, prints a message and returns `None`.
+/// Returns the path of a Python interpreter that can import `modules`. If there is none, prints a message and returns `None`.
 ///
-/// Uses the Python that `LEXIBUS_PYTHON` names. If this variable is not set, uses the Python that `tests/interop/setup.sh`
-/// installs, or otherwise `python3`.
+/// Uses the interpreter that `LEXIBUS_PYTHON` names. If this variable is not set, uses the interpreter that
+/// `tests/interop/setup.sh` has installed, or `python3` if there is none.
 ///
 /// # Panics
 ///
-/// Panics if the Python that `LEXIBUS_PYTHON` names does not exist or lacks a module.
+/// Panics if the interpreter that `LEXIBUS_PYTHON` names does not exist or lacks a module.
 pub fn with(modules: &[&str]) -> Option<PathBuf> {
     let named = std::env::var_os("LEXIBUS_PYTHON").map(PathBuf::from);
     let installed = || {

@@ -528,7 +528,7 @@ pub mod types {
     /// |---|---|---|
     /// | 0 | [`switch_on`](Self::switch_on) |  |
     /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
-    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Active low: the flag is true if the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 requests a quick stop. Active low: the flag is true if the bit is 0. |
     /// | 3 | [`enable_operation`](Self::enable_operation) |  |
     /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | A rising edge makes the drive accept the target position. The device reacts to the rising edge. |
     /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
@@ -576,7 +576,7 @@ pub mod types {
         pub const fn with_enable_voltage(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
-        /// Bit 2: quick stop. Active low: the flag is true if the bit is 0. 0 commands a quick stop.
+        /// Bit 2: quick stop. Active low: the flag is true if the bit is 0. 0 requests a quick stop.
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x4)
         }

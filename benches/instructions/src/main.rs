@@ -46,7 +46,8 @@ mod tests {
         assert!(all().count() >= 40);
     }
 
-    /// Packing an unnamed enumeration value must not change the bits next to its field.
+    /// An enumeration field must not read the adjacent bits. Packing a value that is too large for the field must not
+    /// change these bits.
     #[test]
     fn enumerations_leave_their_neighbors_alone() {
         use lexibus_instructions::axis::{pdo::Encoder, types::Mode};

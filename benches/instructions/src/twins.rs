@@ -27,8 +27,8 @@ pub const fn number(name: &str) -> u32 {
 /// [`Frame`]. The function `call` calls both and compares their results.
 ///
 /// The functions are not inlined, so their instructions can be counted separately. Each function starts with a unique
-/// number, because LLVM would merge equal functions. Both are called through a pointer, so the compiler cannot specialize
-/// them for their arguments. The overhead is the same for both.
+/// number, because LLVM would merge equal functions. `call` calls both functions through pointers, so the compiler
+/// cannot specialize them for their arguments. The overhead is the same for both functions.
 macro_rules! pair {
     ($name:ident, $frame:ident,
      ours ($ours:ident: $ours_in:ty = $ours_make:expr) -> $ours_out:ty $ours_body:block

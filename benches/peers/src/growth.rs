@@ -35,7 +35,7 @@ struct Cost {
     left: f64,
 }
 
-/// Measures each growing input. Returns the results as JSON; if `print` is set, also prints a table.
+/// Measures each growing input. Returns the results as JSON; if `print` is set, also prints a table for each input.
 pub fn report(print: bool) -> Vec<Value> {
     WAYS.iter().map(|way| one(way, print)).collect()
 }
@@ -48,8 +48,8 @@ fn one(&(title, name, make): &Way, print: bool) -> Value {
         println!("| size | MB | read, ns per byte | check | emit | peak memory, times the input | retained memory |");
         println!("|---|---|---|---|---|---|---|");
     }
-    // Compare all costs with the cost of the second size, because the fixed cost per file dominates the cost of the smallest
-    // input.
+    // Compare the times per byte with those of the second size, because the fixed time per file dominates for the
+    // smallest input.
     let usual = &costs[1];
     let mut rows = Vec::new();
     for (size, cost) in SIZES.iter().zip(&costs) {

@@ -134,8 +134,8 @@ pub(crate) struct Verify {
     /// Also list the values that differ from their defaults.
     #[arg(long)]
     pub changed: bool,
-    /// Also search this range of indices for undeclared objects (0x2000..0x5FFF); can be repeated. Reading an undeclared
-    /// object may have unknown effects.
+    /// Also search this range of indices, such as 0x2000..0x5FFF, for undeclared objects; can be repeated. Reading an
+    /// undeclared object may have unknown effects.
     #[arg(long, value_name = "RANGE", value_parser = indices)]
     pub search: Vec<std::ops::RangeInclusive<u16>>,
     /// Write an overlay with the facts that were found.

@@ -62,8 +62,8 @@ pub(super) fn compare(arguments: &Compare) -> Result<bool, Failure> {
     Ok(differences.is_empty())
 }
 
-/// Reads the description for CANopen. Reads it for Modbus instead if reading for CANopen fails, or if both backups are
-/// TOML files and the old one does not contain addresses of objects.
+/// Reads the description for CANopen. Reads the description for Modbus instead if it cannot be read for CANopen, or if
+/// both backups are TOML files and the old backup does not match the CANopen description.
 fn either(arguments: &Compare) -> Result<Description, Failure> {
     let Described { file, options } = &arguments.described;
     let of_objects = files::description(file, options, Network::CanOpen);

@@ -23,7 +23,7 @@ struct Timed<'e> {
 pub(super) struct Output<W> {
     out: W,
     format: EventFormat,
-    /// Rows of the table: the last text for each node and name.
+    /// Rows of the table: the last text for each node and name. The name is that of a value or of a kind of event.
     rows: BTreeMap<(Option<u8>, String), String>,
     /// Number of rows on the screen.
     shown: usize,

@@ -35,7 +35,8 @@ pub(super) fn source(path: &Path) -> Result<Source, Failure> {
     Source::read(path).map_err(|error| Failure::Device(format!("cannot read {}: {error}", path.display())))
 }
 
-/// Reads a backup: TOML, or a description with configured values. The description must be of the same product.
+/// Reads a backup: a TOML file, or a description file with configured values. A description file must be for the same
+/// product as `description`.
 pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, Failure> {
     let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     if is_toml {

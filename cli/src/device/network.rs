@@ -78,8 +78,8 @@ impl NetworkFile {
         Failure::Usage(text)
     }
 
-    /// Returns the bus: the given one, or that of the network file. A CAN adapter gets the bit rate of the network, unless the bus states
-    /// another one.
+    /// Returns the bus `given`, or the bus of the network file if `given` is `None`. If the bus is a serial CAN adapter
+    /// without a bit rate, the adapter gets the bit rate that the network file declares.
     pub(super) fn bus(&self, given: Option<&BusAddress>) -> Result<BusAddress, Failure> {
         let mut bus = match (given, &self.compilation.bus) {
             (Some(bus), _) => bus.clone(),

@@ -4,8 +4,8 @@ use std::io::{BufRead, IsTerminal, Write};
 
 use crate::Failure;
 
-/// Asks the user whether to write, unless `is_confirmed` is true. Returns an error if the user must be asked and
-/// standard input is not a terminal.
+/// Asks the user whether to write, and returns the answer. If `is_confirmed` is true, returns true without asking.
+/// Returns an error if the user must be asked and standard input is not a terminal.
 pub(super) fn confirm(is_confirmed: bool, question: &str) -> Result<bool, Failure> {
     if is_confirmed {
         return Ok(true);

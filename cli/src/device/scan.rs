@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::args::{Scan, ScanFormat};
 use crate::{inputs, Failure};
 
-/// A node with the files that fit it.
+/// A node on the bus, with the names of the description files that fit it.
 #[derive(Serialize)]
 struct Line<'n> {
     #[serde(flatten)]

@@ -19,12 +19,14 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// Returns the device of a target, with the values of its description file.
+    /// Returns the device of a target. The description has the values of the description file, even if a network file
+    /// configures other values.
     pub(super) fn described(target: &Target) -> Result<Self, Failure> {
         Self::of(target, Values::Described)
     }
 
-    /// Returns the device of a target. The description of a node in a network file has the values that the network file configures.
+    /// Returns the device of a target. If the target is a node of a network file, the description has the values that
+    /// the network file configures.
     pub(super) fn configured(target: &Target) -> Result<Self, Failure> {
         Self::of(target, Values::Configured)
     }
@@ -74,7 +76,8 @@ pub(super) struct Watched {
 }
 
 impl Watched {
-    /// Reads the descriptions of the nodes. Without nodes, these are all nodes of the network file. `bus` is the bus that the user named.
+    /// Reads the descriptions of the nodes in `watched`. If `watched` has no nodes, reads the descriptions of all nodes
+    /// in the network file. `bus` is the bus that the user named.
     pub(super) fn new(watched: &WatchedNodes, bus: Option<&BusAddress>) -> Result<Self, Failure> {
         let is_named = |node: &WatchedNode| matches!(node, WatchedNode::Named(_));
         let needs_network = watched.network.is_some() || watched.nodes.is_empty() || watched.nodes.iter().any(is_named);

@@ -6,8 +6,8 @@ use lexibus_codegen::output::{temporary_path, writing};
 
 use crate::Failure;
 
-/// Names of files and folders in a crate that have a meaning for Cargo, in lower case. A description file must not have
-/// one of these names.
+/// Names of files and folders in a crate that have a meaning for Cargo, in lower case. The path of a copied description
+/// file must not begin with one of these names.
 const OWN_NAMES: [&str; 11] = [
     ".cargo",
     "benches",
@@ -40,8 +40,8 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// Returns an error if the path begins with one of [`OWN_NAMES`], or if a copy of another file has the same path.
-    /// The comparison of paths ignores case, because some file systems do.
+    /// Returns an error if the first part of the path is one of [`OWN_NAMES`], or if a copy of another file has the
+    /// same path. The comparison of paths ignores case, because some file systems do.
     pub(super) fn copy(&mut self, path: String, bytes: Vec<u8>) -> Result<(), Failure> {
         let lower = path.to_lowercase();
         let first = lower.split('/').next().unwrap_or_default();

@@ -45,13 +45,14 @@ pub(super) fn chain(at: At<'_>, root: &str, calls: &[&str], end: &str) -> String
     {
         return format!("{}{one}{end}", at.1);
     }
-    // The first field or call stays on the line of a root that is not longer than one level of indentation.
+    // If the root is not longer than one level of indentation, the first field or call stays on the same line as the
+    // root.
     let separator = |position: usize| if position == 0 && width(root) <= 4 { String::new() } else { at.newline(1) };
     let lines: String = calls.iter().enumerate().map(|(at, call)| format!("{}.{call}", separator(at))).collect();
     format!("{}{root}{lines}{end}", at.1)
 }
 
-/// Returns the first line of a method of the driver, broken to fit at an indentation of one level.
+/// Returns the signature of a method of the driver. Breaks the line if it is too long at an indentation of one level.
 pub(super) fn method(name: &str, value: Option<&str>, result: &str) -> String {
     let value = value.map(|ty| format!("value: {ty}"));
     let parameters: Vec<&str> = std::iter::once("&mut self").chain(value.as_deref()).collect();

@@ -1,5 +1,5 @@
-//! `lexibus new --crate`: creates a drive crate from a device description. The build script of the crate reports the warnings
-//! about the description.
+//! `lexibus new --crate`: creates a drive crate from a device description. Reports only the errors in the description,
+//! because the build script of the crate reports the warnings.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -167,8 +167,9 @@ fn title(device: &Device, name: &str) -> String {
     }
 }
 
-/// Adds copies of all description files, at the same paths relative to the main file. Returns the literal with the name
-/// of the main file, or an error if a file is not in the folder of the main file.
+/// Adds copies of all description files. Their paths relative to the main file stay the same. Returns the name of the
+/// main file as a string literal. Returns an error if a file is outside of the main file's folder, or if
+/// [`Files::copy`] rejects a file.
 fn copy_sources(compilation: &Compilation, files: &mut Files) -> Result<String, Failure> {
     let Some(main) = compilation.sources.first() else { return Ok(literal("")) };
     let folder = main.folder().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();

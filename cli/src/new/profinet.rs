@@ -9,7 +9,7 @@ use super::package::{render, Package};
 use super::text::doc;
 use crate::Failure;
 
-/// Minimum capacity of a slot plan in submodules, which leaves space for modules that a user adds.
+/// Minimum number of submodules for which a slot plan has space. The space allows users to add modules.
 const MIN_PLACES: usize = 8;
 
 #[derive(Template)]

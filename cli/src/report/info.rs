@@ -138,7 +138,8 @@ fn columns<const N: usize>(text: &mut String, title: [&str; N], rows: impl Itera
     }
 }
 
-/// Returns the order code and the name of a device, or only the name if it contains the order code.
+/// Returns the order code and the name of a device. Leaves out the order code if the name contains it. Returns a
+/// placeholder if both are empty.
 fn device_title(device: &DeviceInfo) -> String {
     match (device.order_code.is_empty(), device.name.is_empty()) {
         (true, true) => "(no name)".to_owned(),

@@ -12,7 +12,8 @@ const LIMIT: usize = 3;
 pub(super) enum Shown<'d> {
     /// A diagnostic in full.
     Full(&'d Diagnostic),
-    /// A warning without its marked lines, because it is not the first printed diagnostic of its code in the file.
+    /// A warning to print without its marked lines, notes and help, because it is not the first printed diagnostic of
+    /// its code in the file.
     Brief(&'d Diagnostic),
     /// A line with the number of diagnostics that are left out.
     More(String),
@@ -24,8 +25,8 @@ struct Count {
     total: usize,
     /// Number of diagnostics that were printed.
     shown: usize,
-    /// Number of diagnostics that the printed ones represent. A closing diagnostic represents all diagnostics that were
-    /// only counted.
+    /// Number of diagnostics that the printed ones represent. If a file has too many diagnostics of a code, the last
+    /// one is a closing diagnostic, which represents all diagnostics that were only counted.
     covered: usize,
 }
 

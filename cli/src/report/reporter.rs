@@ -173,7 +173,7 @@ impl Reporter {
         super::super::say(&format!("error: {message}"));
     }
 
-    /// Prints a progress message, unless the output is in a machine-readable format.
+    /// Prints a progress message if the output format of diagnostics is text.
     pub(in super::super) fn progress(&self, line: &str) {
         if self.format == MessageFormat::Text {
             super::super::say(line);
@@ -185,8 +185,9 @@ impl Reporter {
         self.errors > 0
     }
 
-    /// Prints the statistics or the SARIF document if they are selected, and a summary in formats for human readers.
-    /// Returns whether no errors occurred.
+    /// Prints the statistics or the SARIF document if the user selected them. In the formats `text` and `github`, also
+    /// prints a summary if diagnostics are the main output of the command or if there are diagnostics. Returns whether
+    /// no errors occurred.
     pub(in super::super) fn finish(self) -> Result<bool, Failure> {
         match (&self.statistics, self.format) {
             (Some(statistics), MessageFormat::Json) => self.print(&statistics.json()?)?,

@@ -123,8 +123,8 @@ fn traits_of_other_crates_are_derived_for_it() {
     assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
-/// For some catalogs, creates all outputs except Rust. Returns the seed, the compilation and these outputs for each
-/// catalog.
+/// For some catalogs, creates all outputs except Rust. Returns the seed, the compilation and these outputs for each of
+/// these catalogs.
 fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
     some(OUTPUTS).map(|seed| {
         let (compilation, _) = drawn(seed);
@@ -174,7 +174,7 @@ fn exports_are_read_again() {
         for (at, text) in &made.eds {
             let (original, again) = (indices(&catalog.devices[*at]), again("again.eds", text));
             let exported = indices(&again.devices[0]);
-            // Objects that an export may add: objects for registers, and objects that describe PDOs.
+            // An export may add objects for registers, and objects that describe PDOs.
             let has_registers = catalog.files[0].format == Format::Table;
             let is_made = |index: &&u16| has_registers || (0x1400..0x1C00).contains(*index);
             let more: Vec<&u16> = exported.difference(&original).filter(|index| !is_made(index)).collect();

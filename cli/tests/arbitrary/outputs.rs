@@ -64,7 +64,8 @@ fn site(format: Format, compilation: &Compilation) -> Vec<Page> {
     pages
 }
 
-/// Exports a catalog with a value for each fact that the format requires. Returns `None` if there is nothing to export.
+/// Exports a catalog. Sets an option for each required fact that the catalog does not contain. Returns `None` if there
+/// is nothing to export.
 fn completed<O: Default>(
     export: impl Fn(&O) -> Result<Export, Refusal>,
     set: impl Fn(&mut O, &str, &str) -> Result<(), String>,

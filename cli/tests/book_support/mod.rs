@@ -10,7 +10,8 @@ pub struct Block {
     pub kind: String,
     /// File name from the comment above the block: `<!-- file: NAME -->`.
     pub file: Option<String>,
-    /// Name of an example with the same content, from the comment `<!-- file: NAME = EXAMPLE -->`.
+    /// Name of the example file that must have the same content as the block, from the comment `<!-- file: NAME =
+    /// EXAMPLE -->`.
     pub same_as: Option<String>,
     pub text: String,
 }

@@ -12,7 +12,8 @@ const REQUIRED: &str = "LEXIBUS_BROWSER";
 
 /// Runs a script with paths as arguments. The test fails if the script fails.
 ///
-/// If no browser is available, prints that the test is skipped and does not create the paths.
+/// If no browser is available, the test fails if the environment variable [`REQUIRED`] is set. Otherwise, the function
+/// prints that the test is skipped, and does not create the paths.
 pub fn run<const N: usize>(script: &str, paths: impl FnOnce() -> [PathBuf; N]) {
     if let Err(why) = ready() {
         assert!(std::env::var_os(REQUIRED).is_none(), "{REQUIRED} is set, but {why}");

@@ -51,12 +51,13 @@ pub fn modular() -> PathBuf {
     documented("modular", &["../tests/data/drive.gsdml.xml"])
 }
 
-/// Returns the site of an EtherCAT coupler and an EtherCAT drive, which has PDOs with a changeable mapping.
+/// Returns the site of an EtherCAT coupler and an EtherCAT drive. The drive has PDOs with a changeable mapping.
 pub fn ethercat() -> PathBuf {
     documented("ethercat", &["../tests/data/coupler.esi.xml"])
 }
 
-/// Returns a site with EtherCAT terminals, one of them in two revisions, and with a comparison of two descriptions.
+/// Returns a site with EtherCAT terminals. One of the terminals is described in two revisions. The site also compares
+/// two descriptions.
 pub fn terminals() -> PathBuf {
     let entry = |ty: &str, bits: u8| {
         format!(

@@ -66,7 +66,8 @@ fn serve_can(mut pty: Pty, delay: Duration) -> ! {
     }
 }
 
-/// Returns the reply of the adapter to a line. The channel counts as closed, so the adapter refuses to close it.
+/// Returns the reply of the adapter to a command line. The adapter rejects the command to close the channel, like an
+/// adapter whose channel is already closed.
 fn reply(line: &[u8]) -> &'static [u8] {
     match line {
         b"\r" | b"C\r" => b"\x07",
@@ -105,13 +106,14 @@ fn serve_modbus(mut stream: TcpStream, device: &mut Device) -> std::io::Result<(
     }
 }
 
-/// Reply to a request for the device identification (function 43): the vendor name, and then the product code in another reply.
+/// Returns the reply to a request for the device identification (function 43) that begins with the object `first`. The
+/// reply for object 0 contains the vendor name, and the next reply contains the product code.
 fn identification(first: u8) -> Vec<u8> {
     let (value, more) = if first == 0 { (&b"AEC SRL"[..], 0xFF) } else { (&b"SMD1204"[..], 0) };
     [&[0x2B, 0x0E, 0x01, 0x01, more, 1, 1, first, value.len() as u8], value].concat()
 }
 
-/// Answers a request with the function code 3, 4, 6, 16 or 43, and rejects other function codes.
+/// Returns the reply to a request. Supports the function codes 3, 4, 6, 16 and 43, and rejects all others.
 fn answer(request: &[u8], device: &mut Device) -> Vec<u8> {
     let number = |at: usize| u16::from_be_bytes([request[at], request[at + 1]]);
     let function = request[0];

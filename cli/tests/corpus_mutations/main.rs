@@ -356,7 +356,7 @@ fn regular_edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// Returns corpus files of a format that are small enough to be processed many times.
+/// Returns the corpus files of a format, except files that are too large to be processed many times.
 fn small_files(format: &str) -> Option<Vec<File>> {
     const LARGEST: usize = 120_000;
     let mut files = whole(format)?;
@@ -459,7 +459,7 @@ fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
     select(list.split(' ').collect::<Vec<_>>())
 }
 
-/// Tests texts that consist of EDS words in random order, on one or several lines.
+/// Tests texts that consist of EDS section headers, entries and values, and of lines with random text, in random order.
 #[test]
 fn texts_of_the_words_of_an_eds() {
     let line = prop_oneof![

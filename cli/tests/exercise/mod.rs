@@ -14,7 +14,7 @@ use lexibus_site::{Format, Site};
 
 /// Compiles an input as far as possible. Checks that spans are within their files and that the output is valid Rust.
 ///
-/// Returns whether the input has a catalog.
+/// Returns whether the compiler creates a catalog from the input.
 pub fn exercise(name: &str, bytes: &[u8]) -> bool {
     exercise_with(name, bytes, Vec::new())
 }

@@ -12,7 +12,7 @@ use similar::TextDiff;
 
 /// Name of the file with the settings of a test case.
 const SETTINGS: &str = "case.toml";
-/// Extensions of network files in a test case for networks, except `network.toml`.
+/// Extensions of network files in a test case for networks. `network.toml` is also a network file.
 const NETWORK_FILES: [&str; 3] = ["yml", "cpj", "xml"];
 /// Name of the file with the expected diagnostics. The file is absent if none are expected.
 const DIAGNOSTICS: &str = "diagnostics";
@@ -24,7 +24,8 @@ pub struct Settings {
     /// One sentence that states the rule that the case tests.
     pub about: String,
     /// Files to compile in this order. By default, these are all files of the folder, except settings, overlays and
-    /// expected files. For `diff`, the inputs are the old and the new file.
+    /// expected files. In a test case for networks, these are only the network files. For `diff`, the inputs are the
+    /// old and the new file.
     inputs: Vec<String>,
     strict: bool,
     allow: Vec<String>,

@@ -9,7 +9,7 @@ use crate::case::Case;
 ///
 /// # Errors
 ///
-/// Returns an error if a file cannot be copied or shown.
+/// Returns an error if a file cannot be copied or read, or if `lexibus` cannot be started.
 pub fn of(case: &Case) -> Result<String, String> {
     let folder = copy_of(case).map_err(|error| format!("{}: {error}", case.name()))?;
     let transcript = case.settings.commands.iter().map(|line| match *line.split(' ').collect::<Vec<_>>() {

@@ -1,5 +1,6 @@
-//! Compiles each EDS and XML input with all line ends, and with and without a byte order mark. Compiles each EDS also
-//! in Windows-1252. All results must be equal. The fast lane tests fewer combinations, and only the `quirks` cases.
+//! Compiles each EDS and XML input with all line ends. Adds a byte order mark to EDS files, and to XML files without an
+//! XML declaration. Compiles each EDS also in Windows-1252 if this encoding contains all its characters. The IR and the
+//! diagnostics must not depend on the form. The fast lane tests fewer combinations, and only the `quirks` cases.
 
 use lexibus_codegen::compile::{check, Compilation};
 use lexibus_codegen::source::Source;

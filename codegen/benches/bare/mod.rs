@@ -1,5 +1,5 @@
-//! Two reference loops for comparison with the XML front ends: one reads the events of `quick-xml` with their positions, and
-//! one also splits the attributes.
+//! Two reference loops for comparison with the XML front ends: one reads the events of `quick-xml` with their
+//! positions, and the other also splits the attributes.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -40,7 +40,7 @@ pub fn measure(bencher: Bencher<'_, '_>, bytes: Vec<u8>) {
     bencher.counter(BytesCount::new(bytes.len())).bench(|| events(divan::black_box(&bytes)));
 }
 
-/// Prints the throughput of compiling all files to checked IR and of both reference loops. For each loop, also prints
+/// Prints the throughput of the compiler, up to the checked IR, and of both reference loops. For each loop, also prints
 /// the ratio of its time to the compile time.
 pub fn report(name: &str, files: &[Vec<u8>]) {
     let length: usize = files.iter().map(Vec::len).sum();

@@ -19,8 +19,8 @@ struct Size {
 }
 
 impl Size {
-    /// Returns the number of parameter texts. The number is lower than that of parameters, because parameters share
-    /// texts.
+    /// Returns the number of parameter texts. In large files, there are fewer texts than parameters, because parameters
+    /// share texts.
     fn texts(self) -> usize {
         (self.submodules * self.records * 24 / 5).max(64)
     }

@@ -62,9 +62,9 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// A fact from the options that the export does not use.
+    /// The value of an option that the export does not use.
     GivenFact = "given-fact", "value of an option left out: the file has no field for it";
-    /// A configured value, such as ParameterValue or Denotation, in a format other than DCF.
+    /// A fact of a configured device, such as ParameterValue or Denotation, if the output format is not DCF.
     Configuration = "configuration", "configured value left out: only a DCF has a field for it";
     /// A unit, scale, sentinel value or step.
     Quantity = "unit", "unit or scale left out";
@@ -86,13 +86,13 @@ kinds! {
     Limits = "limits", "default or limits of a value in cyclic data left out";
     /// A minimum that is greater than the maximum.
     SwappedLimits = "swapped-limits", "limits left out: the minimum is above the maximum";
-    /// A default or limit that does not fit its type.
+    /// A value, such as a default or a limit, that does not fit its type.
     Value = "value", "value left out: its type cannot hold it";
-    /// A limit of an integer that is not an integer.
+    /// A fractional minimum or maximum of an integer type.
     RoundedLimit = "rounded-limit", "fractional minimum or maximum of an integer rounded";
     /// A formula that subtracts a number from `$NODEID`.
     NegativeFormula = "negative-formula", "formula with a negative number written, although CiA 306 does not define it";
-    /// PDO mapping directions that differ from those of the access type.
+    /// PDO mapping directions that only another access type can express.
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
     /// PDO mapping directions that no access type can express.
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
@@ -102,8 +102,8 @@ kinds! {
     Behavior = "behavior", "storage, conditions or side effects left out";
     /// The models, versions or options in which an item exists.
     Availability = "availability", "models, versions or options of an item left out";
-    /// A reference to an item with the same value or a part of the value, or the fact that an item is reserved or
-    /// optional.
+    /// A reference from an item to another item that has the same value or a part of the value. Also the property that
+    /// an item is reserved or optional.
     Relation = "relation", "relation to other items, or property reserved or optional, left out";
     /// A description of an element.
     Documentation = "documentation", "description left out";
@@ -186,9 +186,9 @@ kinds! {
     SplitEntry = "split-entry", "PDO entry longer than 255 bits written as several entries";
     /// A PDO with more than 255 entries.
     PdoEntries = "pdo-entries", "PDO left out: it has more than 255 entries";
-    /// The names of PDO entries that do not fit the EEPROM.
+    /// The name of a PDO entry, if the names do not fit in the EEPROM.
     EntryNames = "entry-names", "name of a PDO entry left out: the EEPROM is too small";
-    /// The PDOs that do not fit the EEPROM of a device with CoE.
+    /// A PDO of a device with CoE, if the PDOs do not fit in the EEPROM.
     PdosLeftOut = "pdos-left-out", "PDO left out: the EEPROM is too small, and a master can read the PDO with CoE";
     /// The size of an EEPROM, if the source does not state it or states an invalid size.
     EepromSize = "eeprom-size", "EEPROM size missing or invalid; the next larger power of two is used";

@@ -58,7 +58,7 @@ fn name(chapter: &Group, items: &BTreeMap<u8, &Item>) -> CompactString {
     }
 }
 
-/// Returns the number of registers that have the index of a declared object or the address of another register.
+/// Returns the number of registers that have the index of a declared object or the address of an earlier register.
 pub(super) fn duplicates(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> usize {
     let chapters = device.groups.iter().filter(|group| group.index().is_none());
     let addresses = chapters.flat_map(|chapter| &chapter.items).filter_map(address);

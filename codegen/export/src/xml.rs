@@ -10,7 +10,7 @@ use quick_xml::escape::escape;
 pub(super) struct Xml {
     text: String,
     open: Vec<Open>,
-    /// Number of removed characters that XML 1.0 does not allow.
+    /// Number of characters that were removed because XML 1.0 does not allow them.
     pub(super) dropped: usize,
     /// Number of omitted attributes. An attribute is omitted if its name is invalid or already used in the element.
     pub(super) unnamed: usize,

@@ -1,4 +1,5 @@
-//! Creates IR from arbitrary bytes. Creating any output must not panic, and IR without errors must compile to Rust.
+//! Creates IR from arbitrary bytes. Creating any output must not panic, and the Rust code generated from IR without
+//! errors must be syntactically valid.
 #![no_main]
 
 use lexibus_codegen::compile::Options;

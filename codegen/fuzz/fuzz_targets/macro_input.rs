@@ -1,8 +1,8 @@
 //! Parses arbitrary text as the arguments of `dictionary!` and generates code with the resulting options.
 #![no_main]
 
-// A program can only call the parser of the macro, not the macro itself. The target does not open files that the
-// arguments name.
+// The target calls the parser of the macro, because a program cannot call the macro itself. The target does not open
+// files that the arguments name.
 #[allow(dead_code)]
 #[path = "../../../macros/src/call.rs"]
 mod call;

@@ -7,7 +7,7 @@ use lexibus::message::{Message, Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
 /// Checks that `write` writes as many bytes as `data` has, and that the first `known` bytes are the same. `write` may
-/// fail for settings with a wrong length and for values outside of their limits. Such data can be decoded for bus
+/// fail for parameters with a wrong length and for values outside of their limits. Such data can be decoded for bus
 /// diagnosis, but the writer rejects them.
 fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];

@@ -53,7 +53,7 @@ fields! {
         "parameter number" "parameter no" "param" "param no" "par no" "parameternummer" "parameter nr" "pnu"
         "numero parametro"
     ]
-    /// Bits of the register that the row describes.
+    /// Bits within the register, if the row describes only a part of the register.
     Part "part" [
         "bit" "bit no" "bit number" "bit position" "bit offset" "mask" "bit mask" "bitmask" "bitposition" "bit nr"
         "posizione bit" "maschera"
@@ -206,11 +206,11 @@ pub(super) struct Column {
     pub at: usize,
     /// True if the title states that the numbers are hexadecimal.
     pub is_hex: bool,
-    /// Detail of the column that the title states: an order of words only, or a gain instead of a divisor.
+    /// Detail that the title of the column states: an order of words only, or a gain instead of a divisor.
     pub hint: Hint,
 }
 
-/// A detail of a column that its title states.
+/// A detail that the title of a column states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Hint {
     #[default]
@@ -252,7 +252,7 @@ impl Columns {
     }
 }
 
-/// Number of lines at the start of the list in which the titles are searched.
+/// Number of lines at the start of the list in which the import searches for the titles.
 const PREAMBLE: usize = 40;
 
 /// Finds the line of titles and determines the field of each column.

@@ -10,7 +10,7 @@ pub(super) struct Definition {
     pub entries: Vec<(String, String)>,
 }
 
-/// The definitions of a list, indexed by their entries and by their names.
+/// The definitions of a list, with an index by entries and the set of used names.
 #[derive(Debug, Default)]
 pub(super) struct Definitions {
     list: Vec<Definition>,

@@ -196,7 +196,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns the chapter title if the line consists of a single cell that is not an address.
+    /// Returns the chapter title if the line contains a single non-empty cell that is not an address. Lists with a
+    /// single known column have no chapter titles.
     fn title(&self, record: &Record) -> Option<String> {
         let mut filled = record.filled();
         let (Some((at, cell)), None) = (filled.next(), filled.next()) else { return None };
@@ -287,8 +288,8 @@ impl Reader<'_, '_> {
         Err(reason)
     }
 
-    /// Returns the object address of a row that also has a register address. An index with the prefix `0x` is a
-    /// misprint if it does not have four digits.
+    /// Returns the object address of a row that also has a register address. Reports an index that cannot be read, or
+    /// whose prefix `0x` is not followed by exactly four digits, and returns `None`.
     fn object(&mut self, cell: &Cell, sub: &str) -> Option<(u16, Option<u8>)> {
         let digits = cell.text.split([':', '/', '.']).next().unwrap_or_default().chars();
         let is_marked = cell.text.starts_with("0x") || cell.text.starts_with("0X");

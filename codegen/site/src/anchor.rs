@@ -4,7 +4,7 @@ use compact_str::format_compact;
 
 use lexibus_codegen::unique::Unique;
 
-/// Maximum number of characters of a name that is created from a text.
+/// Maximum number of characters of a file name, without the number that distinguishes equal names.
 const LONGEST: usize = 40;
 
 /// The file names of a folder, or the anchors of a page, without duplicates.

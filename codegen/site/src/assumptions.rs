@@ -18,7 +18,7 @@ pub(super) struct Assumption<'d> {
     pub doubt: &'d Doubt,
 }
 
-/// An element that an ambiguity affects, for a link to the element.
+/// A link to an element that an ambiguity affects.
 #[derive(Debug)]
 pub(super) struct Element {
     /// File and anchor of the element.

@@ -68,7 +68,8 @@ fn on_canopen(device: &Device, pdo: &Pdo) -> Option<Json> {
 }
 
 /// Returns the data that only a PDO on EtherCAT has. The field `assignment` contains the index of the assignment
-/// object, and the PDOs that are assigned to the same sync manager by default.
+/// object, and the PDOs that are assigned to the same sync manager by default. The field is `null` if the device does
+/// not allow a master to write the assignment, or if the PDO is not assigned by default.
 fn on_ethercat(device: &Device, pdo: &Pdo) -> Option<Json> {
     if device.ethercat.is_none() || device.dictionary_only {
         return None;

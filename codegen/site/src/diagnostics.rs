@@ -1,4 +1,4 @@
-//! Repairs and warnings of the compiler. Each item shows its diagnostics, and one page lists all of them.
+//! Repairs and warnings of the compiler. Each item shows its diagnostics, and separate pages list all diagnostics.
 
 use std::collections::{BTreeMap, HashMap};
 

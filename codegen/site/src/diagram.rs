@@ -1,7 +1,7 @@
 //! Draws state machines. The states are in one column, and arrows between neighbors are straight. Each other arrow has
-//! a lane next to the column, which no other arrow uses at the same height. The lane is on the left if the arrow leads
-//! down, and on the right if it leads up. So no two arrows overlap. The label of an arrow is on the outer side of its
-//! lane. If there is space, no arrow of an outer lane crosses the label.
+//! a lane next to the column. At any height, a lane contains only one arrow. The lane is on the left if the arrow leads
+//! down, and on the right if it leads up or back to the same state. So no two arrows overlap. The label of an arrow is
+//! on the outer side of its lane. If there is space, no arrow of an outer lane crosses the label.
 
 mod lanes;
 

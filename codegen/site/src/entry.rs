@@ -177,7 +177,7 @@ impl Rows<'_> {
                 }
             }
         }
-        // Only the first row with a type on a page shows the facts of the type.
+        // If several rows of a page have the same type, only the first of them shows the facts of the type.
         let definition = types::definition(self.types, item.ty).filter(|_| same_as.is_none());
         let addresses = address::addresses(item, self.known.modbus);
         let lookups: Vec<String> =

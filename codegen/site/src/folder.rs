@@ -60,7 +60,7 @@ struct Common<'m> {
     /// The modules of all devices, and the relative path to the folder of the module pages.
     modules: &'m Modules,
     path: String,
-    /// Relative path and title of the list of devices, if there are several.
+    /// Relative path and title of the list of devices; `None` if the catalog has a single device.
     list: Option<(String, String)>,
     /// Links to the pages that the devices share.
     shared: Rc<Links>,

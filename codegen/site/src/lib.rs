@@ -173,7 +173,8 @@ impl Site {
         pages
     }
 
-    /// Returns a page with the changes between two descriptions, each with its name. The list of devices links to this page.
+    /// Returns a page with the changes between two descriptions. `old` and `new` each consist of the name and the catalog of a
+    /// description. The list of devices links to this page.
     pub fn compare(&mut self, old: (&str, &Catalog), new: (&str, &Catalog)) -> Page {
         let format = self.format.pages();
         let comparison = Comparison::of_catalogs(old, new);
@@ -184,7 +185,8 @@ impl Site {
         Page { text: format.page(&frame, &path, Content::Changes(&comparison)), path }
     }
 
-    /// Returns the pages that all catalogs share: the list of devices and the support files of the format.
+    /// Returns the pages that all catalogs share: the list of devices, the redirections to the newest revision of each product,
+    /// and the support files of the format.
     pub fn finish(self) -> Vec<Page> {
         let format = self.format.pages();
         let file = self.format.first_page();

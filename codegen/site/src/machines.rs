@@ -62,7 +62,7 @@ pub(super) struct TransitionRow {
 }
 
 impl TransitionRow {
-    /// Returns the name of the source state, or the name for any state.
+    /// Returns the name of the source state, or [`ANY_STATE`] for a transition from any state.
     pub fn source(&self) -> &str {
         self.from.as_deref().unwrap_or(ANY_STATE)
     }

@@ -34,7 +34,7 @@ impl askama::filters::Escaper for Escape {
     }
 }
 
-/// Returns whether a character is visible. Control characters, and characters that change the display of other characters, are
+/// Returns whether a character is visible. Control characters, line separators, zero-width characters and direction marks are
 /// invisible.
 fn is_visible(letter: char) -> bool {
     let is_invisible =

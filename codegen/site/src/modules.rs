@@ -83,8 +83,8 @@ impl Modules {
         self.files.iter().zip(self.ranges.iter().map(|range| &self.all[range.clone()]))
     }
 
-    /// Returns the name of a module or submodule, and its file and anchor. `at` is its position in the list of all modules, in
-    /// which submodules come last.
+    /// Returns the name of a module or submodule, or its number if it has no name. Also returns its file and anchor. `at` is its
+    /// position in the list of all modules, in which submodules come last.
     pub fn target(&self, at: usize) -> Option<(&str, String)> {
         let module = self.all.get(at)?;
         let (file, _) = self.files.get(self.page_of(at))?;

@@ -16,7 +16,7 @@ const FOLDER: &str = "_networks";
 /// A CANopen network.
 #[derive(Clone, Debug, Default)]
 pub struct Network {
-    /// Name, which no other network of the site has.
+    /// Name of the network. Each network of a site must have a different name.
     pub name: String,
     /// Bit rate in bit/s.
     pub bit_rate: u32,
@@ -39,7 +39,7 @@ pub struct Node {
     pub catalog: String,
     /// Facts about the boot and the error control of the node, as sentences.
     pub facts: Vec<String>,
-    /// Values that the master writes, in their order.
+    /// Values that the master writes to the node, in the order of the writes.
     pub parameters: Vec<Parameter>,
 }
 
@@ -73,7 +73,7 @@ pub struct Frame {
     pub bits: u32,
     /// Maximum number of frames per second, or `None` if the rate is unbounded.
     pub rate: Option<f64>,
-    /// Names of the mapped objects, in their order.
+    /// Names of the mapped objects, in the order of the mapping.
     pub objects: Vec<String>,
 }
 
@@ -128,7 +128,7 @@ pub(super) struct ShownFrame {
 #[derive(Debug)]
 pub(super) struct ShownParty {
     pub name: String,
-    /// Path and anchor of the PDO or of the device's first page. Empty if there is no page.
+    /// Path and anchor of the PDO, or path of the device's first page. Empty if there is no page.
     pub target: String,
 }
 

@@ -71,8 +71,8 @@ pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> O
     }
 }
 
-/// Returns the ambiguities that no other page shows: ambiguities of the device, of machine constants and of empty
-/// chapters.
+/// Returns the ambiguities that the first page shows: those in the device's own list, those of machine constants, and
+/// those of empty chapters.
 fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> {
     let given = device.given.iter().flat_map(|given| &given.doubts);
     let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());

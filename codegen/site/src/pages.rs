@@ -33,7 +33,7 @@ pub(super) const FIRST: &str = "index";
 pub(super) struct Frameset {
     /// Title of the device or catalog.
     pub title: String,
-    /// File name and title of the list of devices, if the catalog has several.
+    /// File name and title of the list of devices; `None` if the catalog has a single device.
     pub list: Option<(String, String)>,
     /// Links to the pages of the device.
     pub device_pages: Rc<Links>,

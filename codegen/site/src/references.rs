@@ -20,7 +20,7 @@ pub(super) struct Targets<'d> {
     items: HashMap<ItemId, Link>,
     /// The bits and values that the rows of items show.
     parts: HashMap<(ItemId, Part), Link>,
-    /// The objects with several entries, by their indices in the notation of the pages.
+    /// Links to the objects with several entries, keyed by the index in the notation of the pages, such as `0x1018`.
     objects: HashMap<String, Link>,
     pdos: Vec<Link>,
     images: HashMap<&'d str, Link>,

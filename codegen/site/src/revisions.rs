@@ -1,5 +1,5 @@
-//! Changes between adjacent revisions of a device, which can be in one description or in two, and between descriptions that the
-//! user chooses.
+//! Changes between adjacent revisions of a device, and between two descriptions that the user chooses. The revisions can be in one
+//! description or in two.
 
 use std::collections::HashSet;
 use std::rc::Rc;

@@ -172,7 +172,8 @@ impl Index {
         let mut is_chosen = |entry: &usize| {
             let [number, text, _] = self.entries.all[*entry];
             let (number, text) = (self.numbers.all[number].as_str(), self.texts.all[text].as_str());
-            // Skip bits and values, because their numbers are relative to the previous entry.
+            // Skip entries without a number, such as pages. Also skip bits and values, because their numbers are relative
+            // to the previous entry.
             if number.is_empty() || is_part(number) {
                 return false;
             }

@@ -98,7 +98,7 @@ fn escaped(text: &str) -> usize {
     text.len() + 4 * text.bytes().filter(|letter| b"<>&\"'".contains(letter)).count()
 }
 
-/// Returns the title of a page at a position: `Codes`, or `Codes (2 of 3)` if there are several.
+/// Returns the title of a page at a position: `Codes`, or `Codes (2 of 3)` if there are several pages.
 pub(super) fn title(title: &str, at: usize, count: usize) -> String {
     match count {
         1 => title.to_owned(),

@@ -34,13 +34,14 @@ pub(super) fn range(item: &Item) -> String {
 
 /// Returns the addresses of an item for requests, separated by `;`.
 ///
-/// - `o 24640 0 ce`: index and sub-index of an object on CANopen and EtherCAT. If the requests on a bus differ from the access
-///   rights of the item, the letters of the requests follow the letter of the bus: `crer` is read-only on both buses, and `ce-` has
-///   no requests on EtherCAT.
+/// - `o 24640 0 ce`: index, sub-index and buses of an object, here CANopen and EtherCAT. If the requests on a bus differ from the
+///   access rights of the item, the letters of the requests follow the letter of the bus: `crer` is read-only on both buses, and
+///   `ce-` has no requests on EtherCAT.
 /// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
 ///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
-/// - `r 1 8 16 4 API 0, slot 1, subslot 1`: record, bit offset and number of bits of the item, number of bytes from the
-///   start of the record to the end of the item, and `of_records`, the address of the submodule that has the record.
+/// - `r 1 8 16 4 API 0, slot 1, subslot 1`: index of the record, bit offset and number of bits of the item, number of
+///   bytes from the start of the record to the end of the item, and `of_records`, the address of the submodule that has
+///   the record.
 pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> String {
     let address = |binding: &Binding| match binding {
         Binding::Object { buses, index, sub_index } => {
@@ -57,8 +58,8 @@ pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], 
     item.bindings.iter().filter_map(address).collect::<Vec<_>>().join(";")
 }
 
-/// Returns the number of 16-bit words that a request for the item reads. A request always reads whole registers of the device,
-/// which can consist of several words.
+/// Returns the number of 16-bit words that a request for the item reads or writes. A request always contains whole registers of
+/// the device, which can consist of several words.
 pub(super) fn count(register: &RegisterBinding) -> u16 {
     let words = u16::from(register.words_per_address.max(1));
     register.count.div_ceil(words) * words

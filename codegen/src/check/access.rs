@@ -7,8 +7,9 @@ use crate::ir::{stated, Item, Storage};
 use crate::source::Span;
 use crate::text::brief;
 
-/// Reports items whose access rights contradict their storage, PDO mapping or writable values. Such conflicts occur in
-/// real files: in 52 files of the test corpus, read-only items can be mapped into RPDOs.
+/// Reports items whose access rights contradict their storage, PDO mapping or writable values. Also reports
+/// non-volatile items that the device clears. Such conflicts occur in real files: in 52 files of the test corpus,
+/// read-only items can be mapped into RPDOs.
 pub(super) fn conflicts(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     for item in context.owner.items() {
         for (span, problem) in contradictions(item).into_iter().flatten() {
@@ -36,7 +37,8 @@ fn access_span(item: &Item, span: Span) -> Span {
     span.or(item.at.access).or(item.origin.span)
 }
 
-/// Returns the facts that contradict the access rights of an item, with their locations.
+/// Returns texts about contradictory facts of an item, with their locations. If a location is empty, the location of
+/// the access rights applies.
 fn contradictions(item: &Item) -> [Option<(Span, &'static str)>; 3] {
     let (readable, writable) = (item.access.readable(), item.access.writable());
     let conflict = |span, text| Some((span, text));

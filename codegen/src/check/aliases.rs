@@ -56,8 +56,8 @@ fn replacement(device: &Device, item: &Item, diagnostics: &mut Diagnostics) {
 fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
-    // The shorter item contains only a part of the value, such as its lower half, which has other limits and names than
-    // the whole value.
+    // A shorter item contains only a part of the value, such as the low word. The limits and names of this part differ
+    // from those of the whole value.
     if types.0.bits().zip(types.1.bits()).is_some_and(|(one, other)| one < other) {
         return found;
     }

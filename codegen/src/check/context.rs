@@ -21,8 +21,8 @@ pub(super) struct PdoOwner<'a> {
 }
 
 impl<'a> PdoOwner<'a> {
-    /// Returns the item of an entry if the source describes the item. Items that the compiler derived from entries are not
-    /// returned.
+    /// Returns the item of an entry if the description file describes the item. Items that the compiler derived from
+    /// entries are not returned.
     pub fn described(&self, entry: &PdoEntry) -> Option<&'a Item> {
         self.owner.item(entry.item?).filter(|item| !item.origin.is_derived())
     }

@@ -30,7 +30,7 @@ pub(super) fn one_given(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the help text for limits that are swapped for a signed integer but in order for an unsigned integer, or the
+/// Returns a help text if the limits are swapped only because `ty` has the wrong signedness: signed instead of unsigned, or the
 /// reverse.
 fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
     let (low, high) = (low.as_int()?, high.as_int()?);

@@ -56,8 +56,8 @@ impl Mapped {
         (index >= 0x20).then_some(Mapped { object: (index, sub_index), bits: word & 0xFF, direction, span })
     }
 
-    /// Compares the mapped object with the item that describes it. `is_resolved` means that missing objects and wrong
-    /// lengths are already reported elsewhere.
+    /// Compares the mapped object with the item that describes it. If `is_resolved` is true, missing objects and wrong lengths are
+    /// skipped, because they are already reported elsewhere.
     pub fn check(&self, described: &Described<'_>, is_resolved: bool, diagnostics: &mut Diagnostics) {
         let item = described.entries.get(self.object.0, self.object.1);
         let found = match item {
@@ -90,7 +90,7 @@ impl Mapped {
         let length = length.map(|bits| {
             (&codes::MAPPED_LENGTH, format!("is mapped with {}, but its type has {bits}", count_of(self.bits, "bit")))
         });
-        // Any mapping is accepted if the source does not state whether PDOs can map the item.
+        // An item is reported as not mappable only if the source states that PDOs cannot map it.
         let unmappable = !item.mappable.any() && !item.at.mappable.is_empty();
         let unmappable = unmappable.then(|| (&codes::NOT_MAPPABLE, "is mapped, but not mappable".to_owned()));
         let direction = wrong_direction(item, self.direction).map(|problem| (&codes::WRONG_DIRECTION, problem));

@@ -77,7 +77,7 @@ impl<'a> Frame<'a> {
         problems
     }
 
-    /// Returns the length of a field in bits, if it is fixed.
+    /// Returns the length of a field in bits, or `None` if the length is not fixed.
     fn bits(&self, field: &MessageField) -> Option<usize> {
         match field {
             MessageField::Constant(bytes) => Some(bytes.len() * 8),

@@ -6,7 +6,7 @@ use crate::ir::{
 };
 use crate::text::count_of;
 
-/// A limit in bytes, and the position in the catalog of the device that has this limit.
+/// A limit in bytes, and the device that has this limit, as a position in the catalog.
 type Limit = Option<(u32, usize)>;
 
 /// The lowest limits of all devices that accept a module or submodule.

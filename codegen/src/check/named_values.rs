@@ -68,7 +68,7 @@ impl Check<'_, '_> {
             .collect()
     }
 
-    /// Returns the minimum and the maximum of an item, if these limits differ.
+    /// Returns the integer limits of an item. The list is empty if the minimum and the maximum are equal.
     fn limits(&self) -> Vec<Number> {
         if fixed(self.item).is_some() {
             return Vec::new();
@@ -210,7 +210,8 @@ fn always(fields: &[BitFieldEntry]) -> impl Iterator<Item = &BitFieldEntry> {
     fields.iter().filter(|field| field.when.is_none() && field.availability.is_none())
 }
 
-/// Returns the named values with a verb: `the value 1 is`, `the values 0, 1 and 3 are`.
+/// Returns the named values with a verb: `the value 1 is`, `the values 0, 1 and 3 are`. More than [`MAX_LISTED`] values are only
+/// counted: `9 other values are`.
 fn listed(values: &[EnumValue]) -> String {
     let named: Vec<String> = values.iter().filter(|value| value.is_named()).map(EnumValue::numbers).collect();
     match named.as_slice() {
@@ -221,8 +222,8 @@ fn listed(values: &[EnumValue]) -> String {
     }
 }
 
-/// Returns whether a limit only bounds the raw number, instead of naming the allowed bits. Such a limit has at most one
-/// bit that is 1, or all its bits up to a certain bit are 1. This is the last bit of the type or the last named bit.
+/// Returns whether a limit is the bound of a range, and not a mask of the allowed bits. In such a limit, at most one bit is 1, or
+/// all bits up to the last bit of the type or the last named bit are 1.
 fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
     if bits & bits.wrapping_add(1) != 0 {
         return bits.is_power_of_two();

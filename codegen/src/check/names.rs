@@ -62,7 +62,7 @@ fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Returns the first two elements of a list that share a name and are not `apart`.
+/// Returns the first two elements of a list that share a name, unless `apart` returns true for them.
 fn repeated<'v, V>(
     list: impl Iterator<Item = &'v V>,
     name: impl Fn(&'v V) -> &'v str,

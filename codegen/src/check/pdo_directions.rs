@@ -4,7 +4,8 @@ use super::context::PdoOwner;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
 
-/// Reports PDO entries whose item cannot be mapped into PDOs with the direction of the entry's PDO.
+/// Reports entries of RxPDOs whose item cannot be mapped into an RxPDO, and entries of TxPDOs whose item cannot be mapped into a
+/// TxPDO.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {

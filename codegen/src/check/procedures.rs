@@ -1,4 +1,5 @@
-//! Procedures: steps that contradict the facts of their items, PDO assignments, and COB-IDs of other PDOs.
+//! Procedures: contradictions between steps and the facts of their items, wrong PDO assignments, and COB-IDs that other PDOs have
+//! by default.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -73,7 +74,8 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     }
 }
 
-/// Returns the value of a step as text. Large numbers, and entries of PDO mappings and assignments, are hexadecimal.
+/// Returns the value of a step as text. Numbers above 0xFFFF, and entries of PDO mappings and
+/// assignments above 0xFF, are hexadecimal.
 fn shown(item: Option<&Item>, value: &Value) -> String {
     let object = item.and_then(Item::object);
     let is_entry = matches!(object, Some((0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C12 | 0x1C13, 1..)));

@@ -69,8 +69,8 @@ fn check_module(lints: &[&Lint], module: &Module, diagnostics: &mut Diagnostics)
     }
 }
 
-/// Runs the lints for parameter records of PROFINET. Other lints on items are not run, because parameters with different types
-/// and limits share lists of named values.
+/// Runs the lints for parameter records of PROFINET. Other lints on items are not run, because several parameters with different
+/// types and limits can share one list of named values.
 fn records(lints: &[&Lint], catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let of_submodules = catalog.submodules.iter().map(|submodule| submodule.records.as_slice());
     let settings = catalog.devices.iter().filter_map(|device| device.profinet.as_ref());

@@ -44,8 +44,8 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Replacement for the marked text.
     pub fix: Option<String>,
-    /// Number of further diagnostics with this code in this file, which are only counted. The number is 0, unless this is the
-    /// closing diagnostic that states it.
+    /// Number of further diagnostics with this code in this file, which are only counted. The number is 0, except in the closing
+    /// diagnostic, which states the number.
     pub more: usize,
 }
 

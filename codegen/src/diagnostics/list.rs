@@ -29,7 +29,7 @@ pub struct Diagnostics {
 struct Beyond {
     code: &'static Code,
     span: Span,
-    /// Hash of the message, with which repeated diagnostics are found.
+    /// Hash of the message. The hash is compared to find repeated diagnostics.
     message: u64,
 }
 

@@ -18,7 +18,7 @@ pub enum Basic {
 pub enum Spelling {
     /// The name of the type in ETG.1000.6.
     Standard,
-    /// A common name of the type that ETG.1000.6 does not define (UINT16).
+    /// A common name that is not in ETG.1000.6, such as `UINT16` for UINT.
     Alias,
     /// A name that begins with the name of a type or with an alias (`UINT_hex`, `Uint16_hex`).
     Prefix,

@@ -2,8 +2,8 @@
 
 use compact_str::{format_compact, CompactString};
 
-/// Returns the symbol of the unit with this number, if the power of ten and the units in the number are known. `units` contains the
-/// units that the dictionary defines.
+/// Returns the symbol of the unit with this number, or `None` if a unit in the number is unknown or the last byte is not 0. `units`
+/// contains the units that the dictionary defines.
 pub fn text(number: u32, units: &[(u32, CompactString)]) -> Option<CompactString> {
     let [exponent, numerator, denominator, rest] = number.to_be_bytes();
     if rest != 0 {

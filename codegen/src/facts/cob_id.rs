@@ -73,7 +73,7 @@ pub fn text(value: &Value, kind: CobId) -> Option<String> {
     };
     let raw = u32::try_from(number).ok()?;
     let mask = if raw & EXTENDED != 0 { 0x1FFF_FFFF } else { 0x7FF };
-    // A value with any other bit is not a COB-ID.
+    // If any other bit is 1, the value is not a COB-ID.
     if raw & !(BIT_31 | BIT_30 | EXTENDED | mask) != 0 {
         return None;
     }

@@ -23,7 +23,8 @@ pub struct Configuration {
     pub communication: Vec<Setting>,
     /// Values of all other objects.
     pub parameters: Vec<Setting>,
-    /// Mappings of PDOs: no entries, then the entries, then their number (CiA 301 7.5.2.36).
+    /// PDO mappings: for each PDO, the number of entries is set to 0, then the entries are written, then their number (CiA 301
+    /// 7.5.2.36).
     pub mapping: Vec<Setting>,
     /// Communication parameters of PDOs, except COB-IDs.
     pub pdo_parameters: Vec<Setting>,
@@ -145,7 +146,7 @@ impl Configuration {
 }
 
 /// Returns whether an object of a CiA 402 drive commands a motion: the controlword, or the target of a mode. A file that a tool
-/// saved from a running drive contains such values. The objects of each further axis are 0x800 higher (CiA 402-2).
+/// saved from a running drive can contain values of these objects. The objects of each further axis are 0x800 higher (CiA 402-2).
 pub fn is_motion_command(index: u16) -> bool {
     const AXIS: u16 = 0x800;
     (0x6000..0xA000).contains(&index)
@@ -194,8 +195,9 @@ fn configured(
     settings
 }
 
-/// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings first clear the mapping and
-/// then write all entries. Some devices lose entries that are not written again.
+/// Returns the settings that map objects into a PDO. If the number of entries is writable, the settings first clear the mapping,
+/// then write all entries and their number. Entries with default values are also written, because some devices lose entries that
+/// are not written again.
 fn mapping(group: &Group, types: &[TypeDef], left_out: &mut Vec<((u16, u8), LeftOut)>) -> Vec<Setting> {
     let mut settings = configured(group, types, None, left_out);
     let count = group.sub(0).filter(|item| reason(group, item).is_none());

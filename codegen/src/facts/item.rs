@@ -60,8 +60,8 @@ pub fn meaning(ty: Type, value: &Value, types: &[TypeDef]) -> Option<String> {
     }
 }
 
-/// Returns the name of a field with its number or with the name of its value. Returns `None` for a reserved field, an
-/// inactive flag or the number 0.
+/// Returns the name of an active flag, or the name of a field with its number or with the name of its value. Returns `None` for a
+/// reserved field, an inactive flag or the number 0.
 fn bits(field: &BitFieldEntry, number: i128, types: &[TypeDef]) -> Option<String> {
     let bits = number.checked_shr(field.offset.into()).unwrap_or(0) & ((1 << field.bits.min(64)) - 1);
     match field.meaning {

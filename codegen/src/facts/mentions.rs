@@ -123,7 +123,7 @@ fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('"').skip(1).step_by(2)
 }
 
-/// Returns the words of a text. A word can contain `_` and `.`, but not end with `.`.
+/// Returns the words of a text. A word can contain `_` and `.`, but neither begin nor end with `.`.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     let is_separator = |letter: char| !(letter.is_alphanumeric() || matches!(letter, '_' | '.'));
     text.split(is_separator)

@@ -120,7 +120,7 @@ impl<'q> Physical<'q> {
         }
     }
 
-    /// Formats a difference between two values, to which the offset of the scale does not apply: `0.5 K (raw 5)`.
+    /// Formats a difference between two values: `0.5 K (raw 5)`. The offset of the scale does not apply to a difference.
     pub fn step(&self, step: &Value, raw: &dyn Fn(&Value) -> String, unit: &dyn Fn(&str) -> String) -> String {
         match *self.scale {
             Scale::Linear { factor, .. } => {

@@ -25,8 +25,8 @@ pub enum Referrer {
     WritableWhen(ItemId),
     /// An item that this item replaces.
     Replaced(ItemId),
-    /// An item with the same value or quantity, with the lower half of the value, or with the elements that this item
-    /// counts.
+    /// An item that names this item as related: as the same value, as the same quantity, as the high word of its value, or as the
+    /// number of its valid elements.
     Related(ItemId),
 }
 

@@ -626,7 +626,7 @@ impl Words<'_> {
         self.sentences(shown.map(|(fact, origin)| (fact_name(fact), origin)))
     }
 
-    /// Returns a sentence for each origin, with the names of its facts.
+    /// Returns a sentence for each origin, with the names of the facts that come from this origin.
     fn sentences<'f>(&self, facts: impl Iterator<Item = (&'static str, &'f FactOrigin)>) -> Vec<String> {
         let mut groups: Vec<(&FactOrigin, Vec<&str>)> = Vec::new();
         for (fact, origin) in facts {

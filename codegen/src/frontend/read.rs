@@ -20,7 +20,7 @@ pub(crate) struct Description {
 }
 
 /// Input of a front end.
-// Each front end uses only some of the fields.
+// Each front end uses only some of the fields, so some fields are unused if a feature is disabled.
 #[cfg_attr(not(all(feature = "eds", feature = "esi", feature = "table")), allow(dead_code))]
 struct Input<'s> {
     source: &'s Source,

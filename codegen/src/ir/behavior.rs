@@ -166,7 +166,7 @@ impl Binding {
         Binding::Parameter(Box::new(ParameterBinding { space: space.into(), code }))
     }
 
-    /// Creates the address of an entry of the object dictionary of an EtherCAT slave.
+    /// Creates the address of an entry in the object dictionary of an EtherCAT slave (CoE).
     pub fn coe(index: u16, sub_index: u8) -> Self {
         Binding::Object { buses: ObjectBuses::COE, index, sub_index }
     }
@@ -180,7 +180,8 @@ pub struct RegisterBinding {
     pub space: RegisterSpace,
     /// Zero-based wire address of the first register, coil or discrete input.
     pub address: u16,
-    /// Address as the source prints it, such as `40102–40103` or `R01`; empty if the source prints the wire address.
+    /// Address as the source prints it, such as `40102–40103` or `R01`; empty if the source prints no other address than the wire
+    /// address.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub printed: CompactString,
     /// True if the word order is an assumption.

@@ -33,7 +33,7 @@ pub struct Catalog {
     /// Name of the vendor in other languages.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Texts::is_empty"))]
     pub vendor_names: Texts,
-    /// Description of the device family in other languages than that of [`Header::description`](super::Header::description).
+    /// Description of the device family in languages other than that of [`Header::description`](super::Header::description).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Texts::is_empty"))]
     pub descriptions: Texts,
     /// Facts about the catalog that have no field in the IR.
@@ -201,7 +201,7 @@ pub struct Manual {
     pub language: CompactString,
     /// Unit of the numbers in citations: pages or lines.
     pub counts: Option<CiteUnit>,
-    /// Description of the manual, and of the parts that were left out.
+    /// Description of the manual, and of the parts of the manual that the register table leaves out.
     pub documentation: String,
     /// Sections and tables of the manual, sorted by their first page or line.
     pub sections: Vec<ManualSection>,

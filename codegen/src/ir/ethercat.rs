@@ -83,7 +83,7 @@ pub struct SyncUnit {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mailbox {
-    /// True if the device supports the data link layer of the mailbox, which repeats lost messages.
+    /// True if the device supports the data link layer of the mailbox (`DataLinkLayer`). This layer repeats lost messages.
     pub data_link_layer: bool,
     /// True if the mailbox runs in real-time mode.
     pub real_time: bool,
@@ -256,7 +256,7 @@ pub struct SlotRules {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModulePdoGroup {
-    /// Alignment of the data of each module in bytes; 0 and 1 = no alignment.
+    /// Alignment in bytes of the data of each module; 0 and 1 = no alignment.
     pub alignment: u16,
     /// Index of the device's RxPDO that precedes the RxPDOs of the modules, if given.
     pub rx_pdo: Option<u16>,

@@ -4,7 +4,7 @@ use thin_vec::ThinVec;
 
 use super::{CompactString, Item};
 
-/// An attribute of an item or group that several sources can state.
+/// An attribute of an item or group. Several sources can state the same attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -29,7 +29,7 @@ pub enum Fact {
     Limits,
     /// Unit, scale factor and rounding step of the item.
     Unit,
-    /// Storage of the value, side effects of writing it, and conditions for writing it.
+    /// Storage of the value, side effects of writing it, and conditions for reading and writing it.
     Behavior,
     /// Models, firmware versions, hardware options and buses on which the item exists.
     Availability,
@@ -147,7 +147,7 @@ pub enum Rule {
     AnnouncedPdo,
     /// An object that only PDO entries describe is read-write if an RPDO maps it, and otherwise read-only.
     MappedObject,
-    /// Items of an EDS, XDD or ESI without access rights are read-only, except DOMAIN objects on CANopen, which are read-write.
+    /// Items without access rights in an EDS, XDD or ESI are read-only, except DOMAIN objects on CANopen, which are read-write.
     /// Items without a data type are read-only raw bytes.
     MissingKey,
     /// Identity numbers that are missing or 0 in the header of the description come from the default values of object 0x1018.

@@ -33,7 +33,7 @@ impl Format {
     /// The format of overlays.
     pub const OF_OVERLAYS: Format = Format::Table;
 
-    /// Returns the name of the format that `lexibus info` prints.
+    /// Returns the name of the format, as `lexibus info` prints it.
     pub fn name(self) -> &'static str {
         match self {
             Format::Eds => "eds",
@@ -64,7 +64,7 @@ impl Format {
         }
     }
 
-    /// Returns two texts for the diagnostic about an object without sub-indices: the name of the missing element, and the help.
+    /// Returns two texts for the diagnostic about an object without sub-indices: the part that is missing, and the help.
     pub(crate) fn missing_subs(self) -> (&'static str, &'static str) {
         match self {
             Format::Eds | Format::Dcf => (

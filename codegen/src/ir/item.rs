@@ -36,7 +36,7 @@ pub struct Item {
     pub configured: Option<Box<Configured>>,
     /// Unit, scale, special raw values and step of the item.
     pub quantity: Option<Box<Quantity>>,
-    /// Storage of the value, side effects of writing it, and conditions for writing it.
+    /// Storage of the value, side effects of writing it, and conditions for reading and writing it.
     pub behavior: Option<Box<Behavior>>,
     /// Models, firmware versions, hardware options and buses on which the item exists.
     pub availability: Option<Box<Availability>>,
@@ -154,12 +154,12 @@ impl Item {
             .find(|limits| !limits.is_empty() || !limits.allowed.is_empty())
     }
 
-    /// Returns the value of the item that a configuration file (DCF, XDC) sets.
+    /// Returns the value that a configuration file (DCF, XDC) sets for the item.
     pub fn configured_value(&self) -> Option<&Value> {
         self.configured.as_ref()?.value.as_ref()
     }
 
-    /// Returns the initial value of the item: the value that a configuration file sets, or the default value.
+    /// Returns the initial value of the item: the value that a configuration file sets, or else the default value.
     pub fn initial(&self) -> Option<&Value> {
         self.configured_value().or(self.default.as_ref())
     }
@@ -254,7 +254,7 @@ pub struct Configured {
     pub value: Option<Value>,
     /// Name of the item in the application (Denotation).
     pub denotation: Option<CompactString>,
-    /// File in which the content that was read from a domain is stored (UploadFile).
+    /// File that stores the content that was read from a domain (UploadFile).
     pub upload_file: Option<CompactString>,
     /// File whose content is written to a domain (DownloadFile).
     pub download_file: Option<CompactString>,

@@ -54,7 +54,7 @@ pub struct CommandOutcomes {
     pub commands: Vec<MessageRef>,
     /// Models, firmware versions and buses that have the command.
     pub availability: Option<Box<Availability>>,
-    /// Effects of the command, with one entry for each state.
+    /// Effects of the command, with one entry for each column (state) of the matrix.
     pub cells: Vec<StateOutcome>,
     /// Description of the command from the source.
     pub documentation: Option<Box<Documentation>>,

@@ -51,7 +51,7 @@ pub struct Message {
 }
 
 impl Message {
-    /// Returns the typed values of request and reply, including those in repeated fields.
+    /// Returns the typed values of the request and the reply, including values in repeated fields.
     pub fn values(&self) -> impl Iterator<Item = &MessageValue> {
         values(&self.request).chain(values(&self.reply))
     }
@@ -67,7 +67,7 @@ fn values(fields: &[MessageField]) -> Box<dyn Iterator<Item = &MessageValue> + '
     }))
 }
 
-/// An example of a request and the reply of the device, as bytes.
+/// An example from the source: the bytes of a request and of the reply to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MessageExample {
@@ -102,8 +102,8 @@ pub enum Completion {
         mask: Option<u64>,
         /// Value that indicates completion; `None` = any value except 0.
         value: Option<Value>,
-        /// True if the reply to the command itself already has a valid value. Otherwise, the value in that reply can refer to the
-        /// previous command.
+        /// True if the value in the reply to the command already refers to this command. Otherwise, the value in that reply can
+        /// refer to the previous command.
         #[cfg_attr(feature = "serde", serde(default))]
         in_reply: bool,
     },
@@ -131,7 +131,7 @@ pub enum MessageField {
     Echo {
         /// Name of the copied field.
         field: CompactString,
-        /// First and last byte of the copy, counted from 0 in the order on the wire; `None` = all.
+        /// First and last copied byte of the field, counted from 0 in the order on the wire; `None` = all bytes.
         bytes: Option<(u8, u8)>,
     },
     /// A copy of bytes of the request, regardless of their meaning. The first data byte has the number 0. Bytes that a
@@ -163,7 +163,7 @@ pub enum MessageField {
     Padding(u8),
     /// Fields that are repeated.
     Repeat {
-        /// Name of the field with the number of repetitions; `None` = up to the end of the data.
+        /// Name of the field with the number of repetitions; `None` = the fields are repeated up to the end of the data.
         count: Option<CompactString>,
         /// Maximum number of repetitions.
         max: Option<u16>,
@@ -182,7 +182,7 @@ pub struct MessageValue {
     pub item: Item,
     /// Byte order on the wire as a list of byte numbers, in which 0 is the most significant byte; empty = big-endian.
     pub byte_order: Vec<u8>,
-    /// Field of the same frame at which counting starts, if the value is a number of bytes.
+    /// First counted field of the frame, if the value is the number of bytes from this field to the end of the data.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<CompactString>,
 }

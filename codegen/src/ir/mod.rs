@@ -7,12 +7,13 @@
 //!   have several addresses.
 //! - A [`Group`] is a list of items that belong together in the source: the sub-indices of an object, the registers of a
 //!   chapter, the fields of a parameter record. On CANopen and EtherCAT a group is an object.
-//! - A [`Type`] is either basic or refers to a [`TypeDef`]: a bit field, an enumeration, an array, a record.
+//! - A [`Type`] is either basic or refers to a [`TypeDef`]: an alias, an array, a record, a bit field, an enumeration or a
+//!   scaled integer.
 //! - [`ProcessData`] is the cyclic data: PDOs with exact bit positions, sync managers, submodule data.
 //! - A [`Message`] is a request of a command protocol, with its reply.
 //! - [`Module`]s and [`Submodule`]s extend a modular device. They belong to the catalog, because several devices may
 //!   accept the same modules.
-//! - [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are the parts of a manual that are not items.
+//! - [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are further parts of a manual.
 //!
 //! Most elements have an [`Origin`](crate::source::Origin) or a [`Span`](crate::source::Span). A [`Doubt`] describes an
 //! ambiguity in the source and the assumption that was made. Facts without a field in the IR are kept as

@@ -49,7 +49,8 @@ impl<'a> Owner<'a> {
         (0..).zip(groups).flat_map(ids)
     }
 
-    /// Returns the definition of a named type after following aliases, or `None` if the type is basic or an alias of a basic type.
+    /// Returns the definition of a named type after following aliases. Returns `None` if the type is basic or an alias of a basic
+    /// type, if a definition is missing, or if there are too many nested aliases.
     pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
         let mut ty = ty;
         for _ in 0..MAX_ALIASES {

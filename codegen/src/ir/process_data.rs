@@ -151,7 +151,7 @@ pub struct Pdo {
     pub buses: Option<ObjectBuses>,
     /// True if the PDO has no section and follows from NrOfRXPDO, NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
-    /// True if the source declares only the mapping object of the PDO.
+    /// True if the PDO comes from a mapping object of the dictionary; false if the source declares the PDO itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub from_object: bool,
     /// Location of the PDO in the source.

@@ -104,7 +104,7 @@ pub struct Submodule {
     pub names: Texts,
     /// Description of the submodule from the source.
     pub documentation: Option<Box<Documentation>>,
-    /// Identity of the submodule, such as its order code.
+    /// Order code and vendor name of the submodule; empty if the source does not state them for the submodule.
     pub identity: Identity,
     /// Cyclic inputs of the controller, if any.
     pub input: Option<Box<IoData>>,

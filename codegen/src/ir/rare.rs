@@ -3,7 +3,8 @@
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-/// A fact that most elements do not have. A missing fact reads as its default value, and takes up only one pointer.
+/// A fact that most elements do not have. If the fact is missing, reading it returns the default value, and only the memory of one
+/// pointer is used.
 pub struct Rare<T>(Option<Box<T>>);
 
 /// A type of fact with a static default value, which all elements without this fact share.

@@ -176,7 +176,7 @@ pub struct SlotNumbers {
 }
 
 impl SlotNumbers {
-    /// Returns whether the slot or subslot is in one of the lists, or all lists are empty.
+    /// Returns whether one of the lists contains the slot or subslot. Also returns true if all lists are empty.
     pub fn accept(&self, place: u16) -> bool {
         let lists = [&self.allowed, &self.fixed, &self.used];
         lists.iter().all(|list| list.is_empty()) || lists.iter().any(|list| list.contains(place))

@@ -46,13 +46,14 @@ pub(crate) fn quantity(item: &Item) -> Option<&Quantity> {
     stated(&item.origins, Fact::Unit, item.quantity.as_deref())
 }
 
-/// Returns the storage of an item, the side effects of writing it, and the conditions for writing it, unless a profile added
-/// these facts.
+/// Returns the storage of an item, the side effects of writing it, and the conditions for reading and writing it, unless a profile
+/// added these facts.
 pub(crate) fn behavior(item: &Item) -> Option<&Behavior> {
     stated(&item.origins, Fact::Behavior, item.behavior.as_deref())
 }
 
-/// Returns the description of an item or group with these origins, unless a profile added it.
+/// Returns `documentation`, the description of an item or group, unless a profile added it. `origins` are the origins of the
+/// facts of this item or group.
 #[cfg(feature = "table")]
 pub(crate) fn description<'d>(
     origins: &FactOrigins,

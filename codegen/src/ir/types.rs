@@ -528,7 +528,7 @@ pub enum Scale {
     },
 }
 
-/// A condition: another item has one of these values.
+/// A condition: the value of another item is one of the listed values.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Condition {

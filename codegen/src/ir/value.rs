@@ -115,7 +115,7 @@ impl Limits {
         self.low.is_none() && self.high.is_none()
     }
 
-    /// Returns the minimum and the maximum. A limit that is not an integer is `None`.
+    /// Returns the minimum and the maximum. A limit that is neither an integer nor a boolean is `None`.
     pub fn integers(&self) -> (Option<i128>, Option<i128>) {
         let integer = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
         (integer(&self.low), integer(&self.high))

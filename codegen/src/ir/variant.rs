@@ -23,7 +23,7 @@ pub struct ItemVariant {
     pub default: Option<Value>,
     /// Minimum and maximum on these models and buses.
     pub limits: Limits,
-    /// Rounding step of the device on these models and buses, in raw units.
+    /// Step in raw units. On these models and buses, the device rounds written values to multiples of the step.
     pub step: Option<Value>,
     /// Conversion between raw value and physical value.
     pub scale: Option<Scale>,

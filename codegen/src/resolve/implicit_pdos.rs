@@ -1,4 +1,4 @@
-//! Objects of implicit PDOs, which a device counts but does not describe (CiA 306, CompactPDO).
+//! Objects of implicit PDOs: PDOs that an EDS or DCF counts but does not describe (CiA 306, CompactPDO).
 //!
 //! For example, a device with CompactPDO, NrOfRXPDO = 4 and two described RPDOs has two implicit RPDOs. The objects of implicit
 //! PDOs have the line number 0, because the file does not contain these objects.

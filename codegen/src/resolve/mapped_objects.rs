@@ -1,8 +1,8 @@
-//! Mapped objects of EtherCAT slaves and modules that the dictionary does not describe.
+//! Adds mapped objects that the dictionary of an EtherCAT slave or module does not describe.
 //!
-//! A device has every object that its PDOs map. The compiler adds mapped objects that the dictionary does not describe,
-//! with the name, type and length of the PDO entry. The line number of an added object is 0, because the file contains
-//! only the PDO entry.
+//! A device has every object that its PDOs map. If the dictionary does not describe a mapped object, the compiler adds an
+//! object with the name, type and length of the PDO entry. The line number of an added object is 0, because the file
+//! contains only the PDO entry.
 
 use std::collections::BTreeMap;
 

@@ -9,7 +9,7 @@
 //! | `references`, `mentions` | ids for the names in references |
 //! | `removal` | removes selected objects, and updates ids |
 //! | `identity` | identity numbers of object 0x1018 |
-//! | `implicit_pdos` | objects of PDOs that a device counts but does not describe |
+//! | `implicit_pdos` | objects of PDOs that an EDS or DCF counts but does not describe |
 //! | `pdo_mapping` | PDOs from mapping objects |
 //! | `pdo_entries`, `mapped_objects` | entries of EtherCAT PDOs, and objects that only these entries describe |
 //! | `messages` | layout of the frames of a command protocol; computed on request and not stored in the IR |

@@ -49,8 +49,8 @@ impl<'a> PdoObjects<'a> {
         PdoObjects { direction, index, number: number + 1, communication, mapping }
     }
 
-    /// Returns the numbers, counted from 0, of the PDOs with this direction for which the dictionary describes an
-    /// object.
+    /// Returns the numbers of the PDOs with this direction, counted from 0. The dictionary describes the communication
+    /// object or the mapping object of each of these PDOs.
     pub(crate) fn numbers(device: &Device, direction: Direction) -> Vec<u16> {
         let first = first_index(direction);
         let indices = device.groups.iter().filter_map(Group::index);
@@ -115,7 +115,7 @@ impl<'a> MappableItems<'a> {
 
 /// A value of a mapping object at a sub-index above 0.
 pub(crate) struct MappingValue<'a> {
-    /// Item of the mapping object that contains the value.
+    /// Item that contains the value: a sub-index of the mapping object.
     pub item: &'a Item,
     /// Location of the value in the source.
     pub span: Span,

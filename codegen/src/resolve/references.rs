@@ -251,7 +251,7 @@ fn models_and_given_numbers(device: &mut Device) {
     });
 }
 
-/// Sets the ids of the items that PDO entries map. `first` is the number of groups that precede `groups`.
+/// Sets the id of the mapped item in each PDO entry that maps an item. `first` is the number of groups that precede `groups`.
 fn mapped_items(pdos: &mut [Pdo], groups: &[Group], first: u32) {
     let items = Entries::new(groups);
     for entry in pdos.iter_mut().flat_map(|pdo| &mut pdo.entries).filter(|entry| entry.kind == PdoEntryKind::Item) {

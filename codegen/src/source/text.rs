@@ -104,8 +104,8 @@ impl Source {
         decode::declared(self.text().as_bytes())
     }
 
-    /// Returns the encoding that the XML declaration names, with its name in the WHATWG Encoding Standard, such as
-    /// `UTF-8` or `windows-1252`. Returns `None` if the declaration names no encoding or an unsupported encoding.
+    /// Returns the name that the WHATWG Encoding Standard defines for the encoding in the XML declaration, such as `UTF-8`
+    /// or `windows-1252`. Returns `None` if the declaration names no encoding or an unsupported encoding.
     pub fn declared_charset(&self) -> Option<&'static str> {
         self.declared_encoding().and_then(decode::charset)
     }
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn positions_in_long_texts_are_those_of_a_list_of_lines() {
         for line_end in ["\n", "\r", "\r\n"] {
-            // Lines from 0 to 70 characters, then lines that are longer than a part.
+            // Lines of 0 to 70 characters, then some lines that are longer than `STRIDE` bytes.
             let lengths =
                 (0..5 * STRIDE).map(|number| number % 71).chain([STRIDE - 1, 3 * STRIDE, 2 * STRIDE + 1, 0, 5]);
             let lines: Vec<String> =

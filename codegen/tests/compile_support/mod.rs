@@ -252,13 +252,13 @@ fn compiler() -> Command {
     command
 }
 
-/// Returns the path of the runtime's metadata, which are built only once.
+/// Returns the path of the runtime's metadata file. The first call builds the file.
 fn runtime() -> &'static Path {
     static RUNTIME: OnceLock<PathBuf> = OnceLock::new();
     RUNTIME.get_or_init(|| build_runtime("rmeta", "metadata"))
 }
 
-/// Returns the path of the runtime library for programs, which is built only once.
+/// Returns the path of the runtime library with which programs are linked. The first call builds the library.
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| build_runtime("rlib", "link"))

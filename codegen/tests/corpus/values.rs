@@ -63,7 +63,7 @@ impl Tally {
     }
 }
 
-/// An item, or an object without a single value, with the section that describes it.
+/// An item, or an object with sub-indices, together with the section that describes it.
 #[derive(Clone, Copy)]
 struct Target<'a> {
     section: &'a Section,
@@ -77,7 +77,8 @@ struct Target<'a> {
     compact: bool,
     /// Whether the section describes the object itself.
     is_object: bool,
-    /// Whether another item was already compared with the section, including the facts about the object.
+    /// Whether the section was already compared with another item of the object. If so, the facts about the object are
+    /// not compared again.
     again: bool,
 }
 
@@ -245,7 +246,8 @@ impl Comparison<'_> {
     }
 }
 
-/// Returns the line where the compiler reports a missing key: the line of the empty entry, or the line of the header.
+/// Returns the line where the compiler reports a missing key: the line of the empty entry, or the line of the header if there is no
+/// such entry.
 fn line_of(section: &Section, key: &str) -> u32 {
     section.get(key).map_or(section.headers[0], |fact| fact.line)
 }
@@ -493,7 +495,7 @@ impl Comparison<'_> {
     }
 
     /// Compares the value in the IR with the value on the line, and counts the result. `theirs` is `None` if the value on the
-    /// line has no meaning.
+    /// line is invalid.
     fn hold<T: PartialEq + Debug>(&mut self, fact: &Fact, ours: &T, theirs: Option<&T>) {
         if theirs == Some(ours) {
             *self.tally.same.entry(fact.key.to_ascii_lowercase()).or_default() += 1;

@@ -18,8 +18,8 @@ pub fn source(file: &File) -> Source {
     Source::new(file.name.as_str(), file.bytes.clone())
 }
 
-/// Returns the IR as JSON, without positions and without the list of files. The rules for missing keys, compact sub-indices and
-/// object types are left out of the origins, because an export writes these keys.
+/// Returns the IR as JSON, without positions and without the list of files. Also removes each origin that is a rule for missing
+/// keys, compact sub-indices or object types. An export writes these facts as keys, so they lose this origin.
 pub fn content(catalog: &Catalog) -> Value {
     let mut value = serde_json::to_value(catalog).expect("JSON");
     value["files"] = Value::Null;

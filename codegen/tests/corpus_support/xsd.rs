@@ -46,7 +46,7 @@ impl Schema {
         Some(Schema { path, python })
     }
 
-    /// Returns the violations in `files`, which are pairs of a name and a content. `what` must be unique for each call within a
+    /// Returns the violations in `files`, which are pairs of file name and content. `what` must be unique for each call within a
     /// program.
     pub fn violations<'f>(&self, what: &str, files: impl IntoIterator<Item = (&'f str, &'f [u8])>) -> Vec<String> {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("xsd-{what}-{}", std::process::id()));

@@ -232,7 +232,7 @@ fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Opt
     }
 }
 
-/// Returns the reason for a number with a suffix, such as `00h` (hexadecimal) or `0x1ULL` (C).
+/// Returns the reason why a number with a suffix differs, such as `00h` (hexadecimal) or `0x1ULL` (C).
 fn with_suffix(raw: &str, ours: &str) -> Option<&'static str> {
     let ours: i128 = ours.parse().ok()?;
     let hexadecimal = raw.strip_suffix(['h', 'H']).and_then(|digits| i128::from_str_radix(digits, 16).ok());

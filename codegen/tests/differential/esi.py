@@ -130,7 +130,7 @@ def device(found, owner, parent, vendor):
             "most": number(text(sm, "@MaxSize")),
             "control": nonzero(text(sm, "@ControlByte")),
             "enable": nonzero(text(sm, "@Enable")),
-            # The bits 2 and 3 of Enable are the flags of the SII with the same meaning.
+            # Bit 2 (virtual) and bit 3 (OP only) of Enable have the same meaning as in the SII.
             "OP only": flag(text(sm, "@OpOnly")) or bit(text(sm, "@Enable"), 3),
             "virtual": flag(text(sm, "@Virtual")) or bit(text(sm, "@Enable"), 2),
         }

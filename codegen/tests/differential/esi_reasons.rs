@@ -166,8 +166,8 @@ fn purpose_of_pdos(case: &Case<'_>, element: &str) -> Option<&'static str> {
 }
 
 /// Returns the purpose of a sync manager whose text does not state a purpose. The purpose follows from mode and direction in the
-/// control byte. Without a control byte, it follows from the position: if the device has at least four sync managers, the first two
-/// belong to the mailbox.
+/// control byte. If the control byte is missing or 0, the purpose follows from the position: if the device has at least four sync
+/// managers, the first two belong to the mailbox.
 fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
     let (owner, place) = element.split_once(" Sm ")?;
     let control = case.peer.get(element)?.get("control").map_or(Some(0), |control| control.parse::<u8>().ok())?;

@@ -63,7 +63,8 @@ fn missing(case: &Case<'_>, element: &str, is_direct: bool) -> Option<&'static s
     is_misplaced.then_some("submodules out of place")
 }
 
-/// Returns the reason why the independent reader rejects a file: Lexibus also rejects files that are not well-formed.
+/// Returns the reason for a file that the independent reader rejects: if Lexibus also rejects the file, the file is not
+/// well-formed.
 pub fn rejection(compilation: &Compilation) -> Option<&'static str> {
     compilation.catalog.is_none().then_some("G15")
 }

@@ -1,4 +1,5 @@
-//! Tests quirks of EDS and DCF files that the cases in `tests/ui/quirks-eds` cannot show: many repeated sections, and formulas in the API.
+//! Tests quirks of EDS and DCF files that the cases in `tests/ui/quirks-eds` cannot show: many repeated sections, and formulas
+//! in the API.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::Value;

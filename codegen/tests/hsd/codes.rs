@@ -135,7 +135,8 @@ fn bits_are_the_printed_ones() {
     }
 }
 
-/// Compares the levels of the digital inputs: the INVDIN bit, the voltage, and the resulting signal.
+/// Compares the manual's table of input levels with the register table. Each row contains the INVDIN bit, the voltage at the input,
+/// and the resulting level.
 #[test]
 fn levels_of_inputs_are_the_printed_ones() {
     let Some(manual) = Manual::read() else { return };

@@ -56,8 +56,8 @@ fn worked_examples() {
     // Section 4.2 contains an override of 90 %, and section 4.16 the firmware version 103.
     assert_eq!(physical(device, &field("CmdSetOverr", false, "override"), "SM140", 0x5A as f64, &[]), 90.0);
     assert_eq!(physical(device, &field("CmdGetVer", true, "version"), "SM140", 0x67 as f64, &[]), 103.0);
-    // In "Passo 1", 200 means 48.8 rpm. In "Rappresentazione di un numero in notazione [Q15]", 5 A is 14482 with the printed base
-    // of 11.313 A, and 14481 with the exact base.
+    // In "Passo 1", 200 means 48.8 rpm. In "Rappresentazione di un numero in notazione [Q15]", the manual truncates the raw value
+    // of 5 A. The result is 14482 with the printed base of 11.313 A, and 14481 with the exact base.
     let items = |title: &str, name: &str| {
         chapter(device, title).items.iter().find(|item| item.name == name).expect("an item").clone()
     };

@@ -80,7 +80,7 @@ pub fn code(item: &Item) -> u32 {
     item.bindings.iter().find_map(number).expect("a parameter")
 }
 
-/// Returns the manual line that describes a row: the first line that the row cites.
+/// Returns the number of the first manual line that `cite` contains. This line describes the row that has the citation.
 pub fn line(cite: Option<&str>) -> usize {
     let first = cite.and_then(|cite| cite.split([',', '-']).next());
     first.and_then(|line| line.trim().parse().ok()).expect("a line")

@@ -139,7 +139,8 @@ fn registers_of_the_slave_controller() {
     assert_eq!((printed.len(), items.iter().filter(in_memory).count()), (18, 18));
 }
 
-/// Lines of printed bit tables that the register table corrects, with the printed cell, the first bit, and the number of bits.
+/// Misprinted lines in the manual's bit tables: line number, text of the printed cell, and the correct first bit and number of
+/// bits.
 const CORRECTED: [(usize, &str, (u8, u8)); 4] =
     [(573, "Da 3 a 7", (6, 2)), (593, "0x201", (10, 1)), (594, "0x201", (11, 1)), (596, "SyncManager 7", (12, 4))];
 
@@ -573,8 +574,8 @@ fn latch_words() {
     assert_eq!(compared, 20);
 }
 
-/// Returns whether the bits `entry` of a latch word describe `value` and cite the line. The bits must be a flag that is 1 in
-/// `value`, or an enumeration that names the value of the bits.
+/// Returns whether the field `entry` of a latch word describes `value` and cites the line. A flag describes `value` if its bit is 1
+/// in `value`. An enumeration describes `value` if it has a name for the value of its bits.
 fn holds(device: &Device, entry: &BitFieldEntry, line: usize, value: u32) -> bool {
     let actual = i128::from(value >> entry.offset);
     match entry.meaning {

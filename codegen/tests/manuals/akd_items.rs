@@ -19,7 +19,7 @@ const AREA: &str = "manual-akd";
 enum How {
     /// A test case, with codes or words that its diagnostics must contain.
     Finding(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a `doubt` entry cites, each with a part of its text. This variant is for contradictions
+    /// Lines of the manual that a `doubt` entry cites, each with a part of the line's text. This variant is for contradictions
     /// that the compiler cannot detect.
     Doubt(&'static [(usize, &'static str)]),
 }

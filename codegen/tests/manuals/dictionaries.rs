@@ -23,7 +23,8 @@ fn items(catalog: &Catalog) -> impl Iterator<Item = &Item> {
     device(catalog).groups.iter().flat_map(|group| &group.items)
 }
 
-/// Returns the heading in a line of a table of contents, such as `VARIE<tab>183`.
+/// Returns the heading from a line of a table of contents, for example `VARIE` from `VARIE<tab>183`. Returns `None` if the line
+/// does not end with a tab and a page number.
 fn heading_of_contents(line: &str) -> Option<&str> {
     let (heading, page) = line.trim_end().rsplit_once('\t')?;
     page.trim().parse::<u32>().ok().map(|_| heading)

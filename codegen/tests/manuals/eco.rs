@@ -288,8 +288,8 @@ fn every_parameter_is_there_at_its_line() {
     assert_eq!((kinds, found), ([38, 18, 2, 1], 57));
 }
 
-/// Compares the values that consist of several parameters. These are pairs of a more and a less significant part, and an offset
-/// that consists of a sign and three parts.
+/// Compares the values that are split into several parameters. Most of these values have a more significant and a less significant
+/// part. One value, an offset, has a sign and three parts.
 #[test]
 fn every_number_in_several_parameters_is_a_composite() {
     let Some(manual) = manual() else { return };

@@ -10,8 +10,8 @@ use std::ops::RangeInclusive;
 
 use eco_support::notes;
 
-/// Each item of section 4, with the first words of its `doubt` entries. The numbers are those in the text of the item that are not
-/// line numbers.
+/// Each item of section 4, with the first words of its `doubt` entries. The numbers occur in the text of the item, but no `doubt`
+/// entry has to cite them, because most of them are not line numbers.
 #[rustfmt::skip]
 const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("A1", &["On 104 pages,"], &[104]),
@@ -55,7 +55,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("C7", &["The register table marks R00,", "Register R32 is marked as saved", "abs_enc_status (R63) is a status", "velocity_rpm (R73) is a measured"], &[]),
     ("C8", &["R03 is called", "R50 is called", "R30 is called", "The descriptions of the objects"], &[]),
     ("C9", &["R35 is called"], &[]),
-    // The first number of the next item is the line of input 9, which is correct.
+    // In the next item, 3394 is the line of input 9. The manual prints the correct index in this line, so no entry cites it.
     ("C10", &["The list of saved objects", "The list of saved objects"], &[3394, 3701, 3702, 3703]),
     ("C11", &["The limits of the status"], &[]),
     ("C12", &["The limits of R01"], &[]),
@@ -91,7 +91,7 @@ const ITEMS: &[(&str, &[&str], &[u32])] = &[
     ("E6", &["The mailbox header"], &[]),
     ("E7", &["The mailbox header"], &[]),
     ("E8", &["The mailbox header", "The text describes 8"], &[]),
-    // The numbers in the next items are alarm numbers, not line numbers.
+    // The numbers in the next two items are alarm numbers, not line numbers.
     ("E9", &["The manual prints two", "The alarms 11, 12,", "Alarm 22 is in"], &[30, 31, 32]),
     ("E10", &["The alarms 31 to"], &[31]),
     ("E11", &["The word slot"], &[]),

@@ -20,7 +20,7 @@ const AREA: &str = "manual-hsd";
 enum How {
     /// A test case, and a code that its diagnostics must contain.
     Finding(&'static str, &'static str),
-    /// Lines of the manual that a `doubt` entry cites, each with a part of its text.
+    /// Lines of the manual that a `doubt` entry cites, each with a part of the line's text.
     Doubt(&'static [(usize, &'static str)]),
 }
 

@@ -22,7 +22,7 @@ enum How {
     Finding(&'static str, &'static [&'static str]),
     /// A test of `import` and the codes that it expects.
     Import(&'static str, &'static [&'static str]),
-    /// Lines of the manual that a `doubt` entry cites, each with a part of its text. This variant is for contradictions
+    /// Lines of the manual that a `doubt` entry cites, each with a part of the line's text. This variant is for contradictions
     /// that the compiler cannot detect.
     Doubt(&'static [(usize, &'static str)]),
 }
@@ -50,8 +50,8 @@ const ITEMS: &[(&str, How)] = &[
     // Two sentences describe the same bits differently.
     ("15", Doubt(&[(727, "bit 29 e 30"), (815, "bit 29 e 30"), (808, "Non significativo")])),
     ("16", Finding("items-14-16-symbols-twice-in-one-object", &["EDS049"])),
-    // The manual describes a write to an object for reading by PDO. The access rights of this object are `rw`, but it can only be
-    // mapped to TPDOs.
+    // The manual's heading calls this object a read PDO, but the text below the heading states that a client writes the object. The
+    // access rights of the object are `rw`, but it can be mapped only to TPDOs.
     ("16", Doubt(&[(3273, "scrivere il valore nel sub-index 06"), (3284, "Read/Write"), (3285, "Read")])),
     ("17", Finding("item-17-index-of-five-digits", &["TAB004"])),
     // Section 4.2: register numbers, indices, duplicates.

@@ -20,7 +20,7 @@ enum TypeKind {
 /// A type found in the text: its name and the modules that contain it.
 struct Found<'t> {
     modules: Vec<&'t str>,
-    /// Modules that contain the definition of a type that several modules share.
+    /// Path of the module that defines the type, if the type is imported from another module. Otherwise `None`.
     shared: Option<Vec<&'t str>>,
     name: &'t str,
     kind: TypeKind,
@@ -180,8 +180,8 @@ fn indices(text: &str) -> HashMap<String, u16> {
     indices
 }
 
-/// Returns the types in the order of their layouts. A module imports the PDOs that it shares with another module before it defines
-/// its own PDOs. Therefore, the PDOs of such a module are assigned to their layouts by index.
+/// Returns the types in the order of their layouts. In the text, a module first imports the PDOs that it shares with another
+/// module, and then defines its own PDOs. Therefore, the PDOs of such a module are assigned to their layouts by index.
 fn in_order<'t>(found: Vec<Found<'t>>, layouts: &[Layout], indices: &HashMap<String, u16>) -> Vec<Found<'t>> {
     let (mut ordered, mut rest, mut layouts) = (Vec::new(), found.into_iter().peekable(), layouts.iter());
     while let Some(first) = rest.next() {

@@ -165,7 +165,7 @@ fn io_data(data: &IoData, types: &[TypeDef]) -> Layout {
 }
 
 /// Returns the layout of a record's changeable parameters. The default data consist of the record's constants, overwritten with
-/// the values of all parameters.
+/// the default values of all parameters. A parameter without a default value is 0.
 fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
     let (mut fields, mut default) = (Vec::new(), vec![0; record.length as usize]);
     for (offset, constant) in &record.constants {
@@ -236,8 +236,8 @@ fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec
     }
 }
 
-/// Returns the bits of a number that starts in `byte`, with `shift` bits below it. The last byte contains the lowest bits. `of`
-/// is the position of the first of these bits within the value.
+/// Returns the pieces of a big-endian number that starts in `byte`. In the last byte, `shift` bits below the number do not belong
+/// to it. `of` is the position of the number's lowest bit within the value.
 fn number(byte: u32, shift: u32, bits: u32, of: u32) -> Vec<Piece> {
     let end = shift + bits;
     let last = byte + (end - 1) / 8;

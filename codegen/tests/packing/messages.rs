@@ -124,8 +124,8 @@ pub fn bare(name: &str) -> &str {
     &name[..end]
 }
 
-/// Returns an expression that creates a message with random values. Returns `None` if no struct has this name, or if a field
-/// has another type, for example a text.
+/// Returns an expression that creates a message with random values. Returns `None` if no struct has this name, or if the
+/// type of a field is not supported, for example a text.
 fn random(name: &str, structs: &HashMap<&str, Vec<(&str, &str)>>, rule: Option<&str>) -> Option<String> {
     let value = |ty: &str| match ty {
         "u8" | "u16" | "u32" | "u64" | "i8" | "i16" | "i32" | "i64" => Some(format!("random.number() as {ty}")),

@@ -1,5 +1,5 @@
-//! A device with layouts that no corpus file has. The layouts are enumerations with fewer bits than their type, byte strings that
-//! end within a byte, and numbers and times that cross byte boundaries.
+//! A device with layouts that no corpus file has. The layouts contain enumerations with fewer bits than their type, byte strings
+//! that end within a byte, and numbers and times that cross byte boundaries.
 
 use lexibus_codegen::ir::{
     Catalog, Device, Direction, EnumValue, FileInfo, Format, Pdo, PdoEntry, PdoEntryKind, ProcessData, Shape, Type,

@@ -107,7 +107,7 @@ fn put(data: &mut [u8], bit: usize, value: bool) {
     data[bit / 8] = data[bit / 8] & !(1 << (bit % 8)) | u8::from(value) << (bit % 8);
 }
 
-/// Combines the bits of `data` where `mask` is 1 with the bits of `other` where it is 0.
+/// Returns the bits of `data` where `mask` is 1, and the bits of `other` where `mask` is 0.
 fn merged(data: &[u8], mask: &[u8], other: &[u8]) -> Vec<u8> {
     let all = data.iter().zip(mask).zip(other);
     all.map(|((data, mask), other)| data & mask | other & !mask).collect()
@@ -308,7 +308,8 @@ macro_rules! record {
     }};
 }
 
-/// Minimum number of accepted values per record, and of accepted values that differ from the previous one.
+/// Minimum number of values that each record must accept. If a record has fields, at least as many accepted values must
+/// differ from the previous value.
 const ACCEPTED: usize = 64;
 
 /// Checks a record. Decoding and encoding must keep the bits of all fields, and must set all other bits to those of

@@ -1,4 +1,4 @@
-//! Tests for which devices the Rust code contains the operations of CiA 402.
+//! Tests that the Rust code contains the operations of CiA 402 only for devices that have the necessary objects.
 
 use crate::compile_support;
 use crate::form_support;
@@ -36,7 +36,7 @@ fn traits(text: &str) -> Vec<&str> {
 fn the_traits_of_a_device() {
     let options = Options::default();
     let of = |more: &str| bindings(&drive("Drive", more), &options);
-    // Without the active mode, a change of the mode can't be confirmed.
+    // Without the object of the active mode (0x6061), the driver cannot confirm a mode change, so the device gets no trait.
     assert_eq!(traits(&of("")), [""; 0]);
     assert!(!of("").contains("cia402"));
     assert_eq!(traits(&of(ACTIVE_MODE)), ["Objects"]);
@@ -62,7 +62,7 @@ fn the_traits_of_a_device() {
 fn devices_without_the_profile() {
     let text = drive("Drive", ACTIVE_MODE);
     assert!(!bindings(&text, &Options { no_profiles: true, ..Options::default() }).contains("cia402"));
-    // The controlword is write-only, so its other bits are unknown.
+    // If the controlword is write-only, the driver cannot read the bits that it must keep, so the device gets no trait.
     let text = text.replace("AccessType=rww", "AccessType=wo");
     assert!(!bindings(&text, &Options::default()).contains("cia402"));
     // Without accessors, the code contains no type for the device.

@@ -30,8 +30,8 @@ fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
     assert!(compiled > lane::at_least(500), "only {compiled} different devices");
 }
 
-/// Compiles all devices and modules of a file together. The generated Rust modules re-export definitions that an earlier
-/// device or module of the file also has.
+/// Compiles all devices and modules of a file together. If an earlier device or module of the file has
+/// the same definition, the generated Rust module re-exports this definition.
 #[test]
 fn all_devices_of_a_file_compile_and_are_documented_together() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui/quirks-esi");
@@ -281,8 +281,8 @@ fn optional_implementations_are_gated() {
         .expect("it compiles");
 }
 
-/// Tests PDOs of a slave with names that generated code also uses. Some entries are longer than a machine word, the
-/// maximum field length, or the memory of any device.
+/// Tests PDOs whose names also occur in generated code. Some of their entries are longer than a machine word, than the
+/// maximum field length, or than the memory of any device.
 #[test]
 fn process_data_of_any_name_and_length_compile() {
     let entry = |index: u16, bits: u32| {
@@ -318,7 +318,7 @@ fn process_data_of_any_name_and_length_compile() {
         let options = Options { rust: everything(), ..Options::default() };
         let compilation = check(Source::new("lengths.xml", esi(&long).into_bytes()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
-        // A process image is left out if its length in bits exceeds a 32-bit number.
+        // The compiler leaves out a process image if its length in bits does not fit into 32 bits.
         assert_eq!(text.contains("pub mod image {"), has_image);
         compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
         document("lengths", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));

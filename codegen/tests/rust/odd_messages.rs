@@ -33,7 +33,7 @@ fn rust(name: &str, lines: &str) -> String {
     text
 }
 
-/// Returns the diagnostics of a table that contains `lines`, one per line.
+/// Compiles a table that contains `lines`. Returns the diagnostics, one per line.
 fn reported(lines: &str) -> String {
     let (_, messages) = read(lines);
     messages.iter().map(|line| format!("{line}\n")).collect()
@@ -124,7 +124,7 @@ fn orders_that_are_carried_out_later() {
 
 #[test]
 fn messages_of_little() {
-    // The table has a read-only space, messages that the device sends without a request, and long texts.
+    // The tables contain a read-only space, a message that the device sends without a request, and long texts.
     let space = "[spaces.p]\nparameter = { read = \"Read\" }\n[[chapters]]\n[chapters.registers]\ngain = { reg = 1, type = \"u8\", access = \"ro\" }\n\
                  [[messages]]\nname = \"Read\"\nrequest = [{ code = \"p\", type = \"u8\" }]\nreply = [{ value_of = \"p\" }]\n";
     rust("read only", space);

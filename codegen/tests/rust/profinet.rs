@@ -1,4 +1,4 @@
-//! Tests the Rust code for GSDML files: its structure, and its validity for unusual contents of files.
+//! Tests the structure of the Rust code for GSDML files, and that the code compiles for files with unusual contents.
 
 use crate::compile_support;
 use crate::form_support;

@@ -84,7 +84,7 @@ fn the_path_enters_no_fault_state() {
     assert_eq!(through("off >trip alarm"), no_path("Off", "Operating"));
     assert_eq!(through("off > alarm"), no_path("Off", "Operating"));
     assert_eq!(through("* >trip alarm"), no_path("Off", "Operating"));
-    // States to which automatic transitions from any state lead are also fault states.
+    // A state is also a fault state if an automatic transition leads to it from any state.
     assert_eq!(
         initial_and_target("", &states, &["* > alarm", "off >trip alarm", "alarm >reset operating"]),
         no_path("Off", "Operating")

@@ -31,7 +31,8 @@ fn of_items(area: &str) -> Vec<(u8, String)> {
     found
 }
 
-/// Asserts that an area has test cases, and that `is_listed` accepts each test case with all items in its name.
+/// Asserts that an area has test cases for items, and that `is_listed` returns true for each test case with each item in its
+/// name.
 pub fn all_are_listed(area: &str, is_listed: impl Fn(u8, &str) -> bool) {
     let cases = of_items(area);
     assert!(!cases.is_empty());

@@ -122,14 +122,14 @@ class Node:
         refused("unreadable", 0x2020, GENERAL)
         self.slow.add((0x6061, 0))
         deviations.append(("unreadable", "0x6061:00"))
-        # Mappings: another object, fewer entries, another length.
+        # Mappings with a wrong object, too few entries, or a wrong length.
         self.number(0x1A01, 0x60640010, 4, 2)
         deviations.append(("different", "0x1A01:00"))
         self.number(0x1601, 1, 1)
         deviations.append(("different", "0x1601:00"))
         self.number(0x1A00, 0x20200018, 4, 1)
         deviations.append(("different", "0x1A00:00"))
-        # Values: outside the limits, another constant, no text, another number of entries.
+        # Wrong values: outside the limits, not the constant of the EDS, not a valid text, a wrong number of entries.
         different(0x607A, 2_000_000, 4)
         self.bytes(0x1008, b"Other Drive")
         deviations.append(("different", "0x1008:00"))

@@ -40,7 +40,8 @@ def values(path):
     return found, device
 
 
-# First indices of the master's objects for received and for sent PDOs: communication, mapping, data, number and mapping of the node.
+# First indices of the master's objects for the PDOs of the nodes. These objects contain, in this order: communication parameters and
+# mapping of the master's PDO, the mapped data, number and node-ID of the node's PDO, and the mapping of the node's PDO.
 PDOS = {"TPDO": (0x1400, 0x1600, 0x2000, 0x5800, 0x5A00), "RPDO": (0x1800, 0x1A00, 0x2200, 0x5C00, 0x5E00)}
 
 

@@ -231,6 +231,32 @@ fn a_file_with_only_a_segment_has_only_its_output_files() {
 }
 
 #[test]
+fn a_file_can_have_nodes_and_a_segment() {
+    let node = |name| std::fs::read_to_string(root().join("examples/network").join(name)).expect("a description");
+    let coupler = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("a description");
+    let text = format!(
+        "[master]\nid = 127\n[nodes.axis]\nid = 1\ndevice = \"drive.eds\"\n[segment.subdevices.servo]\n{DRIVE}dc = \"SM\"\n"
+    );
+    let compilation = compiled(
+        "segment-both",
+        &[("drive.eds", node("drive.eds")), ("coupler.esi.xml", coupler), ("network.toml", text)],
+    );
+    let names: Vec<String> = files(valid(&compilation)).into_iter().map(|file| file.name).collect();
+    for name in ["axis.dcf", "master.dcf", "network.dbc", "network.rs", "segment.json", "segment.rs"] {
+        assert!(names.iter().any(|file| file == name), "{name} in {names:?}");
+    }
+}
+
+#[test]
+fn a_device_on_ethercat_has_no_node_id() {
+    let found = faults("node-id", &format!("{DRIVE}parameters = {{ \"0x2000:2\" = \"$NODEID+1\" }}\n"));
+    assert_eq!(found, ["NET012 object 0x2000:2 `Current limit`: a device on EtherCAT has no node-ID"]);
+    let eds = faults("eds", "device = \"drive.eds\"\n");
+    assert_eq!(eds, ["NET008 the file `drive.eds` is not found"]);
+    assert_eq!(faults("none", ""), ["NET008 the SubDevice `one` has no device description"]);
+}
+
+#[test]
 fn invalid_modules_are_reported() {
     let of = |modules: &str| faults("modules", &format!("{COUPLER}modules = {modules}\n"));
     assert_eq!(of("{ 0 = \"DI-61\" }"), ["NET025 `CP-32 coupler with 32 slots` has no module `DI-61`"]);

@@ -1,4 +1,4 @@
-//! Items of an axis cannot be read on Modbus, because the rules for axes derive object addresses only.
+//! Items of an axis cannot be read on Modbus, because the rules for axes determine object addresses, but no register addresses.
 
 use lexibus::{Axes, Axis, Client, Flags, Item, Modbus, OnCanOpenCoEAndModbus, Register, Ro};
 

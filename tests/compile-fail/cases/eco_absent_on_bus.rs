@@ -1,5 +1,5 @@
-//! Items that the Eco has only on some buses. The following error has no Modbus register, the EtherCAT error codes have
-//! no CANopen object, and the Modbus register `save_to_flash` has no object.
+//! Items that the Eco has only on some buses. The item for the following error (position deviation) has no Modbus register,
+//! the EtherCAT error codes have no CANopen object, and the Modbus register `save_to_flash` has no object.
 
 use lexibus::{CanOpen, Client, CoE, Modbus};
 use lexibus_drives::eco::{objects, Eco};

@@ -1,4 +1,4 @@
-//! Types instead of the names of objects in mappings.
+//! Mappings that contain types instead of the names of objects.
 
 lexibus::pdo! {
     pub struct Typed: lexibus_drives::demo_drive::pdo::RxPdo2 { controlword: u16 }

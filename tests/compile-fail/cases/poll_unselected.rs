@@ -1,5 +1,5 @@
-//! A poll is unavailable before the request that selects it is sent. While the device with this selection is in use, no
-//! other selection can be sent.
+//! A poll is available only after the request that selects it. While the value that `select` returns is in use, no other
+//! selection can be sent.
 
 use lexibus::message::MessageClient;
 use lexibus_drives::hsd::HsdMotor;

@@ -116,7 +116,8 @@ impl CanPort for Bus {
 /// An asynchronous port of the bus.
 pub struct AsyncBus {
     pub bus: FaultyCan<Bus>,
-    /// Number of frames that the port still receives; `None` if it is unlimited.
+    /// Number of further calls of `receive` that may wait for a frame. After these calls, waiting never ends. `None` sets no
+    /// limit.
     pub pending_after: Option<usize>,
 }
 

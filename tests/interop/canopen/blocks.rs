@@ -13,7 +13,7 @@ use crate::python::{python, Script};
 
 /// Object of type DOMAIN that can be read and written.
 const FIRMWARE: Object = Object::new(0x2002, 0);
-/// Object of the same type that cannot be written.
+/// Object of type DOMAIN that cannot be written.
 const IDENTITY: Object = Object::new(0x2003, 0);
 
 const fn domain(object: Object, access: AccessRights) -> Entry {

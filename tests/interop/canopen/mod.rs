@@ -51,7 +51,8 @@ pub fn node_id() -> NodeId {
     NodeId::new(NODE).expect("a node-ID")
 }
 
-/// Starts a node with the EDS of the description in `file` and returns its client. `test` is the name of the test.
+/// Exports the description in `file` as an EDS, starts a node with this EDS, and returns a client of the node. `test` is the
+/// name of the test.
 /// Returns `None` if Python or a library is missing.
 pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
     let line = Pty::open();

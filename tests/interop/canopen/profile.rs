@@ -1,5 +1,5 @@
 //! Tests a simulated CiA 402 drive with the CiA 402 profile of the Python library `canopen`. The library reads the PDO
-//! mappings, selects the commands between states, and confirms modes with its own tables.
+//! mappings. It uses its own tables to select the commands for state transitions, and to confirm modes.
 
 use lexibus::sim::{CanNode, Device};
 use lexibus::Object;

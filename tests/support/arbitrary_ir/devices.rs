@@ -15,7 +15,7 @@ use super::profinet::identity;
 use super::settings;
 use super::types;
 
-/// Returns the devices of an EDS, XDD, ESI or register table, with their modules.
+/// Returns the devices of an EDS, DCF, XDD, ESI or register table, with their modules.
 pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
     let is_ethercat = format == Format::Esi;
     let modules = if format == Format::Table { Vec::new() } else { b.few(2, 3, |b| module(b, is_ethercat)) };
@@ -43,7 +43,7 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
     // Chapters have no index and come before the groups that have an index.
     let mut groups = if is_table { b.list(3, |b| items::chapter(b, &around)) } else { Vec::new() };
     groups.extend(items::objects(b, &around, 12));
-    // An EDS declares no PDOs, because its objects determine the PDOs.
+    // EDS, DCF and XDD files declare no PDOs, because their objects determine the PDOs.
     let has_declared = is_table || is_ethercat;
     if !has_declared {
         let objects = items::pdo_objects(b, &groups);

@@ -98,7 +98,7 @@ pub fn behavior(b: &mut Bytes<'_>) -> Behavior {
     }
 }
 
-/// Returns facts of an item of this type that differ on some models or buses.
+/// Returns the facts of an item that differ on some models or buses. `ty` is the type of the item.
 pub fn variant(b: &mut Bytes<'_>, ty: Type) -> ItemVariant {
     ItemVariant {
         models: b.list(1, names::model),

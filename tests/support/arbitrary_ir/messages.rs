@@ -63,7 +63,7 @@ pub fn example(b: &mut Bytes<'_>) -> MessageExample {
     MessageExample { request, reply, documentation: names::documentation(b), ..MessageExample::default() }
 }
 
-/// Returns the names of all values in a frame that are not repeated.
+/// Returns the names of the values in a frame, except values in repeated fields.
 fn fields(frame: &[MessageField]) -> Vec<CompactString> {
     let name = |field: &MessageField| match field {
         MessageField::Value(value) => Some(value.item.name.clone()),

@@ -217,7 +217,7 @@ pub fn unit(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["rpm", "mm/s²", "%", "", "0.1 A", "\"", "°C", "in use", "{}", "1"]).into()
 }
 
-/// Returns the name of an item that belongs to a window.
+/// Returns the name of one of the two items of a window, or rarely any other name.
 pub fn of_window(b: &mut Bytes<'_>) -> CompactString {
     if b.one_in(40) {
         name(b)

@@ -45,8 +45,8 @@ struct NoteLine<'a> {
 /// is decoded to UTF-8 without a byte order mark. `end` and `end_column` are exclusive. `source` is the line on which
 /// the marked text starts. If this line is longer than 200 characters, `…` replaces the text that is far from the
 /// marked text. A diagnostic about a whole file has a `file` and no position. The compiler keeps a limited number of
-/// diagnostics per code and file. If it left out diagnostics, `more` in the last diagnostic of the code is their
-/// number; otherwise, `more` is `null`.
+/// diagnostics per code and file. If the compiler left out diagnostics, `more` in the last diagnostic of the code is
+/// their number; otherwise, `more` is `null`.
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
     let place = MarkedSource::of(diagnostic.span, sources);
     let mark = place.and_then(|place| place.mark);

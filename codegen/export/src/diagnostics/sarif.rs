@@ -139,8 +139,9 @@ struct Replacement<'a> {
 /// The log declares a SARIF rule for each code that occurs, in the order of first occurrence. SARIF has no field for
 /// notes without a position or for help without a fix. The message contains such notes and help texts on separate
 /// lines. File names become URIs: relative names stay relative to the working directory, and absolute names become
-/// `file:` URIs. The compiler keeps a limited number of diagnostics per code and file. If it left out diagnostics,
-/// `occurrenceCount` in the last result of the code is their number; other results have no `occurrenceCount`.
+/// `file:` URIs. The compiler keeps a limited number of diagnostics per code and file. If the compiler left out
+/// diagnostics, `occurrenceCount` in the last result of the code is their number; other results have no
+/// `occurrenceCount`.
 pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &str) -> String {
     let (mut rules, mut indices) = (Vec::new(), BTreeMap::new());
     let mut results = Vec::with_capacity(diagnostics.len());

@@ -19,8 +19,9 @@ pub(super) struct DataType {
 
 /// Returns the EDS data type for `ty`.
 ///
-/// If the source describes a CANopen device, an unknown type keeps its number because other tools may know it. An entry
-/// without a type stays without one if the source is a CiA 306 file (`is_verbatim`).
+/// An unknown type keeps its number if the source is a CiA 306 file (`is_verbatim`) or describes a CANopen device,
+/// because other tools may know the number. An entry without a type stays without a type if the source is a CiA 306
+/// file.
 pub(super) fn data_type(ty: Type, types: &[TypeDef], is_canopen: bool, is_verbatim: bool) -> DataType {
     let (ty, mut note) = resolved(ty, types);
     let widened = |bits: u8| bits.clamp(1, 64).div_ceil(8) * 8;

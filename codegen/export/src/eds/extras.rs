@@ -77,7 +77,7 @@ pub(super) struct Extras<'a> {
     pub(super) preamble: Vec<&'a Extension>,
     /// Attributes of header sections, in the order of the source.
     header: Vec<(Header, Extra<'a>)>,
-    /// Attributes of sections that CiA 306 does not define, in the order of the source.
+    /// Attributes of all other sections, in the order of the source.
     unknown: Vec<(&'a str, Extra<'a>)>,
 }
 

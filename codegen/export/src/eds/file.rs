@@ -57,8 +57,9 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
     Some(Export { text, notes })
 }
 
-/// Returns the objects to write, sorted by index: those of the device and those in `derived`. Leaves out the EtherCAT-only
-/// objects of a CANopen device, and objects without configured values that CompactPDO implies.
+/// Returns the objects to write, sorted by index: those of the device and those in `derived`. Leaves out the
+/// EtherCAT-only objects of a CANopen device. Leaves out an object that CompactPDO implies, unless the object has
+/// configured values.
 fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
     let compact_pdos = device.canopen.as_ref().is_some_and(|canopen| canopen.compact_pdo != 0);
     let is_configured = |group: &Group| group.items.iter().any(|item| item.configured_value().is_some());

@@ -1,7 +1,7 @@
 //! Writes the section `[FileInfo]`.
 //!
-//! The export keeps the header of a CiA 306 file. Other formats have ISO 8601 dates and possibly no version; the export
-//! converts dates and completes the version.
+//! The export keeps the header of a CiA 306 file. In other formats, dates and times have the form of ISO 8601, and a
+//! version can be missing. The export converts the dates and times, and replaces missing and invalid versions.
 
 use super::extras::Header;
 use super::note::{NoteKind, Subject};

@@ -46,8 +46,8 @@ fn settings(device: &Device, notes: &mut Notes) {
     notes.add_many(NoteKind::Setting, other_rates + usize::from(canopen.auto_bit_rate), Subject::Device);
 }
 
-/// Adds notes for PDOs that no communication or mapping object describes, and for facts of PDOs that CiA 306 cannot
-/// express.
+/// Adds notes for PDOs that have no mapping object in the file, for communication parameters without a communication
+/// object, and for facts of PDOs that CiA 306 cannot express.
 fn pdos(device: &Device, notes: &mut Notes) {
     for pdo in device.process_data.pdos.iter().filter(|pdo| !pdo.implicit) {
         let subject = Subject::Object(pdo.mapping_index);

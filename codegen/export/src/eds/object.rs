@@ -67,8 +67,8 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    /// Returns the value of an object that has only one value and no sub-indices, and no separate section for sub-index
-    /// 0.
+    /// Returns the only value of an object without sub-indices. Returns `None` if the object has sub-indices, or if
+    /// sub-index 0 has a separate section.
     fn single_value(&self) -> Option<&'a Item> {
         let [item] = self.group.items.as_slice() else { return None };
         let is_alone = item.object().is_some_and(|(_, sub)| sub == 0) && !self.code.has_subs();
@@ -117,8 +117,8 @@ impl<'a> Object<'a> {
         all.get(..all.len() - self.refinements_of_missing().len()).unwrap_or(all)
     }
 
-    /// Returns the extension attributes of sections such as `[xxxxName]`, which follow those of the object's own section.
-    /// The list is empty unless the source is a CiA 306 file.
+    /// Returns the extension attributes of sections such as `[xxxxName]`. The IR lists them after the attributes of the
+    /// object's own section. The returned list is empty unless the source is a CiA 306 file.
     fn refinements_of_missing(&self) -> &'a [Extension] {
         let all = &self.group.extensions;
         let is_first =

@@ -1,4 +1,4 @@
-//! Writes values as EDS texts. Reading a written text gives the same value again unless a note says that the value was
+//! Formats values as the text of EDS entries. Reading a written text gives the same value again unless a note says that the value was
 //! changed.
 
 use std::fmt::Write as _;

@@ -62,7 +62,8 @@ impl Writer {
         }
     }
 
-    /// Writes an entry with a name. Readers of the file remove a pair of quotation marks around a name.
+    /// Writes an entry with a name. Quotes the name if necessary, because readers of the file remove a pair of
+    /// quotation marks around a name.
     pub(super) fn name(&mut self, key: &'static str, name: &str, subject: Subject<'_>) {
         let name = self.one_line(name, subject);
         self.entry(key, quoted(&name));
@@ -81,8 +82,8 @@ impl Writer {
         }
     }
 
-    /// Writes an extension attribute or a comment. Adds a note instead if the key is invalid or already used in the
-    /// section.
+    /// Writes an extension attribute or a comment. Adds a note instead if the key is invalid, or if the section already
+    /// contains the key and an extension attribute must not repeat it.
     pub(super) fn extension(&mut self, key: &str, value: &str, subject: Subject<'_>) {
         if key == ";" {
             return self.comment(value);

@@ -31,8 +31,8 @@ impl Context<'_> {
         self.missing.require(given.or(found), key, Options::KEYS)
     }
 
-    /// Returns the ETG.2000 number of a unit, or `None` if ETG.2000 has no number for the symbol. The IR contains the
-    /// number itself for a unit without a known symbol.
+    /// Returns the ETG.2000 number of a unit, or `None` if ETG.2000 has no number for the symbol. If a unit has no
+    /// known symbol, the IR contains the number in place of the symbol, and this function returns the number unchanged.
     pub(super) fn unit(&mut self, symbol: &CompactString) -> Option<String> {
         if symbol.is_empty() {
             return None;

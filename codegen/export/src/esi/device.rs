@@ -53,7 +53,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     losses::of_device(context, device);
 }
 
-/// Writes the profiles with the dictionary, then calls `after` with the data types of the dictionary.
+/// Writes the Profile elements with the dictionary, or only the dictionary if the file describes no device. Then calls
+/// `after` with the data types of the dictionary.
 pub(super) fn dictionary(
     xml: &mut Xml,
     context: &mut Context<'_>,

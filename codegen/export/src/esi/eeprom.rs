@@ -27,9 +27,9 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
     notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Subject::Named("ESC"));
 }
 
-/// Writes the Eeprom element. The element contains either the complete data, or the size, the configuration data, and
-/// optionally bootstrap data and categories. If the complete data and the size are missing, writes no element and adds
-/// a note.
+/// Writes the Eeprom element if the source describes the EEPROM. The element contains either the complete data, or the
+/// size, the configuration data, and optionally bootstrap data and categories. If neither the complete data nor the
+/// size is known, writes no element and adds a note.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let Some(eeprom) = settings.eeprom.as_deref() else { return };
     let (notes, subject) = (&mut context.notes, Subject::Named("Eeprom"));

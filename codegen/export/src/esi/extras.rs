@@ -178,7 +178,8 @@ pub(super) fn is_of_profile(extension: &Extension) -> bool {
     OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
 }
 
-/// Writes the elements of a profile that contain numbers other than the profile number.
+/// Writes the elements AddInfo and SubAddInfo of a profile. These elements contain numbers in addition to the profile
+/// number.
 pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
     for key in OF_PROFILE {
         if let Some(extension) = find(list, key).filter(|extension| is_of_profile(extension)) {

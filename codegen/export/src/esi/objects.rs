@@ -58,7 +58,7 @@ pub(super) fn all<'g>(groups: impl Iterator<Item = &'g Group>, notes: &mut Notes
 }
 
 /// Returns whether a CiA 301 object describes a CAN service that ETG.1000.6 does not have: SYNC, TIME, EMCY, guarding,
-/// heartbeat, SDO channels or PDO communication.
+/// heartbeat, error behavior, SDO channels or PDO communication.
 fn is_of_can(index: u16) -> bool {
     matches!(index, 0x1005..=0x1007 | 0x100C..=0x100D | 0x1012..=0x1017 | 0x1019 | 0x1028..=0x1029 | 0x1200..=0x12FF)
         || matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)

@@ -4,7 +4,8 @@ use crate::options::{options, OptionValue};
 use lexibus_codegen::ir::Coe;
 
 options! {
-    /// Facts that override the facts of the source or supply missing ones.
+    /// Facts that override the facts of the source or supply missing ones. The memory areas have an effect only if the
+    /// source declares no sync managers, and `coe` only if the source declares no mailbox.
     pub struct Options, TrackedOptions {
         /// Vendor ID assigned by the EtherCAT Technology Group.
         vendor_id: u32 = "vendor-id",

@@ -46,7 +46,8 @@ fn attributes(xml: &mut Xml, pdo: &Pdo) {
     }
 }
 
-/// Returns whether an extension is a PDO attribute that the schema defines and for which the IR has no field.
+/// Returns whether an extension is a PDO attribute that the schema defines, and whether the value of the attribute is
+/// valid.
 fn is_attribute(extension: &Extension) -> bool {
     let Some(("RxPdo" | "TxPdo", name)) = extension.key.split_once('@') else { return false };
     match name {

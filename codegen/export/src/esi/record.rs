@@ -52,8 +52,8 @@ impl FieldFacts {
     }
 }
 
-/// Returns the display name of an item that has exactly one display name, in English. ETG.2000 stores the display name in the
-/// object and allows no other languages.
+/// Returns the display name of an item if the item has only one display name and this name is in English. ETG.2000
+/// stores the display name in the object and allows no other languages.
 pub(super) fn display_name(item: &Item) -> Option<&CompactString> {
     match &*item.names {
         [only] if only.language.starts_with("en") => Some(&only.text),
@@ -178,7 +178,8 @@ fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> 
     names.map(|name| unique(&mut seen, name)).collect()
 }
 
-/// Returns the name of an entry that has no name in the object.
+/// Returns the name of an entry for which the object gives no name: the name of its field. If the field is an array,
+/// the number of the element follows.
 fn name_of(entry: &Entry, fields: &[CompactString]) -> CompactString {
     let name = fields.get(entry.field).cloned().unwrap_or_default();
     match entry.element {

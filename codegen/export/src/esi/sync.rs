@@ -53,7 +53,7 @@ fn sync_manager(xml: &mut Xml, manager: &SyncManager) {
     xml.close();
 }
 
-/// Returns the sync managers for the memory areas in the options, with their numbers.
+/// Returns the sync managers for the memory areas in the options, numbered from 0.
 fn given(context: &Context<'_>) -> Vec<SyncManager> {
     let options = context.options;
     // The control byte (ETG.1000.4, 6.7.2) selects the mode (mailbox or three buffers), the direction, and an interrupt

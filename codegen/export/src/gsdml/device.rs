@@ -8,7 +8,7 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, GroupKind, Menu, ModuleUse, ProfinetSettings, SubmoduleKind};
 
-/// Maximum length of a record in bytes if the file does not declare one.
+/// Default value of MaxSupportedRecordSize: the maximum length of a record in bytes.
 const RECORD_SIZE: u32 = 4068;
 
 /// Writes the element of a device access point.

@@ -49,7 +49,7 @@ static PROCESS_ALARMS: List = List {
 /// First code of the range that profiles use.
 const FIRST_OF_PROFILE: i128 = 0x9000;
 
-/// Returns whether a code table of the catalog is a diagnosis list of GSDML.
+/// Returns whether the code table with this name contains a diagnosis list or the log book of a GSDML.
 pub(super) fn is_list(name: &str) -> bool {
     let lists = [&CHANNEL_DIAGNOSIS, &PROCESS_ALARMS];
     name == "log_book" || lists.iter().any(|list| name == list.table || name == list.extended)

@@ -318,7 +318,8 @@ fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
     (ty, note)
 }
 
-/// Adds one data item, which consists of bits, for fields that share bytes.
+/// Adds one data item, which consists of bits, for fields that share bytes or are not byte-aligned. Adds a note for
+/// each field that is longer than one bit or overlaps another field.
 fn bits(
     fields: &mut Vec<PdoEntry>,
     items: &mut Vec<IoItem>,

@@ -1,10 +1,10 @@
-//! Exports PROFINET device descriptions (GSDML). The export has all device access points of a catalog, or a new one for
-//! a device of another format that has fixed process images.
+//! Exports PROFINET device descriptions (GSDML). The export has all device access points of a catalog. For another
+//! format, the export has a new device access point for each device with fixed process images.
 //!
 //! If the source is a GSDML, the export has all its facts that the schema allows, in the order that the schema
-//! requires. The export keeps attributes of later schema versions. If the source has another format, the file has a
-//! device access point with one submodule, whose data are the process images. [`Export::notes`] lists the facts that
-//! were left out or changed. The [`Options`] supply facts that the schema requires and the source does not have.
+//! requires. The export keeps attributes of later schema versions. If the source has another format, one submodule of
+//! each device access point contains the process images as its cyclic data. [`Export::notes`] lists the facts that were
+//! left out or changed. The [`Options`] supply facts that the schema requires and the source does not have.
 //!
 //! | file | subject |
 //! |---|---|

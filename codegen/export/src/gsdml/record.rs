@@ -57,8 +57,8 @@ impl<'m> Menus<'m> {
         Menus { left: menus.iter().map(Some).collect(), by_name }
     }
 
-    /// Removes and returns the menus that contain parameters of a record, and the menus connected with them. Keeps the
-    /// order of the description file.
+    /// Removes and returns the menus that contain parameters of a record, and the menus that are connected with these
+    /// menus by references. Keeps the order of the description file.
     fn take(&mut self, group: &'m Group) -> Vec<&'m Menu> {
         let mut menus = BTreeMap::new();
         let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();

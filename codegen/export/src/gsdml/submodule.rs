@@ -15,7 +15,8 @@ use lexibus_codegen::ir::{
 /// Subslot of the first interface.
 const INTERFACE: u16 = 0x8000;
 
-/// Returns whether a device access point or module contains the description of the submodule.
+/// Returns whether the element of the submodule is inside of a device access point or module, and not in the submodule
+/// list.
 fn is_built_in(context: &Context<'_>, at: u32) -> bool {
     let Some(submodule) = context.catalog.submodules.get(at as usize) else { return false };
     match submodule.kind {

@@ -18,7 +18,7 @@ use lexibus_codegen::source::{FileId, Origin};
 pub struct Info {
     /// Name of the file.
     pub file: String,
-    /// Format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`, `table`; null if it was not recognized.
+    /// Format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`, `table`; null if the format was not recognized.
     pub format: Option<&'static str>,
     /// Encoding of the file.
     pub encoding: &'static str,

@@ -10,7 +10,7 @@ use crate::options::MissingFacts;
 /// Length of the area in bytes.
 pub(super) const LENGTH: usize = 128;
 
-/// Number of bytes from the start of the area that the checksum covers. The checksum follows these bytes.
+/// Number of bytes that the checksum covers. These bytes are at the start of the area, and the checksum follows them.
 const CHECKED: usize = 14;
 const CHECKED_WITH_SUM: usize = CHECKED + 2;
 

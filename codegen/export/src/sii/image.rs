@@ -97,8 +97,9 @@ fn with_detail(
     Ok(Image { bytes, notes: context.notes.finish() })
 }
 
-/// Returns the size of the EEPROM, or `None` if the content is too long for any EEPROM. Without a valid declared size, the
-/// size is the smallest power of two that is at least the default size.
+/// Returns the size of the EEPROM from the options or, if the options contain no size, from the description. If the
+/// description has no valid size, returns the smallest power of two that fits the content and is at least the default
+/// size. Returns `None` if this power of two is too large for an EEPROM.
 fn size(context: &mut Context<'_>, needed: usize) -> Option<EepromSize> {
     let declared = context.settings.eeprom.as_ref().and_then(|eeprom| eeprom.byte_size);
     let known = context.options.eeprom_size().or(declared.and_then(EepromSize::new));

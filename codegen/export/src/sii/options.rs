@@ -1,4 +1,4 @@
-//! Options for facts that an SII image requires and a source may not have.
+//! Options for facts that an SII image requires and that can be missing in a source.
 
 use crate::options::{options, OptionValue};
 

@@ -12,7 +12,7 @@ use crate::note::{NoteKind, Subject};
 /// Length of each part of a PDO entry that is longer than 255 bits.
 const PART: u32 = 248;
 
-/// Number of the sync manager of a PDO that is not assigned by default.
+/// Sync manager number of PDOs that are not assigned to a sync manager by default.
 const UNASSIGNED: u8 = 0xFF;
 
 /// Returns the purposes of the FMMUs, one byte for each FMMU.
@@ -120,7 +120,7 @@ fn flags(pdo: &Pdo) -> u16 {
     flags.iter().filter(|(_, is_set)| *is_set).fold(0, |all, (flag, _)| all | flag)
 }
 
-/// Returns the number of a type in ETG.1000.6, or 0 for other types.
+/// Returns the number of a type in ETG.1000.6, or 0 if the type has no number.
 fn type_code(context: &Context<'_>, ty: Type) -> u8 {
     let without_length = match types::basic(&context.device.types, ty) {
         Type::VisibleString(_) => Type::VisibleString(None),

@@ -12,7 +12,8 @@ pub(super) struct Texts {
 }
 
 impl Texts {
-    /// Returns the number of a text, which is 0 for an empty text. Adds the text unless it exists already.
+    /// Returns the number of a text. Adds the text unless it exists already. The number is 0 if the text is empty, or if
+    /// a new text does not fit because the category already has 255 texts.
     pub(super) fn number(&mut self, text: &str, notes: &mut Notes) -> u8 {
         if text.is_empty() {
             return 0;

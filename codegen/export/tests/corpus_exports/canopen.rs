@@ -96,7 +96,8 @@ impl Pair {
         self.device().entry(at.0, at.1)
     }
 
-    /// Returns whether a diagnostic of the original repairs the text at `span`.
+    /// Returns whether the compiler reported a diagnostic within `span` of the original. The export can then contain a
+    /// repaired text.
     fn is_repaired(&self, span: Span) -> bool {
         let is_within = |found: &Diagnostic| span.start <= found.span.start && found.span.end <= span.end;
         !span.is_empty() && self.compilation.diagnostics.list().iter().any(is_within)

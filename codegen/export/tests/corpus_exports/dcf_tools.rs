@@ -1,4 +1,4 @@
-//! Tests exported files with another independent reader: `dcfchk` from the Lely `dcf-tools`.
+//! Tests exported files with `dcfchk` from the Lely `dcf-tools`, an independent reader of EDS files.
 //!
 //! If `dcfchk` accepts a file, it must also accept the output of `export --real hex`. If Python does not have the
 //! package, the test prints a message and passes.

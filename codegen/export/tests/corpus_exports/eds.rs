@@ -94,7 +94,7 @@ fn without_swapped_limits(catalog: &Catalog) -> Catalog {
     catalog
 }
 
-/// Checks that the compiler gives the same diagnostics and the same second export for a file and its export.
+/// Checks that a file and its export cause the same diagnostics, and that exporting either of them gives the same text.
 fn check_passes(file: &File, text: &str) -> Vec<String> {
     let options = options();
     let (first, second) = (compile(source(file), &options), compile(Source::new("export.dcf", text.into()), &options));
@@ -137,7 +137,7 @@ fn eds_to_ir_to_eds_to_ir_is_the_identity() {
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Compares the entries of any device with the entries of its EDS, except for facts that an EDS cannot express.
+/// Compares the entries of a device with those of its exported DCF, except for facts that a DCF cannot express.
 fn compare_items(device: &Device, again: &Device, wrong: &mut Vec<String>) {
     for item in device.groups.iter().flat_map(|group| &group.items) {
         let Some((index, sub)) = item.object() else { continue };

@@ -117,7 +117,7 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     }
 }
 
-/// Returns all files that Lexibus can export, with their exports.
+/// Returns all ESI files of the corpus that contain a catalog, with their exports.
 fn exports() -> Option<&'static Vec<(String, Catalog, Export)>> {
     static EXPORTS: OnceLock<Option<Vec<(String, Catalog, Export)>>> = OnceLock::new();
     EXPORTS.get_or_init(make_exports).as_ref()
@@ -176,7 +176,8 @@ fn of_a_slave() -> Options {
     options
 }
 
-/// Returns the entries of a CANopen device that its ESI omits or changes.
+/// Returns the entries of a CANopen device that its ESI omits or changes. Ignores objects that the ESI omits completely
+/// if `kinds` contains [`NoteKind::CanObject`].
 fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<String> {
     let mut lost = Vec::new();
     for item in before.groups.iter().flat_map(|group| &group.items) {
@@ -188,7 +189,7 @@ fn lost_entries(before: &Device, after: &Device, kinds: &[NoteKind]) -> Vec<Stri
             continue;
         };
         let access = |item: &Item| (item.access.readable(), item.access.writable(), item.mappable);
-        // An entry without a name has the name that its type defines.
+        // In the ESI, an entry without a name gets the name that its data type defines.
         let is_same = (item.name.is_empty() || found.name == item.name) && access(found) == access(item);
         let is_whole = matches!(item.default, Some(lexibus_codegen::ir::Value::Int(_))) && found.ty == item.ty;
         if !is_same || is_whole && found.default != item.default {

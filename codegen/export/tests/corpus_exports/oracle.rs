@@ -68,7 +68,7 @@ fn is_sub(declaration: &str) -> bool {
 
 /// Compares all counts with the oracle. The oracle and the compiler count these special cases in the same way: E24
 /// (capitalization of `sub`), E27 (repeated sections), E33 (sub-indices without an object) and E41 (leading zeros).
-/// This also applies to entries without sections that CompactSubObj (E43) or CompactPDO (E70) implies.
+/// This also applies to entries that follow from CompactSubObj (E43) or CompactPDO (E70) and have no section.
 #[test]
 fn objects_and_sub_indices_are_as_many_as_the_oracle_counts() {
     let Some(cases) = cases() else { return };
@@ -160,7 +160,8 @@ fn no_canopen_file_is_rejected() {
     assert!(real >= lane::at_least(170), "only {real} files of real devices");
 }
 
-/// Returns the code, and a part of the message, of the only error in a file that is not a CANopen device description.
+/// Returns the code of the only error that the compiler must report for a file of this class, and a part of its message.
+/// The file is not a CANopen device description.
 fn rejection(case: &Case) -> (&'static str, &'static str) {
     match case.class.as_str() {
         "negative (EtherNet/IP EDS)" => ("EDS001", "this is an EtherNet/IP EDS"),

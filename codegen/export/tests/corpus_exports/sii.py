@@ -265,7 +265,7 @@ class Comparison:
         named = [item.findtext("Type") for item in self.objects(index)]
         named += [part.text for ty in self.types(index) for part in list(ty.iter("Type")) + list(ty.iter("BaseType"))]
         numbers = {TYPES.get((name or "").strip(), 0) for name in named}
-        # An enumeration or an array of the device has a basic type of the same length.
+        # For an enumeration or array type, the image can contain the number of a basic type of the same length.
         return numbers | {0} | ({0x2F + bits} if bits <= 16 else set()) | {5 if bits == 8 else 6 if bits == 16 else 7 if bits == 32 else 0}
 
     def objects(self, index):

@@ -64,7 +64,7 @@ fn exported(folder: &Path) -> Option<Vec<Exported>> {
     Some(all)
 }
 
-/// Returns the differences that the Python program finds in each image, or `None` for a file that Python cannot read.
+/// Returns, for each image, the differences that the Python program finds, or `None` if Python cannot read the ESI.
 fn differences(python: &Path, all: &[Exported]) -> Vec<Option<Vec<String>>> {
     let corpus = folder_of("esi").expect("the corpus");
     let requests = all.iter().map(|one| {

@@ -78,7 +78,8 @@ fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Compa
     // Word order only matters for items with several registers.
     let word_order = if old.count.max(new.count) > 1 { Judgment::WIRE } else { Judgment::NONE };
     compare_fields!(RegisterBinding, old, new, comparison, {
-        // If the wire address or the length changes, the printed address changes, too, and is not reported separately.
+        // If the wire address or the length changes, the printed address usually changes, too, and is not reported
+        // separately.
         printed: |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
             if (old.address, old.count) == (new.address, new.count) {
                 text("printed address")(one, other, comparison);

@@ -15,7 +15,8 @@ pub enum Effect {
     /// Programs and data that were valid for the old description are also valid for the new one and have the same
     /// meaning.
     Compatible,
-    /// A program or value that was valid for the old description is invalid for the new one or has a different meaning.
+    /// Programs or data that were valid for the old description are invalid for the new one or have a different
+    /// meaning.
     Breaking,
 }
 

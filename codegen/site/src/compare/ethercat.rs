@@ -38,7 +38,8 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     });
 }
 
-/// Returns the product code and revision of another device that this device hides in configuration tools.
+/// Formats the identity of a device that configuration tools hide because of the described device: product code and
+/// revision.
 fn hidden(identity: &(Option<u32>, Option<u32>)) -> String {
     [identity.0, identity.1].into_iter().flatten().map(hex32).collect::<Vec<_>>().join(" ")
 }

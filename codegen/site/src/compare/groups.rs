@@ -144,7 +144,7 @@ fn title(group: &Group) -> String {
 /// items.
 fn pair(old: &Entry<'_>, new: &Entry<'_>, comparison: &mut Comparison<'_>) {
     let name = |one: &CompactString, other: &CompactString, comparison: &mut Comparison<'_>| {
-        // The value of an object without entries has the object's name, which is compared with the object.
+        // An object without entries and its value have the same name, which the comparison of the object reports.
         let is_of_group = old.identifier.is_empty() && (one, other) == (&old.group.name, &new.group.name);
         if !is_of_group {
             names([one, other], [&old.identifier, &new.identifier], comparison);

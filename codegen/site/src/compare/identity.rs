@@ -7,7 +7,7 @@ use super::texts::origin;
 use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{CompactString, FactOrigin, Identity, IdentityNumber};
 
-/// Compares identities. A program can check the identity, but the identity does not affect any other bytes.
+/// Compares identities. A program can check the numbers of an identity, but they affect no other bytes on the bus.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {
     compare_fields!(Identity, old, new, comparison, {
         vendor_id: fact_as("vendor-ID", Judgment::BEHAVIOR, ident),

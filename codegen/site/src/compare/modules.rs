@@ -40,7 +40,7 @@ pub(super) fn key(module: &Module) -> String {
     format!("{:08X} {}", module.number, module.id)
 }
 
-/// Compares the modules that fit a device and the slots they fit into.
+/// Compares which modules fit a device, and into which slots each module fits.
 pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[ModuleUse]| -> Vec<Use> {
         let used = |one: &ModuleUse| {

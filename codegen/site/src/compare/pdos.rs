@@ -148,8 +148,8 @@ impl Layout<'_> {
         Judgment { api, wire: self.wire_effect_of(new), ..Judgment::NONE }
     }
 
-    /// Returns the effect on the communication. The change is breaking if an entry has another position or length, or
-    /// if the new type at a position has another encoding.
+    /// Returns the effect on the communication. The change is breaking if the positions or lengths of the entries
+    /// differ. Otherwise, the effect depends on the encodings of the old and new types at each position.
     fn wire_effect_of(&self, new: &Layout<'_>) -> Effect {
         let positions =
             |layout: &Layout<'_>| layout.entries.iter().map(|entry| (entry.bit_offset, entry.bits)).collect::<Vec<_>>();
@@ -235,7 +235,7 @@ fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) 
     }
 }
 
-/// Replaces the common beginning and the common end of both lists by `…` if they consist of several elements.
+/// Replaces the common beginning of both lists with `…` if it consists of several elements, and likewise the common end.
 fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     let first = old.iter().zip(&*new).take_while(|(one, other)| one == other).count();
     let rest = (old.len() - first).min(new.len() - first);

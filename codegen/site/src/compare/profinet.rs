@@ -159,7 +159,7 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
     }, KEY => [name]);
 }
 
-/// Compares the submodules that fit a device or module and their subslots.
+/// Compares which submodules fit a device or module, and into which subslots each submodule fits.
 pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
     let uses = |catalog: &Catalog, uses: &[SubmoduleUse]| -> Vec<Use> {
         let used = |one: &SubmoduleUse| {

@@ -1,4 +1,4 @@
-//! Lanes, which are the vertical lines of arrows next to the column of states. Determines the lane of each arrow, the
+//! Lanes: the vertical lines of arrows next to the column of states. This module determines the lane of each arrow, the
 //! points at which the arrow meets the boxes, and the position of the label.
 
 use super::Edge;
@@ -58,7 +58,7 @@ impl Lanes {
         self.of_edges.iter().flatten().map(|lane| lane.number + 1).max().unwrap_or_default()
     }
 
-    /// Returns the lane of an edge, if it has one on this side.
+    /// Returns the number of an edge's lane, or `None` if the edge has no lane on this side.
     pub fn number(&self, edge: usize) -> Option<u32> {
         self.of_edges[edge].map(|lane| lane.number)
     }
@@ -71,7 +71,7 @@ impl Lanes {
 
     /// Returns the vertical position of the middle of an edge's label, and true if no arrow crosses the label there.
     /// The label is `length` pixels long. Only arrows on lanes further out can cross the label. `ends` returns the
-    /// vertical positions of the ends of an edge, and `top` returns that of the top of a row.
+    /// vertical positions of the two ends of an edge. `top` returns the vertical position of the top of a row.
     pub fn label(
         &self,
         edge: usize,

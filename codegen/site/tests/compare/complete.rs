@@ -75,8 +75,8 @@ fn is_default(value: &Value) -> bool {
     }
 }
 
-/// Ends of the paths of variant names without content, in enumerations whose other variants have content. The test can
-/// change other variants to these variants, but not the reverse.
+/// Ends of the paths at which an enumeration can be a variant without content, although other variants have content. The
+/// test can replace a variant with content by one without content, but not the reverse.
 const ALONE: [&str; 5] =
     ["/axes/rules/*/step", "/groups/*/kind", "/shape/bit_field/fields/*/meaning", "/request/*", "/reply/*"];
 
@@ -180,7 +180,7 @@ impl Tally {
             leaf.replace(json, before);
             if let Ok(changed) = changed {
                 is_changed = true;
-                // If the JSON representation omits a value, changing it results in an equal catalog.
+                // Ignore a change that results in an equal catalog, because there is nothing to report.
                 if changed != description.catalog {
                     self.compare(description, &changed, leaf, example);
                 }

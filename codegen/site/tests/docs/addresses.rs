@@ -18,7 +18,8 @@ fn addresses(all: &[Page]) -> BTreeSet<String> {
     all.iter().map(|page| page.path.clone()).chain(html).chain(markdown).collect()
 }
 
-/// Checks that a description with a second device has all addresses of the description with one device.
+/// Checks that all addresses in the documentation of `one`, which describes one device, also exist in the documentation
+/// of `two`, which describes a second device in addition.
 fn nothing_moves(file: &str, one: &str, two: &str) {
     for (format, check) in [(Format::Html, html_links as fn(&[Page]) -> usize), (Format::Markdown, markdown_links)] {
         let documented = |text: &str| site(format, vec![("file".to_owned(), Source::new(file, text.into()))]);

@@ -75,7 +75,7 @@ fn tables_of_errors_have_links_to_what_reports_them() {
     }
 }
 
-/// Returns the text between the heading of a code table and its rows.
+/// Returns the HTML of a code table's section, from the heading up to the rows.
 fn about_table(pages: &[Page], table: &str) -> String {
     let id = format!("<section id=\"{table}\">");
     let (_, section) = pages.iter().find_map(|page| page.text.split_once(&id)).expect("the table");

@@ -256,7 +256,7 @@ fn equal_translations_are_shown_once() {
     let name = "<b>Axis</b> <i lang=\"de\" title=\"de, nl\">Achse</i> <i lang=\"fr\">Axe</i></h2>";
     assert!(html.contains(name), "{html}");
     assert!(html.contains("<p lang=\"de\" title=\"de, nl\">1 Achse<p lang=\"fr\">1 Axe"), "{html}");
-    // The description of the telegram repeats its name.
+    // The description of the telegram only repeats its name, so the pages leave it out.
     assert!(html.contains("<b>Standard telegram 1</b></h2>") && !html.contains("<p>Standard telegram 1."), "{html}");
     let markdown = page(Format::Markdown, "/modules.md");
     assert!(markdown.contains(" Axis *Achse* (de, nl) *Axe*\n"), "{markdown}");
@@ -285,7 +285,7 @@ fn long_content_is_split_by_size() {
     assert!(areas.len() > 1 && areas.iter().all(|page| page.text.len() < 210_000), "{} pages", areas.len());
     let rows: usize = areas.iter().map(|page| page.text.matches("<tbody id=\"r").count()).sum();
     assert_eq!(rows, 200);
-    // Both formats have the same pages.
+    // Both formats split the chapter into the same number of pages.
     let markdown = site(Format::Markdown, source());
     assert_eq!(markdown.iter().filter(|page| page.path.contains("/control")).count(), areas.len());
 }

@@ -10,7 +10,7 @@ use lexibus_codegen::source::Source;
 const HOSTILE: &str =
     "<script>alert(1)</script><img src=x onerror=alert(2)>\\\" ' onload=alert(3) </title></table>&lt; http://x";
 
-/// Returns names and sources of descriptions in which all texts contain the markup.
+/// Returns names and sources of descriptions whose texts contain the markup of [`HOSTILE`].
 pub fn descriptions() -> Vec<(String, Source)> {
     let hostile = HOSTILE.replace("\\\"", "");
     let eds = format!(

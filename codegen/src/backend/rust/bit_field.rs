@@ -100,9 +100,9 @@ pub(super) struct ViewModel {
     pub allow: Option<String>,
 }
 
-/// Names that getters must not have. These are keywords, other methods of bit fields, methods that clippy expects in
-/// trait implementations only, and methods that all types have. A call would otherwise choose the method that all types
-/// have, and not the getter.
+/// Names that getters must not have: keywords that cannot be raw identifiers, other methods of bit fields, methods that
+/// clippy expects in trait implementations only, and methods that all types have. A call could otherwise choose the
+/// method that all types have, and not the getter.
 const RESERVED: [&str; 17] = [
     "self",
     "super",
@@ -215,7 +215,8 @@ fn view_methods(views: &[View], reserved: &[&str]) -> Vec<String> {
     names::unique(&name_requests, reserved, Case::Snake)
 }
 
-/// Returns the lines of the documentation table that lists all bits of a bit field.
+/// Returns the lines of the documentation table of a bit field. The table lists `fields`, and the reserved bits that do
+/// not depend on a condition.
 fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldModel>) -> Vec<String> {
     let reserved = |entry: &&BitFieldEntry| {
         let BitMeaning::Reserved { write } = entry.meaning else { return None };
@@ -258,8 +259,8 @@ fn snake(name: &str) -> String {
     names::unique(&[name_request], &RESERVED, Case::Snake).remove(0)
 }
 
-/// Returns the reserved bits that must be written as 0, and those that must be written as 1. Bits that another entry
-/// also describes are left out.
+/// Returns the reserved bits that must be written as 0, and those that must be written as 1. Bits that also belong to an
+/// entry without such a requirement are left out.
 fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
     let bits_of = |entry: &BitFieldEntry| mask(entry.bits.into()) << entry.offset;
     let (mut zeros, mut ones, mut used) = (0, 0, 0);

@@ -108,9 +108,9 @@ fn span(span: (u16, u16, u8)) -> Doc {
     }
 }
 
-/// Returns whether an item can be read without an explicit request by the program. The item must exist on all models
-/// and firmware versions and with all options. It must be readable in all states and have no side effects. Its flags
-/// must not exclude it from scans.
+/// Returns whether a read request for other items may include this item. The item must exist on all models and firmware
+/// versions and with all options. It must be readable in all states and have no side effects. Its flags must not
+/// exclude it from scans.
 fn is_read_along(item: &Item) -> bool {
     /// Flag in ObjFlags (CiA 306): do not read the object during a scan.
     const REFUSES_SCAN: u32 = 2;

@@ -108,7 +108,8 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
 
 /// Returns unique names of the devices. The names are based on order codes if possible, because order codes are shorter
 /// than names. An ambiguous name gets the revision number as a suffix. If several devices have the same name and
-/// revision number, the suffix begins with the product code.
+/// revision number, the suffix begins with the product code. If an earlier device has the same product code and
+/// revision number, the suffix ends with the position of the device.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
     let mut seen = HashSet::new();
@@ -142,8 +143,8 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-/// Returns the name that the description gives to a device or module. Returns the Rust name if the description contains
-/// no name.
+/// Returns the title of a device or module as a sentence. The title is the name in the description, or the Rust name
+/// `name` if the description contains no name.
 fn title(original: &str, name: &str) -> String {
     let title = docs::escape(original);
     docs::sentence(if title.is_empty() { name } else { &title })

@@ -33,7 +33,7 @@ pub(super) struct FunctionModel {
     pub path: String,
 }
 
-/// An object of CiA 402: its address, the function that returns it, and whether it is read and written.
+/// An object of CiA 402: its address, the function that returns it, and whether the operations read it and write it.
 struct Role {
     object: (u16, u8),
     function: &'static str,
@@ -86,8 +86,8 @@ impl Cia402Model {
         if !walks.iter().any(is_drive) {
             return None;
         }
-        // Use an optional object only if a mandatory object that is read has the same location type. Otherwise, the
-        // optional object would restrict the buses of the operations.
+        // Use the error code and the following error only if they have the same location type as a mandatory object
+        // that the operations read. Otherwise, these optional objects would restrict the buses of the operations.
         let read = accesses(core.iter().map(located));
         let is_everywhere =
             |constant: &Constant<'_>| read.get(constant.location.as_str()).is_some_and(|access| access.0);
@@ -124,7 +124,7 @@ fn implementation(path: &'static str, objects: &[Played<'_, '_>], core: &[Played
     }
 }
 
-/// Returns the location of an object, and whether the object is read and whether it is written.
+/// Returns the location type of an object, and whether the operations read the object and write it.
 fn located<'p>(played: &'p Played<'_, '_>) -> (&'p str, (bool, bool)) {
     let (role, constant) = played;
     (&constant.location, role.access)

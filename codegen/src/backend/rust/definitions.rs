@@ -19,7 +19,7 @@ pub(super) struct Definitions {
     /// Number of each definition, keyed by its code and by the numbers of the definitions to which the code refers. The
     /// code alone is not enough, because two definitions with equal code can refer to different types.
     numbers: HashMap<(String, Vec<usize>), usize>,
-    /// For each definition number, the module of the device that contains the definition.
+    /// For each definition number, the name of the Rust module that contains the definition.
     homes: Vec<String>,
 }
 
@@ -53,7 +53,7 @@ struct Device<'d> {
 
 impl Device<'_> {
     /// Adds a definition with these names. `used` contains the names in the definition's code that may refer to other
-    /// definitions. Returns whether no earlier device contains the definition.
+    /// definitions. Returns whether no earlier device or module contains the definition.
     fn is_new<'n>(
         &mut self,
         sections: &[Section],

@@ -40,8 +40,8 @@ pub(super) struct ModelItem {
     pub initial: Doc,
 }
 
-/// Returns the models that have constants, or items that differ from those of other models. `objects` contains the
-/// handles for all models.
+/// Returns the models that have constants, or items that differ from those of other models. Items of objects with
+/// several values are not considered. `objects` contains the handles for all models.
 pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
     let all = device.variants.iter().map(|variant| {
         let single_values = objects.iter().filter(|object| !object.is_module);

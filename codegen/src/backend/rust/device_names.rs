@@ -28,8 +28,8 @@ pub(super) fn title(device: &Device) -> String {
     }
 }
 
-/// Returns the name of the device's type. The sources are, in this order: the chosen name, the order code of an
-/// EtherCAT device, the device's name, the file name, and the word `device`.
+/// Returns the name of the device's type. The name comes from the first of these sources that contains a name: the
+/// chosen name, the order code of an EtherCAT device, the device's name, the file name, and the word `device`.
 pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>) -> String {
     name_of(device, file, chosen, Case::Pascal)
 }

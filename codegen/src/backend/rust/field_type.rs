@@ -39,7 +39,7 @@ impl FieldType {
     }
 
     /// Returns an expression that converts `value` to bits in a `u64`. For an enumeration or bit field, bits of the
-    /// result beyond its width may be set.
+    /// result beyond the width of the field may be set.
     pub fn encode(&self, value: &str, bits: u32) -> String {
         match self {
             FieldType::Named(_, native) => match native.strip_prefix('i') {

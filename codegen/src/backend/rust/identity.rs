@@ -13,7 +13,7 @@ pub(super) struct IdentityModel {
     pub vendor_name: String,
     pub product_name: String,
     pub order_code: String,
-    /// Sentences about numbers that do not come from the header of the description.
+    /// Sentences that state the origin of each number that does not come from the header of the description.
     pub origins: Vec<String>,
 }
 

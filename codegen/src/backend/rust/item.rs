@@ -41,7 +41,8 @@ pub(super) struct ItemModel {
     pub real: bool,
     /// Address of the item's object, preferably on the bus on which the device's objects are addressed.
     pub object: Option<(u16, u8)>,
-    /// Arguments of the type that describes the item's mapping into PDOs.
+    /// Generic arguments of `rt::Mappable`, with which `lexibus::pdo!` maps the item into PDOs. `None` if the item
+    /// cannot be mapped or no PDO has a changeable mapping.
     pub mappable: Option<[String; 3]>,
 }
 
@@ -84,7 +85,7 @@ pub(super) struct ItemModule<'n> {
     pub outer: &'n str,
 }
 
-/// Returns the name of the constant of an item whose handle has this name.
+/// Returns the name of an item's constant. `name` is the name of the item's handle.
 pub(super) fn constant(name: &str) -> String {
     name.to_ascii_uppercase()
 }

@@ -27,7 +27,8 @@ impl<'h> DocModule<'h> {
     pub const TOP: DocModule<'static> = DocModule::new("", "");
     pub const OBJECTS: DocModule<'static> = DocModule::new("super::", "objects::");
     pub const TYPES: DocModule<'static> = DocModule::new("super::", "types::");
-    /// The module of PDO structs. The module of PDO views has the same path to the device's module.
+    /// The module of PDO structs. The documentation of PDO views also uses this constant, because the module of views
+    /// has the same path to the device's module.
     pub const PDO: DocModule<'static> = DocModule::new("super::", "pdo::");
     #[cfg(feature = "messages")]
     pub const MESSAGES: DocModule<'static> = DocModule::new("super::", "messages::");

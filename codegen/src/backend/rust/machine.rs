@@ -275,7 +275,7 @@ impl Named<'_, '_> {
 
 /// Returns the transitions that a program can trigger or wait for. Leaves out automatic transitions with which the
 /// device reacts to an error: those from any state, and those to a fault state (`faults`) from a state that is not a
-/// fault state. Also leaves out transitions without generated states or commands.
+/// fault state. Also leaves out transitions if a state or the command has no generated variant.
 fn steps(
     machine: &StateMachine,
     states: &PatternsModel,

@@ -39,7 +39,7 @@ use super::walk::{self, WalkModel};
 use super::window_model::{self, WindowModel};
 use crate::ir::{Device, FileInfo, Module};
 
-/// Runs the stages before the lowering, which determine addresses, names and links.
+/// Determines the addresses, names and links that the lowering needs.
 pub(super) fn context<'a>(scope: Scope<'a>, options: &RustOptions, device_name: &str) -> Context<'a> {
     let located = Located::of(scope);
     let names = Names::of(&located);

@@ -153,14 +153,15 @@ fn aliases(item: &Item) -> Vec<String> {
         _ => Vec::new(),
     };
     let mut all: Vec<String> = item.bindings.iter().flat_map(of).collect();
-    // Rustdoc rejects an alias that contains quotation marks, or that starts or ends with a space.
+    // Keep only aliases that consist of letters and digits. Rustdoc rejects an alias that contains quotation marks, or
+    // that starts or ends with a space.
     all.retain(|alias| !alias.is_empty() && alias.chars().all(|letter| letter.is_ascii_alphanumeric()));
     all.sort();
     all.dedup();
     all
 }
 
-/// Returns each item of an object with the path of its constant, such as `objects::identity::VENDOR_ID`.
+/// Returns the items of all objects, each with the path of its constant, such as `objects::identity::VENDOR_ID`.
 pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&'c NamedItem<'a>, String)> {
     let entries = context.names.handles.objects.iter();
     let entries = entries.flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));

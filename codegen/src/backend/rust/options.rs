@@ -10,7 +10,8 @@ pub enum Presence {
     /// The part is not generated.
     #[default]
     Never,
-    /// The part is compiled only if this feature of the crate that contains the generated code is enabled.
+    /// The part is generated with a `cfg` attribute. It is compiled only if this feature is enabled in the crate that
+    /// contains the generated code.
     Feature(String),
 }
 
@@ -39,8 +40,9 @@ pub struct RustOptions {
     /// Specifies whether generated types implement `serde::Serialize` and `serde::Deserialize`. The crate that contains
     /// the generated code needs the dependency `serde`, and the feature `serde` of `lexibus`.
     pub serde: Presence,
-    /// Values that a network file gives to the device, in the order of the writes. The constant `CONFIGURATION` contains
-    /// these values. `None` means that it contains the values that the description configures.
+    /// Values that a network file configures for the device, in the order in which a program writes them. The constant
+    /// `CONFIGURATION` contains these values. If this option is `None`, the constant contains the values that the
+    /// description configures.
     pub configuration: Option<Vec<Setting>>,
 }
 

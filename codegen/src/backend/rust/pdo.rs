@@ -72,7 +72,7 @@ pub(super) struct FieldModel {
     /// Name of the view's method that writes the field.
     pub setter: String,
     pub docs: Vec<String>,
-    /// Attribute of the field that derived traits require.
+    /// Attribute that the field needs for derived traits.
     pub attribute: Option<String>,
     pub ty: String,
     kind: FieldType,
@@ -296,7 +296,7 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
 }
 
 /// Key that identifies a PDO: the index of the mapping object, and the position of the declaration. The index alone is
-/// not enough, because several PDOs may have the same mapping object if only one of them is assigned.
+/// not enough, because several PDOs may have the same mapping object if only one of them is assigned at a time.
 type Declared = (u16, Span, u32);
 
 /// The models of a device's or module's PDOs.
@@ -491,8 +491,8 @@ pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
 
 /// Returns the SDO writes that configure a PDO as the description states. They disable the PDO, write its mapping, set
 /// its transmission type and timers, and enable it again (CiA 301 7.5.2.36). Writes to read-only communication
-/// parameters are left out. Returns no writes if the PDO has no communication parameters, or if the COB-ID is unknown
-/// or read-only.
+/// parameters are left out. The mapping is left out if it is unknown or read-only. Returns no writes if the PDO has no
+/// communication parameters, or if the COB-ID is unknown or read-only.
 fn configuration(context: &Context<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);

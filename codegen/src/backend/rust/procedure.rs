@@ -61,8 +61,8 @@ fn row(context: &Context<'_>, step: &Step) -> Option<[String; 2]> {
 }
 
 /// Returns the constructor calls of a procedure's writes. Returns `None` if there are no steps, or if a step does not
-/// write a constant integer. Also returns `None` if an integer does not fit in an object of an 8-, 16- or 32-bit
-/// integer type.
+/// write a constant integer. Also returns `None` if a step writes to an item that is not an object with an 8-, 16- or
+/// 32-bit integer type, or if the value does not fit in this type.
 fn writes(context: &Context<'_>, procedure: &Procedure) -> Option<Vec<String>> {
     let writes: Option<Vec<String>> = procedure.steps.iter().map(|step| write(context, step)).collect();
     writes.filter(|writes| !writes.is_empty())

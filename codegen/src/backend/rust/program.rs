@@ -91,8 +91,8 @@ const BUSES: [RouteBus; 3] = [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus
 /// Returns the elements for a program that accesses `device` on `bus`. If `bus` is `None`, the possible buses are
 /// CANopen, EtherCAT and Modbus, in this order. The program uses the first bus on which it can lead a state machine to
 /// its operating state. If there is no such bus, the program uses the first bus on which it can access a state machine.
-/// If it can access none, it uses the first bus on which it can access a value. Returns `None` if the program can
-/// access neither on any bus.
+/// If it can access no state machine, it uses the first bus on which it can access a value. Returns `None` if the
+/// program can access neither a state machine nor a value.
 pub fn program(device: &Device, file: &FileInfo, bus: Option<Bus>) -> Option<Program> {
     let options = RustOptions::default();
     let driver = device_names::device_name(device, file, None);

@@ -102,8 +102,8 @@ fn spelled(number: i128) -> String {
 }
 
 /// Converts `factor` and `offset` to fractions with a common denominator. Returns the numerator of the factor, the
-/// denominator, and the numerator of the offset. Returns `None` if `factor` or `offset` has no fraction (see
-/// [`rational`]), or if a result does not fit in 64 bits.
+/// denominator, and the numerator of the offset. Returns `None` if `factor` or an `offset` other than 0 has no fraction
+/// (see [`rational`]), or if a result does not fit in 64 bits.
 fn common(factor: f64, offset: f64) -> Option<(i64, i64, i64)> {
     let (num, den) = rational(factor)?;
     if offset == 0.0 {
@@ -124,7 +124,7 @@ fn gcd(a: i64, b: i64) -> i64 {
 }
 
 /// Returns the simplest fraction whose quotient, as an `f64`, is `real`: 0.01 gives 1/100. Returns `None` for 0,
-/// subnormal numbers, NaN, infinity, and numbers that need more than 64 bits.
+/// subnormal numbers, NaN and infinity, and if the numerator or denominator does not fit in 64 bits.
 fn rational(real: f64) -> Option<(i64, i64)> {
     if !real.is_normal() {
         return None;

@@ -24,7 +24,7 @@ pub(super) struct RemappableModel {
     pub name: String,
     pub title: String,
     pub direction: &'static str,
-    /// Rust type of the PDO's COB-ID, or the type that is used instead on EtherCAT.
+    /// Rust type of the PDO's COB-ID. PDOs on EtherCAT and PDOs without a default COB-ID use a placeholder type.
     pub cob_id: &'static str,
     /// Constants of the PDO, each with its type and value.
     pub constants: Vec<Doc>,

@@ -80,7 +80,8 @@ impl RouteBus {
     }
 }
 
-/// The kind of an access path. The kind states how values are converted between the item and its address.
+/// The kind of an access path. The kind states whether a value is converted or has other limits on the bus, and whether
+/// it is accessed through a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum PathKind {
     Direct,

@@ -72,9 +72,9 @@ impl<'a> Scope<'a> {
         self.device?.image(reference)
     }
 
-    /// Resolves aliases of a type. Returns the resulting type, which is the base type of an enumeration, bit field or
-    /// scaled type. If the chain of aliases ends at a definition, also returns this definition and its
-    /// position in `types`.
+    /// Resolves aliases of a type. Returns the resulting type: a basic type, or the base type of an enumeration, bit
+    /// field or scaled type. Arrays, records and cycles result in `Type::Opaque`. If the chain of aliases ends at a
+    /// definition, also returns this definition and its position in `types`.
     pub fn resolve(&self, ty: Type) -> (Type, Option<(u32, &'a TypeDef)>) {
         /// Maximum length of a chain of type aliases. A longer chain is treated as a cycle.
         const DEPTH: usize = 16;

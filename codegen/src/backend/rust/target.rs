@@ -16,7 +16,7 @@ const MAX_TRANSITIONS: usize = 128;
 /// Reason why a new program does not lead a state machine to its operating state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoTarget {
-    /// No state except fault states has a name that the compiler recognizes as that of an operating state.
+    /// The compiler recognizes no state by its name as an operating state. Fault states are not considered.
     Name,
     /// No sequence of commands leads from the first state to the second one without entering a fault state. The texts
     /// are names of variants.

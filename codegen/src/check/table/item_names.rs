@@ -12,8 +12,8 @@ use crate::text::{brief, edit_distance};
 /// similar to each other.
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
-/// A letter counts as a prefix if at least nine tenths of all item names begin with it, but not fewer than this number
-/// of names.
+/// Minimum number of item names with a prefix. A prefix is a capital letter that is followed by a lower-case letter, such as `R` in
+/// `Rspeed`. At least nine tenths of all item names must begin with the prefix.
 const CONVENTION: usize = 4;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
@@ -85,8 +85,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Returns the prefix ([`CONVENTION`]): the capital letter with which most item names begin, if a lower-case letter
-/// follows it.
+/// Returns the capital letter that is the prefix of most item names (see [`CONVENTION`]), or `None` if there is no such prefix.
 fn prefix<'n>(names: impl Iterator<Item = &'n str>) -> Option<char> {
     let (mut count, mut by_letter) = (0, BTreeMap::new());
     for name in names {

@@ -7,7 +7,8 @@ use crate::check::mapped_object::indices;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::texts;
 
-/// Indices that are recognized in a text without a sub-index or the word `object`: those of the first axis of a drive profile.
+/// Indices of the first axis of a drive profile. Such an index in a text needs neither a sub-index nor the word `object` to be
+/// recognized.
 const PROFILE: RangeInclusive<u16> = 0x6000..=0x67FF;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {

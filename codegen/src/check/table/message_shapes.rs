@@ -1,4 +1,4 @@
-//! Reports messages for which no code is generated, with the reason.
+//! Reports messages, framings and parameters for which no code is generated, with the reason.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -62,8 +62,8 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
     }
 }
 
-/// Returns the reason why no code is generated for a framing. A bus with packets needs no code, because its frames have no
-/// delimiters.
+/// Returns the reason why no code is generated for a framing. A framing with neither delimiters nor a check needs no code, because
+/// each packet on the bus is one frame.
 fn no_framing(framing: &Framing) -> Option<Problem> {
     let is_delimited = framing.start.is_some() || framing.escape.is_some() || !framing.check.is_empty();
     match framing.check.as_str() {

@@ -145,7 +145,7 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
 }
 
 /// Compares the requests whose first constant byte is directly followed by another constant byte. Reports a single request whose
-/// first constant differs from that of all others.
+/// first constant differs, if all others have the same first constant and their number is at least [`ALIKE`].
 fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     let mut groups: BTreeMap<(usize, u8), Vec<&Framed<'_>>> = BTreeMap::new();
     for framed in all.iter().filter(|framed| framed.request.first_run().len() > 1) {
@@ -171,7 +171,7 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Compares the states in which messages are accepted with the tables of commands and states.
+/// Compares the tables of commands and states with the states in which a device accepts messages.
 fn states(device: &Device, diagnostics: &mut Diagnostics) {
     for machine in &device.machines {
         for row in &machine.outcomes {

@@ -90,8 +90,8 @@ impl Request {
 
     /// Returns whether the value starts in the requested registers and ends with the last requested register.
     fn covers(&self, register: &RegisterBinding) -> bool {
-        // A request for a single register may address the first register of a longer value. Some devices then transfer
-        // only the lower half of the value.
+        // A request for a single register may address the first register of a longer value. Some devices then transfer only the low
+        // word of the value.
         if matches!(self.function, 3 | 4 | 6) && self.quantity == 1 {
             return register.address == self.start;
         }

@@ -24,9 +24,9 @@ const END_OF_ORIGIN: char = '\u{fdd0}';
 
 /// Renders a diagnostic with its marked lines, notes, help and fix, without a line feed at the end.
 ///
-/// `color` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as
-/// `�`. A diagnostic about a whole file shows only the name of the file. The time depends on the marked lines, not on
-/// the size of the file.
+/// `color` adds ANSI escapes for colors. Control characters in the file or message are rendered as pictures (`␛`) or as `�`. For a
+/// diagnostic about a whole file, the output contains the name of the file instead of marked lines. The rendering time depends on
+/// the marked lines, not on the size of the file.
 pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
     let location = MarkedSource::of(diagnostic.span, sources);
     let suggestion = suggestion(diagnostic, location);
@@ -52,8 +52,8 @@ pub fn render(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> Strin
 
 /// Renders the message, position and label of a diagnostic, without the marked lines, notes, help and fix.
 ///
-/// Use this form if a similar diagnostic has already been rendered in full. In all other respects, the output is like that of
-/// [`render`].
+/// In all other respects, the output is like that of [`render`]. Use this form if a similar diagnostic has already been rendered in
+/// full.
 pub fn brief(diagnostic: &Diagnostic, sources: &[Source], color: bool) -> String {
     let origin = MarkedSource::of(diagnostic.span, sources).map(|MarkedSource { source, mark }| {
         let name = visible(source.name());
@@ -92,8 +92,8 @@ fn label_note(diagnostic: &Diagnostic) -> Option<Message<'static>> {
     (!label.is_empty()).then(|| Level::NOTE.message(paragraph(label)))
 }
 
-/// Returns the marked lines with the suggested replacement. Returns `None` if there is no replacement, if it is too long, or if
-/// the marked lines are not shown in full.
+/// Returns the marked lines with the suggested replacement. Returns `None` if there is no replacement, if the replacement is too
+/// long, if no lines are marked, or if the marked lines are not shown in full.
 fn suggestion(diagnostic: &Diagnostic, location: Option<MarkedSource>) -> Option<Group<'static>> {
     let (fix, location) = (diagnostic.fix.as_deref()?, location?);
     let window = Window::new(location.source, location.mark?);
@@ -141,7 +141,7 @@ struct Window {
     first_line: usize,
     /// Range of the marked part in `text`.
     mark: Range<usize>,
-    /// Last marked line, if it is not in the window.
+    /// Number of the last marked line; `None` if this line is in the window.
     goes_on_to: Option<u32>,
     /// True if the window contains all marked lines in full.
     is_whole: bool,

@@ -21,7 +21,7 @@ pub enum Parsed {
     },
     /// `$NODEID` plus this offset.
     NodeId(i128),
-    /// Text with `$` or a name of `$NODEID` that is not a valid formula.
+    /// Invalid formula: a text that contains `$` or a name of `$NODEID`.
     UnknownFormula,
     /// Text that is neither a number nor a formula.
     Text,

@@ -73,8 +73,8 @@ pub fn object_code(
     by_content
 }
 
-/// Returns the origin of an object code. `None` means that the file states the code. It also means that the file states
-/// no code and the object is a VAR, the default of CiA 306.
+/// Returns the origin of an object code. `None` means that the file states the code, or that the object is a VAR without a stated
+/// code, because VAR is the default of CiA 306.
 pub fn code_origin(given: Option<&ObjectType<'_>>, code: ObjectCode) -> Option<FactOrigin> {
     let stated = given.map_or(Some(ObjectCode::Var), |given| given.number.and_then(ObjectCode::from_number));
     (stated != Some(code)).then_some(FactOrigin::Rule(Rule::ObjectContents))
@@ -143,8 +143,8 @@ pub fn sub_number(
     diagnostics.push(found.fix(described.to_string()));
 }
 
-/// Adds to `types` the alias that a DEFTYPE or DEFSTRUCT object defines. Returns the data type code and the type to
-/// which the alias refers. Returns `None` for any other object, and reports such an object in the data type area.
+/// Adds to `types` the alias that a DEFTYPE or DEFSTRUCT object defines. Returns the data type code and the type to which the alias
+/// refers. Returns `None` for any other object, and reports the object if it is in the data type area.
 pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Diagnostics) -> Option<(u32, Type)> {
     let (index, code) = (group.index()?, group.object_code()?);
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {

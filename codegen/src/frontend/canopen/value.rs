@@ -111,9 +111,8 @@ impl Converter<'_> {
         }
     }
 
-    /// Checks a number against the range of its type. For a signed type, a hexadecimal number with the sign bit set
-    /// becomes a negative number, which is reported unless the number is a limit. Reports any other number outside of
-    /// the range.
+    /// Checks a number against the range of its type. For a signed type, a hexadecimal number with the sign bit set becomes a
+    /// negative number. The conversion is reported unless the number is a limit. Reports any other number outside of the range.
     fn fit(&mut self, value: i128, hex: bool, text: &str, span: Span, ty: Type, role: Role) -> Value {
         let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
         if (low..=high).contains(&value) {

@@ -105,7 +105,7 @@ pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj]
 /// Entries of a section by keyword.
 pub(super) struct Raw {
     fields: [Option<Entry>; KEYS],
-    /// Entries with keywords that occur only in the sections for sub-indices that a module adds.
+    /// Entries with the keys `Count` and `ObjExtend`, which occur only in sections about sub-indices that a module adds.
     pub(super) more: [Option<Entry>; 2],
     pub(super) extensions: Extensions,
     pub(super) origin: Origin,

@@ -72,8 +72,8 @@ pub(super) fn numbered(
 
 const NO_GAP: &str = "number the entries from 1 without a gap";
 
-/// Returns the entries of a list that have a sub-index as their key, each with this sub-index. The list may skip
-/// sub-indices. Compares the number of entries with `NrOfEntries`, and passes entries with any other key to `others`.
+/// Returns the entries of a list whose keys are decimal sub-indices, each with its sub-index. The list may skip sub-indices.
+/// Compares the number of entries with `NrOfEntries`, and passes entries with any other key to `others`.
 pub(super) fn by_sub_index(
     reader: &mut Reader<'_, '_>,
     section: &Section,

@@ -157,7 +157,7 @@ fn missing(
     }
 }
 
-/// Reports a module that adds sub-indices to an object of the device that cannot have sub-indices.
+/// Reports a module that adds sub-indices to an object of the device, if this object cannot have sub-indices.
 fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: &Device) {
     let Some(object) = device.object(index) else { return };
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {

@@ -69,7 +69,7 @@ pub(super) struct OtherFiles {
     pub messages: Vec<CodeTable>,
 }
 
-/// Type of a PDO entry. The dictionary of its device or module does not define this type.
+/// Type of a PDO entry, if the dictionary of the device or module does not define this type.
 #[derive(Debug)]
 pub(super) struct EntryType {
     /// Span of the PDO entry.

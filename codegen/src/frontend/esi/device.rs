@@ -24,7 +24,7 @@ struct Parts<'a> {
     has_type: bool,
 }
 
-/// Reads a `Device` element. Also returns the references of the device to other files.
+/// Reads a `Device` element. Also returns the references to other files, and the types of PDO entries that these files may define.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Device, OtherFiles)> {
     let (mut parts, start) = (Parts::default(), reader.extensions.len());
     parts.device.origin = reader.origin(parent);

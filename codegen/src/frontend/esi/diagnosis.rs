@@ -171,7 +171,7 @@ fn documentation(
         names.all().map(|local| (local.language, local.text)).collect()
     };
     let texts: Vec<_> = paragraphs.iter().map(by_language).collect();
-    // Each language gets a copy of every paragraph that has no translation. The budget must allow these copies.
+    // Each language gets a copy of every paragraph that has no translation into this language. The budget must allow these copies.
     let affordable = reader.derive(Cost::text(languages.len().saturating_mul(text.len())), message);
     let in_language = |language: &CompactString| {
         let paragraphs =

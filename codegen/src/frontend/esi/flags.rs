@@ -161,9 +161,9 @@ impl Flags {
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Returns the storage and the safety mapping of a sub-item, and the EtherCAT states in which it can be read or
-    /// written. A sub-item without flags has the storage of its object. If the sub-item declares no safety mapping or
-    /// no list of states, that of its object applies. Returns `None` if none of these facts is declared.
+    /// Returns the storage and the safety mapping of a sub-item, and the EtherCAT states in which it can be read or written. A
+    /// sub-item without flags has the storage of its object. A safety mapping or list of states that the sub-item does not declare
+    /// is that of its object. Returns `None` if none of these facts is declared.
     pub fn behavior_or(&self, object: &Flags) -> Option<Box<Behavior>> {
         let stored = if self.given { self } else { object };
         let (backup, setting) = (stored.backup.unwrap_or(false), stored.setting.unwrap_or(false));

@@ -374,8 +374,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         }
     }
 
-    /// Reports an object without declared access rights if one of its items does not declare them either. Records that
-    /// these items are read-only by a rule of the compiler.
+    /// Reports an object without declared access rights if at least one of its items declares none either. Records for each such
+    /// item that a rule of the compiler makes it read-only.
     fn access_given(&self, reader: &mut Reader<'_, '_>, group: &mut Group, flags: &Flags) {
         if flags.access.is_some() {
             return;

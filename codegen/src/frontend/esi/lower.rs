@@ -36,8 +36,8 @@ pub(super) fn lower<'a>(
     (types.into_defs(), groups)
 }
 
-/// Returns the type that a PDO entry names. If the entry names no type, returns an unsigned integer type of the entry's
-/// length. Returns raw bytes if the entry is padding, or does not have 1 to 64 bits.
+/// Returns the type that a PDO entry names. If the entry names no type, returns an unsigned integer type of the entry's length, or
+/// raw bytes if the entry is padding or does not have 1 to 64 bits.
 fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {

@@ -19,7 +19,8 @@ use crate::ir::{
 use crate::limits;
 use crate::syntax::xml::Tag;
 
-/// Reads a `Module` element. Also returns the references of the module to other files.
+/// Reads a `Module` element. Also returns the references to other files, the types of PDO entries that these files may define, and
+/// the diagnosis messages.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, OtherFiles)> {
     let start = reader.extensions.len();
     let mut module = Module { origin: reader.origin(parent), ..Module::default() };
@@ -100,7 +101,8 @@ fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module)
     Ok(())
 }
 
-/// Passes the attributes of a mailbox and its protocols, except CoE, to `keep`, which stores them as extensions.
+/// Passes the attributes of a mailbox to `keep`, which stores them as extensions. Does the same with the attributes and start-up
+/// commands of all protocols except CoE.
 fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
     let flags = [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)];
     for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {

@@ -13,7 +13,7 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
 
-/// Content of a referenced file, the costs of copies, and the elements that have a copy.
+/// Content of a referenced file, with the cost of each copy and the elements that already have a copy.
 struct Content {
     catalog: Catalog,
     dictionary: Cost,

@@ -52,7 +52,7 @@ pub(super) fn sync_manager<'a>(
         reader.report(&codes::ESI_VALUE, tag.span, "the device has more than 256 sync managers", "left out");
         return Ok(());
     }
-    // The bits of Enable are those of the SII (ETG.2010, table 11): 0 = enabled, 2 = virtual, 3 = enabled only in Op.
+    // The bits of Enable are those of the SII (ETG.2010, table 11): bit 0 = enabled, bit 2 = virtual, bit 3 = enabled only in Op.
     let enable = reader.int::<u32>(enable, "value of the enable register").unwrap_or(0);
     let manager = SyncManager {
         number,

@@ -29,8 +29,8 @@ pub(super) struct Template {
 }
 
 impl<'a> Templates<'a> {
-    /// Finds the templates of a file before it is read, because a template may come after the devices that use it.
-    /// Ignores syntax errors, which the main reader reports.
+    /// Finds the templates of a file before the file is read, because a template may come after the devices that use it. Ignores
+    /// syntax errors, which the main reader reports.
     pub fn of(text: &'a str, file: FileId) -> Self {
         let mut templates = Templates { text, by_name: HashMap::new() };
         // Newer files have no templates, so a fast text search avoids a second parse of these files.

@@ -577,7 +577,7 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
     ty.dimensions.iter().take(MAX_DIMENSIONS).map(|dimension| (dimension.lower, count(dimension))).collect()
 }
 
-/// Returns a bit field of single bits, which have their offsets as names.
+/// Returns a bit field of single bits, which are named after their offsets: `Bit 0`, `Bit 1`.
 fn bit_array(width: u8) -> Shape {
     let bit = |offset| BitFieldEntry {
         name: format_compact!("Bit {offset}"),

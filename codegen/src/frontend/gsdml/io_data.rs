@@ -228,8 +228,8 @@ impl Layout {
         }
     }
 
-    /// Converts the collected PROFIsafe trailers to data, and reports them. A trailer must be at the end of the data, so
-    /// a trailer before another data item is data.
+    /// Converts the collected PROFIsafe trailers to data, and reports them. A trailer must be at the end of the data, so a trailer
+    /// before another data item is read as data.
     fn trailers_to_data(&mut self, reader: &mut Reader<'_, '_>) {
         for (at, origin) in std::mem::take(&mut self.trailers) {
             let Some(item) = self.items.get_mut(at) else { continue };

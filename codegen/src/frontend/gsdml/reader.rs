@@ -88,8 +88,8 @@ impl<'a> Reader<'a, '_> {
         Ok(Some(Box::new(Documentation { text, ..Documentation::default() })))
     }
 
-    /// Registers the identifier of the element `tag` at `position` in the catalog. The first element takes precedence
-    /// if an identifier is repeated.
+    /// Registers the identifier of the element `tag`, whose position in the catalog is `position`. The first element takes
+    /// precedence if an identifier is repeated.
     pub fn register(&mut self, tag: &Tag<'a>, kind: ElementKind, id: &Given<'a>, position: usize) {
         if id.is_missing() {
             // Interfaces and ports of V2.0 have no identifier, and nothing refers to them.

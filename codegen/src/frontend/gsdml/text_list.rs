@@ -125,8 +125,8 @@ impl<'a> TextList<'a> {
         at
     }
 
-    /// Adds a translation to an entry. If the last translation of the entry has the same language, adds nothing and
-    /// returns the span of this translation.
+    /// Adds a translation to an entry. If the last translation of the entry has the same language, adds nothing and returns the
+    /// span of the existing translation.
     fn translate(&mut self, at: usize, language: usize, span: Span, text: Cow<'a, str>) -> Option<Span> {
         let number = self.translations.len();
         let entry = self.entries.get_mut(at)?;

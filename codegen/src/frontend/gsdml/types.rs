@@ -151,7 +151,7 @@ fn narrowest(values: &[EnumValue]) -> Type {
 }
 
 impl DataType {
-    /// Returns the IR type of a data type, and its length in bytes. `length` is the declared length.
+    /// Returns the IR type and the length in bytes of a data type. `length` is the declared length.
     pub fn lower(self, length: Option<u32>, types: &mut Types<'_>) -> (Type, u32) {
         let bytes = self.bytes().or(length).unwrap_or(0);
         let ty = match self {

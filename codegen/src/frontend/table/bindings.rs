@@ -262,7 +262,7 @@ impl Rows {
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
             }
         }
-        // A type without a length has the length of the range of register numbers.
+        // If the type has no fixed length, the value of a single item fills the range of register numbers.
         let printed = last.map(|last| (last - first).saturating_add(1).saturating_mul(unit));
         let bits = bits.or(printed.filter(|_| repeat.count == 1));
         let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, bits, unit));

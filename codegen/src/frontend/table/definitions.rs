@@ -365,7 +365,8 @@ impl Definitions {
     }
 }
 
-/// Returns the first bit and the number of bits that a key names. A key such as `0x221:3-2` names bits in the byte at an address.
+/// Returns the first bit and the number of bits that a key names. The key `0x221:3-2` names the bits 3 and 2 of the byte at the
+/// address 0x221.
 fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first: Option<u32>) -> Option<(u8, u8)> {
     let Some((byte, bits)) = key.value.split_once(':') else {
         let found = notation::bits(&key.value);

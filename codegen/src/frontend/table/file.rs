@@ -99,7 +99,7 @@ pub fn read(
     for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
         device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
     }
-    // Images and messages need the same state as rows, because their fields have types.
+    // The fields of images and messages have types, so the reader needs the definitions in `rows`.
     table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
@@ -120,7 +120,7 @@ pub(super) struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// Parses a file, and replaces each option with the chosen value or the default value of the option.
+    /// Parses a file, and replaces each text `$name` with the value of the chosen or default choice of the option `name`.
     pub(super) fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
         let mut parts: Vec<_> =
             tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();

@@ -101,11 +101,11 @@ macro_rules! table {
     ({ window $($group:ident)* } $attributes:tt $name:ident { $($fields:tt)* }) => {
         table! { { $($group)* } $attributes $name {
             $($fields)*
-            /// Models that have this item, value, code or message; `*` matches any characters.
+            /// Models that have this item, value, bit, code or message; `*` matches any characters.
             pub models: Option<Vec<At<String>>>,
-            /// First firmware version that has this item, value, code or message.
+            /// First firmware version that has this item, value, bit, code or message.
             pub since: Option<String>,
-            /// First firmware version that does not have this item, value, code or message.
+            /// First firmware version that no longer has this item, value, bit, code or message.
             pub until: Option<String>,
         } }
     };
@@ -279,7 +279,7 @@ tables! {
         pub reciprocal: Option<f64>,
         /// Number of fractional bits of the raw value.
         pub fraction: Option<u8>,
-        /// Constant of the model by which the fraction is multiplied.
+        /// Name of the model constant that is the base value of the fraction: physical value = fraction × constant.
         pub of: Option<At<String>>,
         /// Item that contains the exponent.
         pub exponent: Option<At<String>>,
@@ -422,7 +422,8 @@ tables! {
         pub revision: Option<u32>,
         /// Name, order code or identifier of the devices; `*` matches any characters.
         pub device: Option<String>,
-        /// Modules that the overlay changes, by name, identifier or number; also PROFINET submodules, if `for` contains no keys of a device.
+        /// Name, identifier or number of the modules that the overlay changes; `*` matches any characters. Unless `for` contains a
+        /// key of a device, PROFINET submodules can match as well.
         pub module: Option<String>,
     }
 
@@ -468,7 +469,8 @@ tables! {
     pub struct SpaceTable: doc {
         /// Number of bits that one register number addresses. Default: 1 for coils and discrete inputs, otherwise 16.
         pub bits: Option<u8>,
-        /// Whether a value that is shorter than its registers is extended to all bits, with sign extension or zeros.
+        /// Whether a value that is shorter than its registers is extended to their length: a signed value with its sign, and an
+        /// unsigned value with zeros.
         pub extend: bool,
         /// Rule for Modbus addresses.
         pub modbus: Option<ModbusRule>,
@@ -522,7 +524,7 @@ tables! {
         pub max_read: Option<At<u16>>,
         /// Maximum number of registers or bits that one request writes.
         pub max_write: Option<At<u16>>,
-        /// Whether the driver transfers a value in several requests if it exceeds the limit of one request.
+        /// Whether the driver may transfer a value in several requests if the value exceeds the limit of one request.
         pub split: Option<bool>,
     }
 
@@ -578,7 +580,7 @@ tables! {
         pub procedure: Option<At<String>>,
     }
 
-    /// Chapter: a group of rows, such as a chapter of the manual.
+    /// Group of rows, such as the rows of one chapter of the manual.
     pub struct ChapterTable: orig doc cite doubt {
         /// Title of the chapter.
         pub title: Option<String>,
@@ -637,7 +639,7 @@ tables! {
         pub offset: Option<f64>,
         /// Increment: the device rounds written raw values to multiples of this value.
         pub step: Option<At<Literal>>,
-        /// Differences of the item on some models or buses.
+        /// Facts of the item that differ on some models or buses.
         pub variants: Option<Vec<At<VariantTable>>>,
         /// Storage: `true` (non-volatile), `false` (volatile), or the name of the command that stores the value.
         pub save: Option<FlagOrText>,
@@ -707,7 +709,7 @@ tables! {
         /// Buses to which the variant applies.
         #[cfg_attr(test, schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
-        /// Integer type on the buses of the variant, if its width differs from that of the row's type.
+        /// Integer type or `bool` on the buses of the variant, if it differs from the type of the row.
         #[cfg_attr(test, schemars(transform = schema::types))]
         pub ty = "type": Option<At<String>>,
         /// Access rights on the buses of the variant, if they are more restrictive than those of the row.
@@ -895,7 +897,8 @@ tables! {
         pub direction: Option<At<String>>,
         /// Entries, each an object (`"0x6040:0/16"`), an item name, padding (`"pad/8"`), or a field without an object (`"? name/16"`, `"? name/i16"`).
         pub entries: Vec<At<String>>,
-        /// Length in bytes that the manual prints, or a list of such lengths; the compiler compares each length with the entries.
+        /// Length in bytes that the manual prints, or a list of such lengths; the compiler compares each of these with the total
+        /// length of the entries.
         pub length: Option<At<OneOrMany<u32>>>,
         /// Maximum length in bytes of a PDO with variable mapping.
         pub max: Option<u16>,
@@ -1089,7 +1092,7 @@ tables! {
         pub manual: Option<String>,
     }
 
-    /// Modbus request and reply that the manual prints: node, function code and data, with or without CRC.
+    /// Modbus request and reply that the manual prints: node address, function code and data, with or without CRC.
     pub struct FrameTable: doc cite doubt {
         /// Bytes of the request.
         pub request: At<Vec<u8>>,
@@ -1202,7 +1205,8 @@ tables! {
 
     /// Field of a message.
     pub struct FieldTable: meaning orig doc cite doubt {
-        /// Number of the first byte of the field in the manual; the numbers must be contiguous from field to field.
+        /// Number that the manual prints for the first byte of the field; the compiler compares this number with the lengths of the
+        /// preceding fields.
         pub at: Option<At<u16>>,
         /// Constant bytes.
         pub bytes: Option<Vec<u8>>,

@@ -6,7 +6,7 @@ use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, MessageExample};
 
-/// Adds a request that the manual prints, and its reply, to the device.
+/// Adds to the device a Modbus request and reply that the manual prints. Reports a frame that has neither.
 pub(super) fn frame(reader: &mut Reader<'_, '_>, table: &At<FrameTable>, device: &mut Device) {
     let frame = &table.value;
     if frame.request.value.is_empty() && frame.reply.value.is_empty() {

@@ -226,7 +226,8 @@ impl Fields {
             reader.report(&codes::TABLE_PLACE, reader.span(key), message);
             return false;
         }
-        // Earlier fields do not overlap, so only the last field that begins before the end of `entry` can overlap `entry`.
+        // Earlier fields do not overlap each other, so only the last field that begins before the end of `entry` can overlap
+        // `entry`.
         let before = self.0.range(..(end(entry), 0, 0)).next_back();
         let Some((_, other)) = before.filter(|(range, _)| u64::from(entry.bit_offset) < range.1) else { return true };
         let message = format!("`{}` overlaps `{}`", brief(&key.value), brief(&other.name));

@@ -205,7 +205,8 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
     }
 }
 
-/// Checks that no two states of a machine, and no two of its commands, match the same value.
+/// Checks that no two states of a machine, and no two of its commands, match the same value. Also reports values with bits outside
+/// of their mask.
 pub(super) fn machine(reader: &mut Reader<'_, '_>, table: &MachineTable) {
     if let Some(TextOr::Table(states)) = table.states.as_ref().map(|states| &states.value) {
         patterns(reader, states, "states", &codes::STATES_OVERLAP);

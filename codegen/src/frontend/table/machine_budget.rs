@@ -69,7 +69,7 @@ fn weight(table: &MachineTable, device: &Device) -> usize {
     rows.into_iter().chain(transitions).fold(0, usize::saturating_add)
 }
 
-/// Returns the size of a state-command matrix in rows, including the copied state names and notes.
+/// Returns the size of a state-command matrix, converted to a number of rows. The size includes the copied state names and notes.
 fn of_matrix(table: &MatrixTable) -> usize {
     let rows = table.rows.iter().count().saturating_mul(copy(&table.states));
     let notes = table.notes.iter().map(|(name, text)| (name.value.as_str(), text.value.len() / ROW_BYTES_PER_ITEM));

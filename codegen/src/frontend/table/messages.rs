@@ -25,7 +25,8 @@ fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
 }
 
-/// Reads the messages of a table, the delimiters of their frames, and the spaces whose parameters they transfer.
+/// Reads the messages of a table, the delimiters and checksum of the frames, and the spaces whose parameters the
+/// messages transfer.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: &mut Rows, device: &mut Device) {
     let mut names = HashSet::new();
     for table in file.list::<MessageTable>(reader, "messages") {
@@ -66,7 +67,7 @@ fn spaces<'t>(
     }
 }
 
-/// Returns the byte offset at which a message ends in the file, including its fields and examples.
+/// Returns the byte offset in the file at which a message with all of its fields and examples ends.
 fn end(table: &At<MessageTable>) -> u32 {
     let message = &table.value;
     let fields = message.request.iter().chain(&message.reply).map(|field| field.end);
@@ -231,7 +232,7 @@ fn completion(
     found.unwrap_or_default()
 }
 
-/// Returns the names of the values in fields, including repeated fields.
+/// Returns the names of the values in `fields`, and in the repeated groups among them.
 pub(super) fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &CompactString> + '_> {
     Box::new(fields.iter().flat_map(|field| -> Box<dyn Iterator<Item = &CompactString>> {
         match field {

@@ -18,7 +18,8 @@ use crate::text::{brief, count_of};
 pub(super) struct Names<'n> {
     states: HashSet<&'n str>,
     commands: HashSet<&'n str>,
-    /// States in the order of the file, and commands followed by messages.
+    /// Two lists from which diagnostics suggest names: the states, and the commands followed by the messages. The lists
+    /// keep the order of the file.
     listed: [Vec<&'n str>; 2],
 }
 

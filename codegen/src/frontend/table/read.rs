@@ -189,7 +189,7 @@ impl<T: Read> Read for FlagOr<T> {
     }
 }
 
-/// Returns a TOML value as a literal, or `None` if it is a date, a list or a table.
+/// Returns a TOML value as a literal, or `None` if it is a date, a list, a table, or an integer of more than 128 bits.
 pub(super) fn literal(node: &Node<'_>) -> Option<Literal> {
     match node.get_ref() {
         DeValue::Boolean(flag) => Some(Literal::Bool(*flag)),

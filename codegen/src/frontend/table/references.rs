@@ -21,7 +21,7 @@ pub(super) const ITEM: &str = "item";
 /// Kinds of elements that may indicate the completion of a command: items, and fields of replies.
 pub(super) const ITEM_OR_FIELD: &str = "item or field";
 
-/// Reports names without a definition, and names of items that several chapters contain.
+/// Reports names without a definition, and item names that occur in several chapters.
 pub(super) fn resolve<'r>(
     reader: &mut Reader<'_, '_>,
     references: impl Iterator<Item = (&'r At<String>, &'static str)>,

@@ -29,7 +29,7 @@ impl Repeats {
         self.defaults[1] = defaults.map_or(0, items);
     }
 
-    /// Returns whether a row may inherit the defaults of the file and of its chapter.
+    /// Returns whether the budget allows a row to inherit the defaults of the file and of the chapter.
     pub fn inherit(&mut self, reader: &mut Reader<'_, '_>, span: Span) -> bool {
         self.take(reader, self.defaults.iter().sum(), span)
     }

@@ -53,7 +53,8 @@ pub(super) struct Named<'k> {
 }
 
 impl Rows {
-    /// Returns the row with the defaults of its chapter and of the file applied.
+    /// Returns the row with the defaults of its chapter and of the file. Returns the row unchanged if the budget is too small for
+    /// the defaults.
     pub fn complete(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, chapter: Option<&Row>) -> Row {
         let row = row.clone();
         if !self.repeats.inherit(reader, reader.span(key)) {

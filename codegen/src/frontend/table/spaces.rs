@@ -24,7 +24,7 @@ pub(super) struct Space {
     ethercat: Option<ObjectBase>,
     parameter: bool,
     esc: bool,
-    /// True if a value that is shorter than its registers is extended to all bits.
+    /// True if a value that is shorter than its registers is extended to their length.
     extend: bool,
     windows: Vec<Window>,
     /// Prefix that the manual prints before each Modbus register number.

@@ -17,7 +17,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, application: 
     }
     let origin = reader.origin(tag);
     let [id, name, size] = reader.attributes(tag, ["uniqueID", "name", "size"])?;
-    // The size is redundant, because the values and the base type of an enumeration determine it.
+    // The size of an enumeration is redundant, because its values and its base type determine the size.
     reader.note("enum@size", &size);
     let mut texts = Texts::default();
     let kind = match tag.name {

@@ -98,8 +98,8 @@ fn order_number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Dev
     Ok(())
 }
 
-/// Reads a number of the device identity. A text, which other ISO 15745 profiles allow, or a number that differs from
-/// an earlier one, becomes an extension.
+/// Reads a number of the device identity. Reports any other text, and stores it as an extension, because other ISO
+/// 15745 profiles allow texts. A number that differs from an earlier one becomes an extension, too.
 fn number<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, number: &mut Option<u32>) -> Read<()> {
     let given = reader.text(tag)?;
     if given.is_missing() {

@@ -148,8 +148,8 @@ impl<'t, 'a> Types<'t, 'a, '_> {
     }
 }
 
-/// Returns a type derived from `base`: a string of `count` characters or bytes, or an array of `count` elements.
-/// Without a count, or for a single element, returns an alias of `base`.
+/// Returns the shape and the length in bits of a type derived from `base`: a string of `count` characters or bytes, or
+/// an array of `count` elements. Without a count, or for a single element, returns an alias of `base`.
 fn derived_shape(base: Type, count: Option<u32>, bits: Option<u32>) -> (Shape, Option<u32>) {
     let Some(count) = count.filter(|&count| count > 0) else { return (Shape::Alias(base), bits) };
     match base {

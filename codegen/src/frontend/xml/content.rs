@@ -52,7 +52,7 @@ impl<'a> Given<'a> {
         };
     }
 
-    /// Removes white space after the last piece of the content.
+    /// Removes white space at the end of the content.
     fn finish(mut self) -> Self {
         if let Cow::Owned(text) = &mut self.text {
             text.truncate(text.trim_ascii_end().len());

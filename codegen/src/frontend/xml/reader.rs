@@ -173,7 +173,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         }
         for attribute in tag.attributes() {
             let attribute = attribute?;
-            // Attributes with a prefix belong to XML Schema or to XML itself, such as `xml:lang`.
+            // Attributes with a prefix other than `xml` belong to another standard, such as XML Schema.
             let has_prefix = !attribute.prefix.is_empty();
             if attribute.is_namespace() || (has_prefix && attribute.prefix != "xml") {
                 continue;

@@ -238,7 +238,7 @@ impl<'a> Shaper<'a, '_> {
 }
 
 /// Checks that the steps contain at most one list of repeated fields. In addition to a counted list, at most one step may have a
-/// variable length. A counted list must come after its count and before the other step.
+/// variable length. A counted list must come after its count and before the step with a variable length.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);

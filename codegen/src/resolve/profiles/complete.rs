@@ -1,7 +1,7 @@
 //! Adds the facts of a profile that a description lacks.
 //!
-//! Facts that the description states do not change. A profile adds nothing to an item whose type does not match the type in the
-//! profile, or to a missing object. Such differences are not reported.
+//! A profile does not change facts that the description states. A profile adds nothing to an item whose type does not match the
+//! type in the profile, or to a missing object. Such differences are not reported.
 
 use std::collections::HashMap;
 

@@ -126,7 +126,7 @@ structures! {
     Subject { kind, name, element }
 }
 
-/// Implements `Stored` for enumerations: the name of the variant, followed by its fields.
+/// Implements `Stored` for enumerations. The text contains the name of the variant, followed by its fields.
 macro_rules! enumerations {
     ($($name:ident { $($variant:ident $(($($item:ident),*))? $({ $($field:ident),* })?),* })*) => {$(
         impl Stored for $name {

@@ -118,8 +118,8 @@ impl<'a> Cursor<'a> {
         Ok(None)
     }
 
-    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text.
-    /// Otherwise, reads nothing and returns `None`.
+    /// Reads the innermost open element to its end and returns its text, if it contains exactly one piece of text and its
+    /// end tag contains no white space. Otherwise, reads nothing and returns `None`.
     pub fn only_text(&mut self) -> Option<Text<'a>> {
         let open = self.open.last().filter(|_| !self.empty)?;
         let rest = &self.text.as_bytes()[self.at..];

@@ -72,7 +72,7 @@ impl<'a> Tag<'a> {
         !self.attributes.is_empty()
     }
 
-    /// Returns the attribute with this name and any prefix except `xmlns`.
+    /// Returns the first attribute with this name, with or without a prefix. Ignores attributes with the prefix `xmlns`.
     ///
     /// # Errors
     ///

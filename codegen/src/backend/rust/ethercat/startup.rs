@@ -1,5 +1,5 @@
-//! Generates a constant with the SDO writes that configure the default PDO assignment. At run time, the method
-//! `Assignment::commands` returns the writes for any assignment.
+//! Generates a constant with the SDO writes that configure the default PDO assignment and the mapping of the assigned
+//! PDOs. At run time, the method `Assignment::commands` returns the writes for any assignment.
 
 use super::Assigned;
 use crate::backend::rust::code::Doc;

@@ -17,8 +17,8 @@ impl Buses {
         self == Buses::default()
     }
 
-    /// Returns whether all accesses use the item's own address without a conversion, and each bus allows all accesses
-    /// that the item allows.
+    /// Returns whether all accesses use the item's own address without a conversion, and each bus of the location
+    /// allows all accesses that the item allows.
     pub fn is_direct(self) -> bool {
         self.0.iter().all(|kind| matches!(kind, RouteKind::Absent | RouteKind::One(PathKind::Direct)))
     }

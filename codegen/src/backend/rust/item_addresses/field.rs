@@ -45,7 +45,7 @@ impl<'i> Field<'i> {
 }
 
 /// Returns whether the runtime can read the value from an image. The value must be a number within 8 bytes, or a
-/// sequence of bytes that starts at a byte boundary.
+/// sequence of bytes that starts at a byte boundary and has at most 65,535 bits.
 fn is_field(ty: Type, first: u32, bits: u32) -> bool {
     match ty {
         Type::VisibleString(_) | Type::OctetString(_) | Type::Opaque(_) => {

@@ -14,8 +14,8 @@ pub(in crate::backend::rust) struct Maker {
 }
 
 impl ItemAddresses<'_> {
-    /// If an object is the only address of the item, returns the name of the constructors for this object, and its
-    /// index and sub-index.
+    /// Returns the name of the constructors for an item with a single object address, and the index and sub-index of
+    /// the object. Returns `None` if these constructors cannot express the location.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
         let routed = self.routed();
         if !routed.is_simple() {
@@ -44,8 +44,8 @@ impl ItemAddresses<'_> {
         }
     }
 
-    /// Returns the addresses that at least one route uses. The other addresses are on buses that allow neither reading
-    /// nor writing.
+    /// Returns the addresses on the buses that have a route to the item. On other buses, a client can neither read nor
+    /// write the item.
     fn routed(&self) -> Self {
         let is_routed = |bus: RouteBus| self.routes[bus as usize].access_paths().next().is_some();
         ItemAddresses {

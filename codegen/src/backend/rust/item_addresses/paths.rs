@@ -85,7 +85,7 @@ fn through<'i>(located: &Located<'_>, item: &Item, bus: RouteBus, writes: bool) 
     })
 }
 
-/// Returns whether an item has neither variants nor an address that is indirect, in a process image or in the memory of
+/// Returns whether an item has no variants, no indirect address, and no address in a process image or in the memory of
 /// a slave controller.
 fn is_plain(item: &Item) -> bool {
     let is_address =
@@ -93,8 +93,8 @@ fn is_plain(item: &Item) -> bool {
     item.variants.is_empty() && item.bindings.iter().all(is_address)
 }
 
-/// Returns the type of a value in the memory of a slave controller: `ty`, or an unsigned integer if `length` is not the
-/// number of bytes of `ty`.
+/// Returns the type of a value in the memory of a slave controller. This is an unsigned integer of `length` bytes if
+/// `ty` has a different number of bytes and `length` is at most 8. Otherwise, it is `ty`.
 fn in_memory(ty: Type, length: u16) -> Type {
     match (ty.bits(), u8::try_from(length)) {
         (Some(bits), Ok(length @ 1..=8)) if bits.div_ceil(8) != u32::from(length) => Type::Unsigned(8 * length),

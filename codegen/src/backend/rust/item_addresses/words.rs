@@ -9,7 +9,8 @@ use crate::facts::{address, register};
 use crate::ir::{Item, RegisterSpace};
 
 impl ItemAddresses<'_> {
-    /// Returns the addresses of an item in words, except an address in the memory of a slave controller.
+    /// Returns the addresses of an item in words. Names in an ASCII protocol and addresses in the memory of a slave
+    /// controller are left out.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
         let object = |(index, sub)| address::object(index, sub);
         let mut facts = Vec::new();
@@ -47,7 +48,7 @@ impl ItemAddresses<'_> {
         self.image.map(|field| field.facts()).or(memory).or(self.number_in_words()).unwrap_or_default()
     }
 
-    /// Returns the number that selects the item in a window, and the buses that use the window.
+    /// Returns a text with the number that selects the item in a window, and the buses on which clients use a window.
     fn number_in_words(&self) -> Option<String> {
         let number = self.number()?;
         let window = |route: &Route<'_>| route.access_paths().find_map(|access_path| access_path.window);
@@ -65,7 +66,7 @@ impl ItemAddresses<'_> {
             .map(|(_, number)| number)
     }
 
-    /// Returns a suffix that distinguishes the item from others with the same name.
+    /// Returns a suffix that distinguishes the item from other items with the same name.
     pub fn suffix(&self) -> String {
         match (self.modbus, self.canopen.or(self.coe), self.serial) {
             (Some(register), _, _) => {

@@ -33,7 +33,7 @@ pub(in crate::backend::rust) struct CallModel {
 
 /// The state of the driver after power-on.
 pub(in crate::backend::rust) struct DefaultModel {
-    /// Type of the message that would also bring the driver into this state.
+    /// Type of the message that brings the driver into the same state when the program sends it.
     pub selector: String,
 }
 

@@ -51,8 +51,8 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
     all
 }
 
-/// Returns the name of the constant for a machine. This name is used only if several machines of the device have
-/// effects.
+/// Returns the name of the constant with the effects on one machine. This name is used only if messages have effects on
+/// several machines of the device.
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
     let name_request = NameRequest { name: &name, fallback: String::new(), suffix: "machine".to_owned() };

@@ -15,7 +15,7 @@ pub(in crate::backend::rust) struct ParametersModel {
 
 /// The message that reads or writes the parameters of a space.
 pub(in crate::backend::rust) struct Arm {
-    /// Name of the constant with the encoding rule of the space.
+    /// Name of the constant with the encoding rule of the parameter space.
     pub rule: String,
     /// Rust type of the message.
     pub message: String,

@@ -33,7 +33,7 @@ pub(in super::super) struct ProtocolModel {
     pub requests: Vec<(String, bool)>,
     pub request_derives: Vec<String>,
     pub calls: Vec<CallModel>,
-    /// State of the driver after power-on.
+    /// State of the driver for a device in its state after power-on.
     pub by_default: Option<DefaultModel>,
 }
 

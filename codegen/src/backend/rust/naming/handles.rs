@@ -27,7 +27,7 @@ pub(in crate::backend::rust) struct NamedRegister<'a> {
     pub entry: NamedItem<'a>,
 }
 
-/// An object with its name and the items that have values.
+/// An object that has values, with its name and its items.
 pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
@@ -88,8 +88,9 @@ impl<'a> HandleNames<'a> {
         is_descriptive.then_some(entry.name.as_str())
     }
 
-    /// Returns the full name of an item: the name of its handle. In an object with several values, the full name begins with the
-    /// object's name. The object's name is not repeated if the item's name already starts with it.
+    /// Returns the full name of an item: the name of its handle. In an object with several values, the full name begins
+    /// with the object's name. The object's name is left out in two cases: the item has a name and the object has none,
+    /// or the item's name already starts with the object's name.
     pub(super) fn whole(&self, id: ItemId) -> Option<Cow<'_, str>> {
         let (object, entry) = self.find(id)?;
         let (title, name) = (object.map_or("", |object| object.group.name.trim()), entry.item.name.trim());

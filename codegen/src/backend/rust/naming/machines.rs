@@ -12,11 +12,11 @@ pub(in crate::backend::rust) struct NamedMachine<'a> {
     pub commands: String,
     /// Name of the bit field method that returns the state.
     pub getter: String,
-    /// Name of the bit field function that returns the bits of a state.
+    /// Name of the bit field function that creates the bit field from a state.
     pub constructor: String,
     /// Name of the bit field method that returns the command.
     pub command_getter: String,
-    /// Name of the bit field method that sets the command.
+    /// Name of the bit field method that returns a copy with the given command.
     pub command_setter: String,
 }
 

@@ -67,8 +67,9 @@ fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec
     entries.into_iter().zip(names).map(|(entry, name)| NamedField { entry, name }).collect()
 }
 
-/// Returns the name of a mapped entry in the description: the name in the PDO, or the name of the object. If the object
-/// has several values, the name of the entry is appended.
+/// Returns the name of a mapped entry in the description. On EtherCAT, this is the name in the PDO, if there is one.
+/// Otherwise, it is the name of the object. If the object has several values, the name of the entry is appended. If the
+/// object dictionary does not contain the object, returns the name in the PDO.
 pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     if scope.bus == ObjectBus::CoE && !entry.name.is_empty() {
         return entry.name.to_string();

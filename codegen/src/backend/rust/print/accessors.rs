@@ -110,7 +110,7 @@ fn methods(code: &mut Code, model: &mut Model) {
 fn walk(code: &mut Code, walk: &WalkModel, is_async: bool) {
     let (suffix, keyword, client, done) =
         if is_async { ("_async", "async ", "rt::AsyncClient", ".await") } else { ("", "", "rt::Client", "") };
-    // The handle is on a separate line, because the lines of a long method chain would be broken.
+    // Write the handle on a separate line, because a long method chain would be broken into several lines.
     let handle = |code: &mut Code, path: &str| line!(code, "let item = ", path, ";");
     let read = seq!["item.at(&mut self.client).read", suffix, "()", done];
     match is_async {

@@ -31,8 +31,8 @@ const PARAMETERS: [(&str, &str, &str); 12] = [
     ("F_iPar_CRC", "i_par_crc", "IParCrc"),
 ];
 
-/// GSDML labels of values, with their numbers in the record. `CRC-Seed24/32` is the only label of F_CRC_Seed and means
-/// that its bit is 0. The checksums over the default values in vendor files confirm this value.
+/// GSDML labels of values, with their numbers in the record. `CRC-Seed24/32` is the only label of F_CRC_Seed and stands
+/// for the value 0 of this bit. The checksums over the default values in vendor files confirm this value.
 const LABELS: [(&str, u32); 12] = [
     ("NoCheck", 0),
     ("Check", 1),

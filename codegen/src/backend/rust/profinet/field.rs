@@ -202,7 +202,7 @@ impl<'v> Field<'v> {
         let at = || seq![data, "[", byte, "]"];
         let cut = |name: &str| call!(seq!["rt::profinet::be::", name], data, byte, bit, bits);
         if let Some(enumeration) = self.enumeration {
-            // The enumeration can be defined for a type with another number of bits.
+            // The type of the enumeration can have a different number of bits than the field.
             let is_whole = enumeration.native == native(self.is_signed(), bits);
             let raw = match self.kind {
                 FieldKind::Native { signed: false } if bits == 8 && is_whole => at(),

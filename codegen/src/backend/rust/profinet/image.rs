@@ -40,7 +40,7 @@ pub(in crate::backend::rust) struct FieldModel {
     pub ty: String,
     /// True if the type is an enumeration.
     pub is_enumeration: bool,
-    /// Attribute of the field that derived traits require.
+    /// Attribute that the field needs for derived traits.
     pub attribute: Option<String>,
     /// Expression that reads the field in a view.
     pub get: Doc,

@@ -12,8 +12,8 @@ use crate::ir::{Catalog, Direction, IoData, ModuleUse, Numbers, Submodule, Submo
 pub struct ProfinetProgram {
     /// Number of places in the slot plan: one for each submodule, and one for each module without submodules.
     pub places: usize,
-    /// Slot and name of the module that the program plugs. `None` if the program exchanges the data of a fixed or
-    /// default module, or no data.
+    /// Slot and name of the module that the program plugs. `None` if the program exchanges data with the device access
+    /// point or with a fixed or default module, or exchanges no data.
     pub plugged: Option<(u16, String)>,
     /// Whether the program also plugs the submodule whose data it exchanges.
     pub plugs_submodule: bool,
@@ -119,7 +119,8 @@ impl<'s> Plan<'s> {
     }
 
     /// Plugs the first module with cyclic data into a free slot that accepts it. If no fixed submodule of the module
-    /// has cyclic data, also plugs a submodule that has cyclic data.
+    /// has cyclic data, also plugs a submodule that has cyclic data. Modules are skipped if the device cannot exchange
+    /// so much data.
     fn plug(&mut self) -> Option<Exchange> {
         let AccessPoint { device, settings, .. } = self.point;
         for usage in &device.modules {
@@ -144,7 +145,8 @@ impl<'s> Plan<'s> {
         Some(Exchange { plugged: None, plugs_submodule: true, data })
     }
 
-    /// Plugs the first submodule with cyclic data into a free subslot of the module in `slot`.
+    /// Plugs the first submodule with cyclic data into a free subslot of the module in `slot`. Submodules are skipped
+    /// if the device cannot exchange so much data.
     fn plug_submodule(&mut self, slot: u16) -> Option<ProfinetData> {
         let uses = self.slots.get(&slot)?.uses;
         uses.iter().find_map(|usage| {

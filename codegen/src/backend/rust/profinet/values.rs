@@ -15,7 +15,7 @@ use crate::names::{self, Case, NameRequest};
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
 /// Names that enumerations must not have. Either the generated code uses the name from the prelude, or clippy would
-/// mistake a method for a constructor.
+/// mistake a method with the same name for a constructor.
 const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
 /// The enumerations of a catalog that generated code uses.

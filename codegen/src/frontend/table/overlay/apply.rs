@@ -267,8 +267,8 @@ impl<'o> Applied<'o> {
         if count > 0 {
             self.overlay_doubts(reader, &mut doubts);
         }
-        // In the IR, a module has no list of ambiguities. The selected devices that have the module get the
-        // ambiguities, or all selected devices if none has the module.
+        // In the IR, a module has no list of ambiguities. The ambiguities go to the selected devices that have the module. If no
+        // selected device has the module, they go to all selected devices.
         let takes = |device: &Device| device.modules.iter().any(|usage| chosen(&wanted, usage.module.0 as usize));
         let any_takes = devices.iter().any(|device| is_for(device, applies) && takes(device));
         for device in devices.iter_mut().filter(|device| is_for(device, applies) && (takes(device) || !any_takes)) {
@@ -372,7 +372,8 @@ impl<'o> Applied<'o> {
     }
 }
 
-/// Modules and submodules of the devices that the overlay does not select, each with the name of the first such device.
+/// Modules and submodules of the devices that the overlay does not select, each with the name of the first of these devices that
+/// has it.
 struct OtherDevices {
     modules: HashMap<ModuleId, CompactString>,
     submodules: HashMap<SubmoduleId, CompactString>,

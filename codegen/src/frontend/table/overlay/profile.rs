@@ -100,8 +100,8 @@ fn meaning(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Opt
     }
 }
 
-/// Returns the buses, unit, behavior and documentation that a row declares for its objects, and the clause of the
-/// standard.
+/// Returns the buses, unit, behavior and documentation that a row declares for its objects, and the standard with the clause that
+/// the row cites.
 fn described(reader: &mut Reader<'_, '_>, rows: &mut Rows, row: &PatchRow, ty: Option<Type>) -> Described {
     let mut item = Item { ty: ty.unwrap_or(Type::Opaque(None)), ..Item::new(Binding::canopen(0, 0)) };
     rows.fill(reader, &mut item, named(row), &row.row.value, None);
