@@ -1,10 +1,11 @@
-//! `lexibus network`: checks and builds the configuration of a CANopen network.
+//! `lexibus network`: checks and builds the configuration of a CANopen network or an EtherCAT segment.
 
 use lexibus_codegen::compile::Compilation as Reported;
 use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 use lexibus_network::check::bus_load;
 use lexibus_network::compile::{compile, Compilation};
+use lexibus_network::ethercat::Segment;
 use lexibus_network::frontend::schema;
 use lexibus_network::model::Network;
 use lexibus_network::output::{files, OutputFile};
@@ -37,7 +38,8 @@ fn build(arguments: &NetworkBuild) -> Result<bool, Failure> {
         let files = files(network);
         files.iter().try_for_each(|file| write(file, arguments, &mut reporter))?;
         if !arguments.check && !reporter.has_errors() {
-            reporter.progress(&format!("wrote {} files to {}", files.len(), arguments.out.display()));
+            let files = counted(files.len(), "file");
+            reporter.progress(&format!("wrote {files} to {}", arguments.out.display()));
             reporter.progress(&summary(network));
         }
     }
@@ -56,12 +58,29 @@ pub(super) fn report(reporter: &mut Reporter, compilation: &Compilation) -> Resu
     reporter.report(&Reported::of_diagnostics(source.clone(), diagnostics.clone()))
 }
 
+/// Returns a summary of the CANopen nodes and of the EtherCAT segment.
+fn summary(network: &Network) -> String {
+    let canopen = (!network.is_only_segment()).then(|| canopen_summary(network));
+    let segment = network.segment.as_ref().map(segment_summary);
+    canopen.into_iter().chain(segment).collect::<Vec<_>>().join("\n")
+}
+
 /// Returns a summary: the number of nodes including the master, the bus load of the cyclic frames, and the PDOs that
 /// the bus load leaves out, because they have neither an inhibit time nor an event timer.
-fn summary(network: &Network) -> String {
+fn canopen_summary(network: &Network) -> String {
     let nodes = network.nodes.len() + usize::from(network.master.is_some());
-    let noun = if nodes == 1 { "node" } else { "nodes" };
-    format!("{nodes} {noun}; {}", bus_load(network).summary())
+    format!("{}; {}", counted(nodes, "node"), bus_load(network).summary())
+}
+
+fn segment_summary(segment: &Segment) -> String {
+    let subdevices = counted(segment.subdevices.len(), "SubDevice");
+    let bytes = |count: u32| counted(count as usize, "byte");
+    format!("{subdevices}; {} of outputs, {} of inputs", bytes(segment.output_bytes), bytes(segment.input_bytes))
+}
+
+/// Formats a number with its noun: `1 file`, `2 files`.
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Writes a file, or compares it with the existing file.

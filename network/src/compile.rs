@@ -5,7 +5,7 @@ use lexibus_codegen::source::{FileId, Source};
 
 use crate::model::Network;
 use crate::syntax::At;
-use crate::{check, frontend, resolve};
+use crate::{check, ethercat, frontend, resolve};
 
 /// The result of a compilation.
 #[derive(Debug)]
@@ -32,7 +32,12 @@ pub fn compile(source: Source, levels: Levels) -> Compilation {
     let mut diagnostics = Diagnostics::new(levels);
     let declared = frontend::read(&source, FileId(0), &mut diagnostics);
     let bus = declared.as_ref().and_then(|declared| declared.bus.clone());
-    let network = declared.map(|declared| resolve::resolve(&source, declared, &mut diagnostics));
+    let network = declared.map(|mut declared| {
+        let segment = declared.segment.take();
+        let network = resolve::resolve(&source, declared, &mut diagnostics);
+        let segment = segment.map(|segment| ethercat::resolve(&source, &segment, &mut diagnostics));
+        Network { segment, ..network }
+    });
     if let Some(network) = &network {
         check::check(network, &mut diagnostics);
     }

@@ -2,6 +2,7 @@
 
 use lexibus_codegen::source::Span;
 
+use crate::ethercat::DeclaredSegment;
 use crate::syntax::{At, Scalar};
 
 /// A network as its file declares it.
@@ -15,10 +16,12 @@ pub struct DeclaredNetwork {
     pub bus: Option<At<String>>,
     /// The master.
     pub master: Option<DeclaredMaster>,
-    /// True if the format of the file has no master, so that a missing master is no fault.
+    /// True if a missing master is no fault: the format of the file has no master, or the file only declares an EtherCAT segment.
     pub is_master_optional: bool,
     /// All nodes except the master, in the order of the file.
     pub nodes: Vec<DeclaredNode>,
+    /// The EtherCAT segment, if the file declares one.
+    pub segment: Option<DeclaredSegment>,
 }
 
 /// The master as its section declares it. Times have the unit of the object that contains them.

@@ -1,4 +1,4 @@
-//! Reads the device descriptions of the nodes.
+//! Reads the device descriptions of nodes and SubDevices.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -7,11 +7,10 @@ use std::rc::Rc;
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics, Severity};
 use lexibus_codegen::facts::pdo::buses;
-use lexibus_codegen::ir::{Catalog, Device};
+use lexibus_codegen::ir::{Bus, Catalog, Device};
 use lexibus_codegen::selection::Selection;
-use lexibus_codegen::source::Source;
+use lexibus_codegen::source::{Source, Span};
 
-use crate::declared::DeclaredNode;
 use crate::syntax::At;
 
 /// The description of a device, which several nodes can share.
@@ -43,32 +42,53 @@ impl Description {
     }
 }
 
+/// The keys of a section that name a device description.
+pub(crate) struct DeviceReference<'d> {
+    /// Title of the section for diagnostics: ``the node `axis1` ``.
+    pub title: String,
+    /// Location of the section's name.
+    pub span: Span,
+    /// Path of the device description.
+    pub device: Option<&'d At<String>>,
+    /// Name, order code or product code of the device, if the description contains several devices.
+    pub model: Option<&'d At<String>>,
+    /// Folders that are searched for the device description before the folder of the network file.
+    pub folders: &'d [At<String>],
+    /// Paths of overlays.
+    pub overlays: &'d [At<String>],
+}
+
 /// Path of the description, paths of overlays, and model.
 type Key = (PathBuf, Vec<PathBuf>, String);
 
 /// Reads each description once.
 pub(crate) struct Descriptions<'s> {
     network: &'s Source,
+    bus: Bus,
     read: HashMap<Key, Option<Rc<Description>>>,
 }
 
 impl<'s> Descriptions<'s> {
-    pub fn new(network: &'s Source) -> Self {
-        Descriptions { network, read: HashMap::new() }
+    /// Creates a reader of the descriptions for devices on a bus.
+    pub fn new(network: &'s Source, bus: Bus) -> Self {
+        Descriptions { network, bus, read: HashMap::new() }
     }
 
-    /// Returns the description of a node. If several nodes have the same key, reports an unusable description only once.
-    pub fn of(&mut self, node: &DeclaredNode, diagnostics: &mut Diagnostics) -> Option<Rc<Description>> {
-        let Some(device) = &node.device else {
-            let message = format!("the node `{}` has no device description", node.name.value);
-            let found = Diagnostic::new(&codes::DESCRIPTION_NOT_FOUND, node.name.span, message);
-            diagnostics.push(found.help("add the path of an EDS, DCF, XDD, XDC or register table"));
+    /// Returns the description of a device. If several devices have the same key, reports an unusable description only once.
+    pub fn of(&mut self, reference: &DeviceReference<'_>, diagnostics: &mut Diagnostics) -> Option<Rc<Description>> {
+        let Some(device) = reference.device else {
+            let message = format!("{} has no device description", reference.title);
+            let found = Diagnostic::new(&codes::DESCRIPTION_NOT_FOUND, reference.span, message);
+            diagnostics.push(found.help(match self.bus {
+                Bus::EtherCat => "add the path of an ESI or register table",
+                _ => "add the path of an EDS, DCF, XDD, XDC or register table",
+            }));
             return None;
         };
-        let path = self.find(device, &node.folders, diagnostics)?;
+        let path = self.find(device, reference.folders, diagnostics)?;
         let overlays: Option<Vec<PathBuf>> =
-            node.overlays.iter().map(|overlay| self.find(overlay, &[], diagnostics)).collect();
-        let model = node.model.as_ref().map_or(String::new(), |model| model.value.clone());
+            reference.overlays.iter().map(|overlay| self.find(overlay, &[], diagnostics)).collect();
+        let model = reference.model.map_or(String::new(), |model| model.value.clone());
         let key = (path, overlays?, model);
         if let Some(known) = self.read.get(&key) {
             return known.clone();
@@ -91,7 +111,7 @@ impl<'s> Descriptions<'s> {
         let select = Selection { devices, ..Selection::default() };
         let options = Options { overlays, select, ..Options::default() };
         let compilation = compile::check(source.clone(), &options);
-        match usable(&compilation, &options.overlays) {
+        match usable(&compilation, &options.overlays, self.bus) {
             Ok(()) => Some(Description { source, options, catalog: compilation.catalog? }),
             Err(fault) => {
                 let found = Diagnostic::new(&codes::DESCRIPTION_UNUSABLE, device.span, fault.message).help(fault.help);
@@ -202,7 +222,7 @@ struct Fault {
     notes: Vec<String>,
 }
 
-fn usable(compilation: &Compilation, overlays: &[Source]) -> Result<(), Fault> {
+fn usable(compilation: &Compilation, overlays: &[Source], bus: Bus) -> Result<(), Fault> {
     let name = compilation.sources[0].name();
     let overlays = overlays.iter().map(|overlay| format!(" --overlay {}", overlay.name()));
     let overlays: String = overlays.collect();
@@ -216,17 +236,31 @@ fn usable(compilation: &Compilation, overlays: &[Source]) -> Result<(), Fault> {
         });
     }
     let fault = |message: String, help: &str| Err(Fault { message, help: help.to_owned(), notes: Vec::new() });
+    let help = match bus {
+        Bus::EtherCat => "use the description of an EtherCAT device",
+        _ => "use the description of a CANopen device",
+    };
     match devices {
-        [device] if buses(device).canopen && device.items().any(|item| item.object().is_some()) => Ok(()),
-        [_] => {
-            fault(format!("the device in `{name}` has no CANopen objects"), "use the description of a CANopen device")
-        }
-        [] => fault(format!("`{name}` describes no device"), "use the description of a CANopen device"),
+        [device] => match unsupported(device, bus) {
+            None => Ok(()),
+            Some(reason) => fault(format!("the device in `{name}` {reason}"), help),
+        },
+        [] => fault(format!("`{name}` describes no device"), help),
         several => Err(Fault {
             message: format!("`{name}` describes {} devices", several.len()),
             help: "choose a device with `model`".to_owned(),
             notes: several.iter().take(5).map(|device| format!("`{}` is a device", device.name)).collect(),
         }),
+    }
+}
+
+/// Returns the reason why a network file cannot contain a device on a bus.
+fn unsupported(device: &Device, bus: Bus) -> Option<&'static str> {
+    match bus {
+        Bus::EtherCat if device.ethercat.is_none() => Some("has no EtherCAT settings"),
+        Bus::EtherCat => None,
+        _ if buses(device).canopen && device.items().any(|item| item.object().is_some()) => None,
+        _ => Some("has no CANopen objects"),
     }
 }
 

@@ -1,4 +1,5 @@
 //! The network compiler of Lexibus: checks the configuration of a CANopen network, and writes DCF, concise DCF, DBC and typed Rust.
+//! Writes the configuration of an EtherCAT segment as data.
 //!
 //! ```
 //! use lexibus_codegen::diagnostics::Levels;
@@ -27,6 +28,7 @@
 //! | the resolved network | [`model`] |
 //! | values of objects after the configuration | [`values`] |
 //! | faults that would occur on the bus | [`check`] |
+//! | EtherCAT segments | [`ethercat`] |
 //! | output files | [`output`] |
 //!
 //! [`compile`] calls all stages before the output.
@@ -37,6 +39,7 @@ pub mod check;
 pub mod compile;
 pub mod declared;
 pub mod description;
+pub mod ethercat;
 pub mod frontend;
 pub mod model;
 pub mod output;

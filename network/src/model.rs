@@ -8,6 +8,7 @@ use lexibus_codegen::source::Span;
 
 use crate::declared::DeclaredMaster;
 use crate::description::Description;
+use crate::ethercat::Segment;
 use crate::syntax::At;
 use crate::values::{Values, Write};
 
@@ -33,12 +34,19 @@ pub struct Network {
     pub master: Option<DeclaredMaster>,
     /// All nodes except the master, in the order of the file.
     pub nodes: Vec<NetworkNode>,
+    /// The EtherCAT segment, if the file declares one.
+    pub segment: Option<Segment>,
 }
 
 impl Network {
     /// Returns the node-ID of the master; 255 = not configured.
     pub fn master_id(&self) -> u8 {
         self.master.as_ref().and_then(|master| master.node_id.as_ref()).map_or(255, |id| id.value)
+    }
+
+    /// Returns whether the file only declares an EtherCAT segment, and no CANopen nodes.
+    pub fn is_only_segment(&self) -> bool {
+        self.segment.is_some() && self.master.is_none() && self.nodes.is_empty()
     }
 
     /// Returns the enabled PDOs of one direction, in the order of the nodes. The PDOs of a node are sorted by number.

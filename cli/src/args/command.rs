@@ -54,7 +54,7 @@ pub(in super::super) enum Command {
     /// Print the JSON Schema of register tables.
     #[command(after_help = "Example:\n  lexibus schema --out lexibus.schema.json")]
     Schema(Schema),
-    /// Check and build the configuration of a CANopen network.
+    /// Check and build the configuration of a CANopen network or an EtherCAT segment.
     #[command(after_help = "Example:\n  lexibus network build network.toml --out network/")]
     Network(Network),
     /// Explain a diagnostic code. Without a code, list all codes.

@@ -14,10 +14,10 @@ pub(crate) struct Network {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkCommand {
-    /// Read and check a network file, and print its bus load.
+    /// Read and check a network file, and print its bus load or the length of its process data.
     #[command(after_help = "Example:\n  lexibus network check network.toml")]
     Check(NetworkCheck),
-    /// Write the DCFs and concise DCFs of the nodes and the master, a DBC, and Rust modules.
+    /// Write the DCFs and concise DCFs of the nodes and the master, a DBC, Rust modules, and the data of an EtherCAT segment.
     #[command(after_help = "Example:\n  lexibus network build network.toml --out network/")]
     Build(NetworkBuild),
     /// Print the JSON Schema of network.toml.

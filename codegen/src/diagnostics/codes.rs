@@ -1004,6 +1004,22 @@ codes! {
         "The number of mapped objects is 254 (SAM-MPDO) or 255 (DAM-MPDO). Each frame of such a PDO carries the \
         address of its value, and the PDO has no mapping (CiA 301, 7.5.2.36). The master does not exchange such a PDO, \
         and the bus load and the DBC leave it out. Declare a mapping with `map`, or disable the PDO."
+    NET025 SLOT_MODULE Error Deny "a slot of a SubDevice has an invalid module"
+        "The device has no such slot or no such module, the slot does not accept the module, or a slot that requires a \
+        module is empty. The device does not change to Safe-Operational with such a list of modules. Correct `modules`."
+    NET026 PDO_ASSIGNMENT Error Deny "the PDO assignment of a SubDevice is invalid"
+        "The description has no such PDO, or excludes the combination of two PDOs, or states that a PDO must be assigned, \
+        or has no sync manager for the PDO. The device does not change to Safe-Operational with such an assignment. \
+        Correct `pdos`."
+    NET027 SYNC_MANAGER_LENGTH Lint Deny "the process data exceed the maximum length of a sync manager"
+        "The assigned PDOs are longer than the memory of the sync manager (`MaxSize` of an ESI). The device does not change \
+        to Safe-Operational. Assign fewer or shorter PDOs with `pdos`."
+    NET028 NO_SUCH_CLOCK_MODE Error Deny "a SubDevice does not have a mode of the distributed clocks"
+        "The key `dc` must be the name of a mode in the description (`OpMode` of an ESI). Without the key, the first mode \
+        applies."
+    NET029 ALIAS_TWICE Error Deny "two SubDevices have the same station alias"
+        "A MainDevice cannot distinguish SubDevices by an alias that several of them have. Give each SubDevice its own alias, \
+        or none."
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! Reads the keys that `network.toml` and `bus.yml` have in common. The names of some of these keys differ.
 
+use std::ops::RangeInclusive;
+
 use super::object_name::object_name;
 use super::reader::{Reader, Table};
-use crate::declared::{DeclaredCobId, DeclaredMaster, DeclaredNode, DeclaredPdo, ObjectName};
+use crate::declared::{DeclaredCobId, DeclaredMaster, DeclaredNode, DeclaredParameter, DeclaredPdo, ObjectName};
 use crate::syntax::{At, Content, Entry, Node, Scalar};
 
 /// Names of keys that differ between the formats.
@@ -58,19 +60,19 @@ fn startup(reader: &mut Reader<'_>, table: Table<'_>) -> u32 {
 fn error_behavior(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<At<(u8, u8)>> {
     let entries = table.get("error_behavior").map_or(&[][..], |node| reader.entries(node, "sub-index = value"));
     let entry = |entry: &Entry| {
-        let sub_index = numbered(reader, entry, "a sub-index", 254)?;
+        let sub_index = numbered(reader, entry, "a sub-index", 1..=254)?;
         let value = reader.integer_of::<u8>(&entry.value, 0..=255)?;
         Some(At::new((sub_index as u8, value.value), value.span))
     };
     entries.iter().filter_map(entry).collect()
 }
 
-/// Returns the number from 1 to `maximum` that is the name of a key, or reports the key.
-fn numbered(reader: &mut Reader<'_>, entry: &Entry, what: &str, maximum: u16) -> Option<u16> {
-    let number = entry.key.parse().ok().filter(|number| (1..=maximum).contains(number));
+/// Returns the number in `range` that is the name of a key, or reports the key.
+pub(crate) fn numbered(reader: &mut Reader<'_>, entry: &Entry, what: &str, range: RangeInclusive<u16>) -> Option<u16> {
+    let number = entry.key.parse().ok().filter(|number| range.contains(number));
     if number.is_none() {
         let key = Node { span: entry.key.span, content: Content::Scalar(Scalar::Text(entry.key.value.clone())) };
-        reader.invalid(&key, &format!("{what} from 1 to {maximum}"));
+        reader.invalid(&key, &format!("{what} from {} to {}", range.start(), range.end()));
     }
     number
 }
@@ -110,7 +112,7 @@ pub(crate) fn pdos(
     let entries = table.get(key).map_or(&[][..], |node| reader.entries(node, "number of the PDO = table"));
     let mut list = Vec::new();
     for entry in entries {
-        let Some(number) = numbered(reader, entry, "the number of a PDO", 512) else { continue };
+        let Some(number) = numbered(reader, entry, "the number of a PDO", 1..=512) else { continue };
         let pdo = reader.table(&entry.value, section);
         let mapping = pdo.get(names.mapping);
         let mapping = mapping.map(|node| {
@@ -161,4 +163,14 @@ fn sender(text: &str) -> Option<DeclaredCobId> {
 /// Reads a text with the address or name of an object.
 pub(crate) fn named_object(reader: &mut Reader<'_>, node: &Node) -> Option<At<ObjectName>> {
     reader.text_of(node).map(|text| At::new(object_name(&text.value), text.span))
+}
+
+/// Reads the key `parameters`: objects with their values.
+pub(crate) fn parameters(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<DeclaredParameter> {
+    let entries = table.get("parameters").map_or(&[][..], |node| reader.entries(node, "object = value"));
+    let parameter = |entry: &Entry| {
+        let object = At::new(object_name(&entry.key), entry.key.span);
+        Some(DeclaredParameter { object, value: reader.scalar(&entry.value)? })
+    };
+    entries.iter().filter_map(parameter).collect()
 }

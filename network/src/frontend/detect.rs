@@ -5,7 +5,7 @@ use lexibus_codegen::source::{FileId, Source};
 
 use super::{bus_yml, cpj, network_toml};
 use crate::declared::DeclaredNetwork;
-use crate::syntax::{parse_toml, parse_yaml, Content, Node, SyntaxError};
+use crate::syntax::{parse_toml, parse_yaml, Content, Entry, Node, SyntaxError};
 
 /// Format of a network file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,16 +31,17 @@ impl Format {
     }
 }
 
-/// Returns whether a file is a network file: a file with the extension of another format, or a TOML file with the key `nodes`.
+/// Returns whether a file is a network file: a file with the extension of another format, or a TOML file with the key `nodes` or `segment`.
 pub fn is_network(source: &Source) -> bool {
     match Format::of_name(source.name()) {
-        Some(Format::Toml) => parse_toml(source, FileId(0)).is_ok_and(|root| has_nodes(&root)),
+        Some(Format::Toml) => parse_toml(source, FileId(0)).is_ok_and(|root| has_devices(&root)),
         format => format.is_some(),
     }
 }
 
-fn has_nodes(root: &Node) -> bool {
-    matches!(&root.content, Content::Table(entries) if entries.iter().any(|entry| entry.key.value == "nodes"))
+fn has_devices(root: &Node) -> bool {
+    let is_list = |entry: &Entry| ["nodes", "segment"].contains(&entry.key.value.as_str());
+    matches!(&root.content, Content::Table(entries) if entries.iter().any(is_list))
 }
 
 /// Reads a network file. Reports an unknown extension or a syntax error, and then returns `None`.

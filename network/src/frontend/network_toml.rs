@@ -2,12 +2,12 @@
 
 use lexibus_codegen::diagnostics::Diagnostics;
 
-use super::common::{self, named_object, Names};
-use super::object_name::object_name;
-use super::reader::{Reader, Table};
+use super::common::{self, named_object, parameters, Names};
+use super::reader::Reader;
 use super::section::{keys, Form, Section};
-use crate::declared::{DeclaredNetwork, DeclaredNode, DeclaredParameter};
-use crate::syntax::{At, Content, Entry, Node};
+use crate::declared::{DeclaredNetwork, DeclaredNode};
+use crate::ethercat;
+use crate::syntax::{Content, Entry, Node};
 
 const U8: Form = Form::Integer(0, 0xFF);
 const U16: Form = Form::Integer(0, 0xFFFF);
@@ -23,6 +23,7 @@ pub(super) static FILE: Section = Section {
         "network" Form::Table(&NETWORK), "Name, bit rate and bus of the network.";
         "master" Form::Table(&MASTER), "The NMT master.";
         "nodes" Form::Named(&NODE), "All nodes except the master, by name.";
+        "segment" Form::Table(&ethercat::SECTION), "The EtherCAT segment.";
     },
 };
 
@@ -109,7 +110,7 @@ static PDO: Section = Section {
     },
 };
 
-static SECTIONS: [&Section; 5] = [&FILE, &NETWORK, &MASTER, &NODE, &PDO];
+static SECTIONS: [&Section; 7] = [&FILE, &NETWORK, &MASTER, &NODE, &PDO, &ethercat::SECTION, &ethercat::SUBDEVICE];
 
 const NAMES: Names = Names { id: "id", heartbeat: "heartbeat", mapping: "map" };
 
@@ -132,6 +133,8 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> DeclaredNetwor
     });
     let nodes = file.get("nodes").map_or(&[][..], |nodes| reader.entries(nodes, "name of the node = table"));
     network.nodes = nodes.iter().filter_map(|entry| node(&mut reader, entry)).collect();
+    network.segment = file.get("segment").map(|section| ethercat::read(&mut reader, section));
+    network.is_master_optional = network.segment.is_some() && file.get("nodes").is_none();
     network
 }
 
@@ -154,13 +157,4 @@ fn node(reader: &mut Reader<'_>, entry: &Entry) -> Option<DeclaredNode> {
     }
     node.parameters = parameters(reader, table);
     Some(node)
-}
-
-fn parameters(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<DeclaredParameter> {
-    let entries = table.get("parameters").map_or(&[][..], |node| reader.entries(node, "object = value"));
-    let parameter = |entry: &Entry| {
-        let object = At::new(object_name(&entry.key), entry.key.span);
-        Some(DeclaredParameter { object, value: reader.scalar(&entry.value)? })
-    };
-    entries.iter().filter_map(parameter).collect()
 }

@@ -8,7 +8,7 @@ use super::section::{Form, Key, Section};
 /// Returns the JSON Schema (draft 2020-12) of `network.toml`.
 pub fn schema() -> String {
     let mut text = String::from("{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n");
-    text += "  \"title\": \"CANopen network\",\n  \"description\": \"network.toml of Lexibus.\",\n";
+    text += "  \"title\": \"CANopen network or EtherCAT segment\",\n  \"description\": \"network.toml of Lexibus.\",\n";
     object(&mut text, &FILE, 1);
     text + "}\n"
 }

@@ -2,7 +2,7 @@
 
 use lexibus_codegen::RustOptions;
 
-use super::{concise, dbc, dcf, master_dcf, master_writes, rust};
+use super::{concise, dbc, dcf, master_dcf, master_writes, rust, segment_json, segment_rust};
 use crate::model::Network;
 
 /// An output file.
@@ -20,9 +20,19 @@ impl OutputFile {
     }
 }
 
-/// Returns all output files of a network: for each node a DCF, a Rust module, and a concise DCF if values are written to the node;
-/// for a master its DCF, and a concise DCF if the master writes values to itself; a DBC; and the Rust module of the network.
+/// Returns all output files of a network: those of the CANopen nodes, and `segment.json` and `segment.rs` for an EtherCAT segment.
 pub fn files(network: &Network) -> Vec<OutputFile> {
+    let mut files = if network.is_only_segment() { Vec::new() } else { canopen_files(network) };
+    if let Some(segment) = &network.segment {
+        files.push(OutputFile::new("segment.json", segment_json(segment)));
+        files.push(OutputFile::new("segment.rs", segment_rust(segment)));
+    }
+    files
+}
+
+/// Returns the output files of the CANopen nodes: for each node a DCF, a Rust module, and a concise DCF if values are written to the
+/// node; for a master its DCF, and a concise DCF if the master writes values to itself; a DBC; and the Rust module of the network.
+fn canopen_files(network: &Network) -> Vec<OutputFile> {
     let mut files = Vec::new();
     for node in &network.nodes {
         let stem = node.file_stem();

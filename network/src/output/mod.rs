@@ -11,6 +11,8 @@ mod identity;
 mod master;
 mod master_objects;
 mod rust;
+mod segment;
+mod segment_rust;
 mod site;
 
 pub use concise::concise;
@@ -20,4 +22,6 @@ pub use dcf::dcf;
 pub use files::{files, OutputFile};
 pub use master::{master_dcf, master_writes};
 pub use rust::rust;
+pub use segment::segment_json;
+pub use segment_rust::segment_rust;
 pub use site::{announce, pages};

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lexibus_codegen::diagnostics::Diagnostics;
-use lexibus_codegen::ir::Direction;
+use lexibus_codegen::ir::{Bus, Direction};
 
 use super::pdo_values::direction;
 use super::writer::Writer;
@@ -27,7 +27,8 @@ impl<'n> DescribedNode<'n> {
         description: Rc<Description>,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut writer = Writer { device: description.device(), id, writes: Vec::new(), diagnostics };
+        let mut writer =
+            Writer { device: description.device(), bus: Bus::CanOpen, id, writes: Vec::new(), diagnostics };
         declared.parameters.iter().for_each(|parameter| writer.parameter(parameter));
         let parameters = writer.writes;
         DescribedNode { declared, id, description, parameters }

@@ -1,6 +1,7 @@
 //! Heartbeat consumers of the nodes (0x1016), which monitor the master.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::ir::Bus;
 
 use super::writer::Writer;
 use crate::model::{consumer_time, Network, NetworkNode};
@@ -16,7 +17,8 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
         let monitors = |(_, value): &&(u8, u32)| value & 0xFFFF != 0 && (value >> 16) as u8 == master_id;
         let is_declared = declared.iter().any(|entry| monitors(&entry));
         let description = std::rc::Rc::clone(&node.description);
-        let mut writer = Writer { device: description.device(), id: node.id, writes: Vec::new(), diagnostics };
+        let mut writer =
+            Writer { device: description.device(), bus: Bus::CanOpen, id: node.id, writes: Vec::new(), diagnostics };
         if *is_consumer && time > 0 && !is_declared {
             match free_entry(&described, master_id) {
                 Some(sub_index) => writer.write((0x1016, sub_index), u32::from(master_id) << 16 | time & 0xFFFF, span),

@@ -3,7 +3,7 @@
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
-use lexibus_codegen::ir::{Direction, Item, Type};
+use lexibus_codegen::ir::{Bus, Direction, Item, Type};
 use lexibus_codegen::source::Span;
 
 use super::value::basic_type;
@@ -51,7 +51,7 @@ fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) 
     }
     let bits = mapped_bits(item, &device.types)?;
     // Many devices map a BOOLEAN as a byte.
-    let is_byte = basic_type(device, item) == Type::Boolean && entry.bits == 8;
+    let is_byte = basic_type(device, item, Bus::CanOpen) == Type::Boolean && entry.bits == 8;
     if is_byte || bits == u32::from(entry.bits) {
         return None;
     }

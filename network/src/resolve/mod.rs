@@ -14,3 +14,4 @@ mod versions;
 mod writer;
 
 pub use run::resolve;
+pub(crate) use writer::Writer;

@@ -2,7 +2,7 @@
 
 use lexibus_codegen::diagnostics::Diagnostics;
 use lexibus_codegen::facts::configuration::{Configuration, Setting};
-use lexibus_codegen::ir::Device;
+use lexibus_codegen::ir::{Bus, Device};
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;
@@ -70,7 +70,7 @@ fn writes(
 ) -> Vec<Write> {
     let device = description.device();
     let writes = if declared.is_description_written { described(device, id) } else { Vec::new() };
-    let mut writer = Writer { device, id, writes, diagnostics };
+    let mut writer = Writer { device, bus: Bus::CanOpen, id, writes, diagnostics };
     writer.change((0x1012, 0), declared.time_cob_id.as_ref());
     writer.change((0x1017, 0), declared.heartbeat.as_ref());
     writer.change((0x100C, 0), declared.guard_time.as_ref());

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::ir::Bus;
 use lexibus_codegen::source::{FileId, Source, Span};
 
 use super::cob_ids::CobIds;
 use super::described_node::DescribedNode;
 use super::{heartbeat, mapping, node};
 use crate::declared::{DeclaredNetwork, DeclaredNode};
-use crate::description::Descriptions;
+use crate::description::{Descriptions, DeviceReference};
 use crate::model::{file_stem, Network};
 
 /// Default bit rate in kbit/s, as in `dcfgen`.
@@ -20,10 +21,10 @@ pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Dia
     check_master(&declared, diagnostics);
     let mut repeated = check_node_ids(&declared, diagnostics);
     repeated.extend(check_names(&declared, diagnostics));
-    let mut descriptions = Descriptions::new(source);
+    let mut descriptions = Descriptions::new(source, Bus::CanOpen);
     let mut nodes = Vec::new();
     for node in declared.nodes.iter().filter(|node| !repeated.contains(&node.name.span)) {
-        let description = descriptions.of(node, diagnostics);
+        let description = descriptions.of(&reference(node), diagnostics);
         if let (Some(id), Some(description)) = (&node.node_id, description) {
             nodes.push(DescribedNode::new(node, id.value, description, diagnostics));
         }
@@ -36,11 +37,23 @@ pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Dia
         bit_rate_at: declared.bit_rate.map_or(Span::MISSING, |rate| rate.span),
         master: declared.master,
         nodes: resolved,
+        segment: None,
     };
     let consumers: Vec<bool> = network.nodes.iter().map(|node| consumes(&declared.nodes, &node.name.value)).collect();
     network.nodes.iter().for_each(|node| mapping::check(node, diagnostics));
     heartbeat::monitor_master(&mut network, &consumers, diagnostics);
     network
+}
+
+fn reference(node: &DeclaredNode) -> DeviceReference<'_> {
+    DeviceReference {
+        title: format!("the node `{}`", node.name.value),
+        span: node.name.span,
+        device: node.device.as_ref(),
+        model: node.model.as_ref(),
+        folders: &node.folders,
+        overlays: &node.overlays,
+    }
 }
 
 fn consumes(nodes: &[DeclaredNode], name: &str) -> bool {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use lexibus_codegen::facts::{encoding, types};
 use lexibus_codegen::ir::owner::Owner;
-use lexibus_codegen::ir::{Device, Item, Limits, Scale, Type, Value};
+use lexibus_codegen::ir::{Bus, Device, Item, Limits, Scale, Type, Value};
 use lexibus_codegen::text::similar;
 
 use crate::syntax::Scalar;
@@ -26,16 +26,23 @@ impl WrongValue {
     }
 }
 
-/// Returns the basic type of an item on CANopen.
-pub(crate) fn basic_type(device: &Device, item: &Item) -> Type {
-    types::basic(&device.types, item.object_type())
+/// Returns the basic type of an item on CANopen or EtherCAT.
+pub(crate) fn basic_type(device: &Device, item: &Item, bus: Bus) -> Type {
+    types::basic(&device.types, declared_type(item, bus))
+}
+
+fn declared_type(item: &Item, bus: Bus) -> Type {
+    match bus {
+        Bus::EtherCat => item.type_on(bus),
+        _ => item.object_type(),
+    }
 }
 
 /// Converts a declared value. Formulas with `$NODEID` are resolved for the node-ID `id`.
-pub(crate) fn convert(device: &Device, item: &Item, given: &Scalar, id: u8) -> Result<Value, WrongValue> {
-    let ty = basic_type(device, item);
+pub(crate) fn convert(device: &Device, item: &Item, bus: Bus, given: &Scalar, id: u8) -> Result<Value, WrongValue> {
+    let ty = basic_type(device, item, bus);
     let value = match (given, ty) {
-        (Scalar::Text(text), _) => text_value(device, item, text, ty)?.resolved(id),
+        (Scalar::Text(text), _) => text_value(device, item, bus, text)?.resolved(id),
         (Scalar::Integer(number @ 0..=1), Type::Boolean) => Value::Bool(*number == 1),
         (Scalar::Integer(number), Type::Real32 | Type::Real64) => Value::Real(*number as f64),
         (Scalar::Integer(number), _) if ty.integer_range().is_some() => Value::Int(*number),
@@ -69,7 +76,8 @@ fn unit(item: &Item) -> Option<&str> {
     (!quantity.unit.is_empty()).then_some(quantity.unit.as_str())
 }
 
-fn text_value(device: &Device, item: &Item, text: &str, ty: Type) -> Result<Value, WrongValue> {
+fn text_value(device: &Device, item: &Item, bus: Bus, text: &str) -> Result<Value, WrongValue> {
+    let ty = basic_type(device, item, bus);
     match ty {
         Type::VisibleString(_) | Type::UnicodeString(_) => return Ok(Value::Text(text.into())),
         Type::OctetString(_) | Type::Domain | Type::Opaque(_) => {
@@ -80,12 +88,17 @@ fn text_value(device: &Device, item: &Item, text: &str, ty: Type) -> Result<Valu
         _ => {}
     }
     if let Some(offset) = formula(text) {
-        return Ok(Value::NodeId(offset));
+        return match bus {
+            Bus::EtherCat => Err(WrongValue::new("a device on EtherCAT has no node-ID").help("write a number")),
+            _ => Ok(Value::NodeId(offset)),
+        };
     }
-    if let Some((number, unit)) = quantity(text) {
-        return physical(item, number, unit, ty);
+    // The name of a value can have the form of a physical value: `50 Hz`.
+    match (named(device, item, bus, text), quantity(text)) {
+        (Some(value), _) => Ok(value),
+        (None, Some((number, unit))) => physical(item, number, unit, ty),
+        (None, None) => Err(unnamed(device, item, bus, text)),
     }
-    named(device, item, text, ty)
 }
 
 /// Reads `$NODEID`, `$NODEID+0x180`.
@@ -148,23 +161,28 @@ fn decimal(number: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// Returns the names and values of the object's enumeration.
+fn enumeration<'d>(device: &'d Device, item: &Item, bus: Bus) -> Option<impl Iterator<Item = (&'d str, i128)>> {
+    let (values, _) = Owner::of_types(&device.types).enumeration(declared_type(item, bus))?;
+    Some(values.iter().filter(|value| value.is_named()).map(|value| (value.name.as_str(), value.value)))
+}
+
 /// Returns the value with a name of the object's enumeration.
-fn named(device: &Device, item: &Item, text: &str, ty: Type) -> Result<Value, WrongValue> {
-    let values = Owner::of_types(&device.types).enumeration(item.object_type());
-    let Some((values, _)) = values else {
-        return Err(WrongValue::new(format!("{text:?} is not a value of the type {ty}")));
+fn named(device: &Device, item: &Item, bus: Bus, text: &str) -> Option<Value> {
+    let mut values = enumeration(device, item, bus)?;
+    let named = values.find(|(name, _)| name.eq_ignore_ascii_case(text));
+    named.map(|(_, value)| Value::Int(value))
+}
+
+/// Returns the reason why a text is not the name of a value.
+fn unnamed(device: &Device, item: &Item, bus: Bus, text: &str) -> WrongValue {
+    let Some(values) = enumeration(device, item, bus) else {
+        return WrongValue::new(format!("{text:?} is not a value of the type {}", basic_type(device, item, bus)));
     };
-    let is_named = |name: &str| name.eq_ignore_ascii_case(text);
-    match values.iter().find(|value| value.is_named() && is_named(&value.name)) {
-        Some(value) => Ok(Value::Int(value.value)),
-        None => {
-            let wrong = WrongValue::new(format!("the object has no value `{text}`"));
-            let names = values.iter().filter(|value| value.is_named()).map(|value| value.name.as_str());
-            Err(match similar(text, names) {
-                Some(name) => wrong.help(format!("write `{name}`")),
-                None => wrong.help("write a number"),
-            })
-        }
+    let wrong = WrongValue::new(format!("the object has no value `{text}`"));
+    match similar(text, values.map(|(name, _)| name)) {
+        Some(name) => wrong.help(format!("write `{name}`")),
+        None => wrong.help("write a number"),
     }
 }
 

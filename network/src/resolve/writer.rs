@@ -11,9 +11,10 @@ use crate::declared::{DeclaredParameter, ObjectName};
 use crate::syntax::{At, Scalar};
 use crate::values::{Values, Write};
 
-/// Collects the values that are written to a node.
-pub(super) struct Writer<'a> {
+/// Collects the values that are written to a node or to a SubDevice.
+pub(crate) struct Writer<'a> {
     pub device: &'a Device,
+    pub bus: Bus,
     pub id: u8,
     pub writes: Vec<Write>,
     pub diagnostics: &'a mut Diagnostics,
@@ -44,7 +45,7 @@ impl Writer<'_> {
     pub fn parameter(&mut self, parameter: &DeclaredParameter) {
         let Some((item, object)) = find(self.device, &parameter.object, self.diagnostics) else { return };
         let span = parameter.value.span;
-        match convert(self.device, item, &parameter.value.value, self.id) {
+        match convert(self.device, item, self.bus, &parameter.value.value, self.id) {
             Err(wrong) => {
                 let message = format!("{}: {}", title(item, object), wrong.message);
                 let found = Diagnostic::new(&codes::PARAMETER_TYPE, span, message);
@@ -52,7 +53,7 @@ impl Writer<'_> {
             }
             Ok(value) => {
                 self.check(item, object, &value, parameter);
-                let Some(bytes) = encoding::bytes(&value, basic_type(self.device, item)) else { return };
+                let Some(bytes) = encoding::bytes(&value, basic_type(self.device, item, self.bus)) else { return };
                 self.writes.push(Write { object, value: Some(value), bytes, span });
             }
         }
@@ -60,15 +61,15 @@ impl Writer<'_> {
 
     /// Reports a value outside of the limits, and an object that cannot be written.
     fn check(&mut self, item: &Item, object: (u16, u8), value: &Value, parameter: &DeclaredParameter) {
-        let limits = item.limits_on(Bus::CanOpen).unwrap_or(&item.limits);
+        let limits = item.limits_on(self.bus).unwrap_or(&item.limits);
         if let Some(rule) = broken_limit(limits, value, self.id) {
             let message = format!("{}: the value {value} is {rule}", title(item, object));
             self.diagnostics.push(Diagnostic::new(&codes::PARAMETER_RANGE, parameter.value.span, message));
         }
-        if !item.access_on(Bus::CanOpen).writable() {
+        if !item.access_on(self.bus).writable() {
             let message = format!("{} cannot be written", title(item, object));
             let found = Diagnostic::new(&codes::READ_ONLY_PARAMETER, parameter.object.span, message);
-            let access = item.access_on(Bus::CanOpen).name();
+            let access = item.access_on(self.bus).name();
             self.diagnostics.push(
                 found.label(format!("the description states the access rights `{access}`")).help("remove the value"),
             );

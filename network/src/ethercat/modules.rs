@@ -1,0 +1,214 @@
+//! The modules in the slots of a modular SubDevice.
+
+use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::facts::number::hex32;
+use lexibus_codegen::ir::{Catalog, Device, Fit, Module, Slot};
+use lexibus_codegen::source::Span;
+use lexibus_codegen::text::similar;
+
+use super::declared::{DeclaredModule, DeclaredSubDevice};
+use crate::syntax::{At, Scalar};
+
+/// Maximum number of slots: the list of module idents (0xF030) has 255 sub-indices.
+const MAX_SLOTS: u16 = 255;
+
+/// A module in a slot.
+#[derive(Clone, Copy)]
+pub(super) struct Plugged<'d> {
+    /// Number of the slot, counted from 0.
+    pub number: u16,
+    pub slot: &'d Slot,
+    pub module: &'d Module,
+}
+
+/// Amounts that are added to indices that depend on the slot or the slot group.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Offsets {
+    slot: u16,
+    group: u16,
+}
+
+impl Offsets {
+    /// Returns the index in the slot for the index in the description.
+    pub fn apply(self, index: u16, depends_on_slot: bool, depends_on_slot_group: bool) -> u16 {
+        let slot = if depends_on_slot { self.slot } else { 0 };
+        let group = if depends_on_slot_group { self.group } else { 0 };
+        index.wrapping_add(slot).wrapping_add(group)
+    }
+}
+
+impl Plugged<'_> {
+    /// Returns the offsets of object indices.
+    pub fn objects(self) -> Offsets {
+        self.offsets(self.slot.index_increment, self.slot.group_index_increment)
+    }
+
+    /// Returns the offsets of PDO indices.
+    pub fn pdos(self) -> Offsets {
+        self.offsets(self.slot.pdo_increment, self.slot.group_pdo_increment)
+    }
+
+    fn offsets(self, per_slot: u16, per_group: u16) -> Offsets {
+        Offsets {
+            slot: per_slot.wrapping_mul(self.number),
+            group: self.slot.group.map_or(0, |number| per_group.wrapping_mul(number)),
+        }
+    }
+}
+
+/// A modular device with the modules that it accepts.
+struct Modular<'d> {
+    device: &'d Device,
+    modules: Vec<&'d Module>,
+}
+
+/// Returns the modules of a SubDevice, sorted by slot: those of the file, or the default modules of the description.
+pub(super) fn plug<'d>(
+    catalog: &'d Catalog,
+    device: &'d Device,
+    declared: &DeclaredSubDevice,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Plugged<'d>> {
+    let known = device.modules.iter().filter_map(|usage| catalog.modules.get(usage.module.0 as usize));
+    let modular = Modular { device, modules: known.collect() };
+    let mut plugged = match &declared.modules {
+        None => modular.default_modules(),
+        Some(modules) => modular.declared_modules(modules, diagnostics),
+    };
+    plugged.sort_by_key(|plugged| plugged.number);
+    // A module that was rejected would be reported again.
+    if declared.modules.as_ref().is_none_or(|modules| modules.len() == plugged.len()) {
+        let span = declared.modules.as_ref().map_or(declared.name.span, |modules| modules.span);
+        modular.check_minimum(&plugged, span, diagnostics);
+    }
+    plugged
+}
+
+fn fault(span: Span, message: String) -> Diagnostic {
+    Diagnostic::new(&codes::SLOT_MODULE, span, message)
+}
+
+fn shown(module: &Module) -> String {
+    format!("`{}` ({})", if module.id.is_empty() { &module.name } else { &module.id }, hex32(module.number))
+}
+
+fn accepts(slot: &Slot, module: &Module) -> bool {
+    let fits = |fit: &Fit| match fit {
+        Fit::Ident(ident) => *ident == module.number,
+        Fit::Class(class) | Fit::Name(class) => !class.is_empty() && *class == module.class,
+    };
+    slot.fits.is_empty() || slot.fits.iter().any(fits)
+}
+
+impl<'d> Modular<'d> {
+    /// Returns the slots with the number of the first slot of each series.
+    fn series(&self) -> impl Iterator<Item = (u16, &'d Slot)> {
+        self.device.slots.iter().scan(0u16, |next, slot| {
+            let first = *next;
+            *next = first.saturating_add(slot.instances.1);
+            Some((first, slot))
+        })
+    }
+
+    fn slot(&self, number: u16) -> Option<&'d Slot> {
+        let mut series = self.series();
+        series.find(|(first, slot)| number >= *first && number - first < slot.instances.1).map(|(_, slot)| slot)
+    }
+
+    fn count(&self) -> u16 {
+        self.device.slots.iter().fold(0u16, |count, slot| count.saturating_add(slot.instances.1))
+    }
+
+    fn default_modules(&self) -> Vec<Plugged<'d>> {
+        let plugged = |number| {
+            let slot = self.slot(number)?;
+            let Some(Fit::Ident(ident)) = slot.default else { return None };
+            let module = self.modules.iter().find(|module| module.number == ident && accepts(slot, module))?;
+            Some(Plugged { number, slot, module })
+        };
+        (0..self.count().min(MAX_SLOTS)).filter_map(plugged).collect()
+    }
+
+    fn declared_modules(&self, modules: &[DeclaredModule], diagnostics: &mut Diagnostics) -> Vec<Plugged<'d>> {
+        let mut plugged = Vec::new();
+        for DeclaredModule { slot, module } in modules {
+            match self.declared_module(slot, module) {
+                Ok(module) => plugged.push(module),
+                Err(found) => diagnostics.push(*found),
+            }
+        }
+        plugged
+    }
+
+    fn declared_module(&self, number: &At<u16>, name: &At<Scalar>) -> Result<Plugged<'d>, Box<Diagnostic>> {
+        let Some(slot) = self.slot(number.value).filter(|_| number.value < MAX_SLOTS) else {
+            let found = fault(number.span, format!("`{}` has no slot {}", self.device.name, number.value));
+            let count = self.count().min(MAX_SLOTS);
+            return Err(Box::new(match count {
+                0 => found.help("remove `modules`; the device is not modular"),
+                _ => found.help(format!("use a slot from 0 to {}", count - 1)),
+            }));
+        };
+        let found: Vec<&Module> = self.modules.iter().copied().filter(|module| is_named(module, name)).collect();
+        if let Some(module) = found.iter().find(|module| accepts(slot, module)) {
+            return Ok(Plugged { number: number.value, slot, module });
+        }
+        let accepted = || self.modules.iter().filter(|module| accepts(slot, module));
+        let names = accepted().take(8).map(|module| shown(module)).collect::<Vec<_>>().join(", ");
+        let help =
+            if names.is_empty() { "remove the module".to_owned() } else { format!("use one of the modules {names}") };
+        Err(Box::new(match found.first() {
+            Some(module) => {
+                let message = format!("slot {} does not accept the module {}", number.value, shown(module));
+                fault(name.span, message).help(help)
+            }
+            None => {
+                let message = format!("`{}` has no module {}", self.device.name, given(&name.value));
+                let ids = accepted().flat_map(|module| [module.id.as_str(), module.name.as_str()]);
+                let similar = match &name.value {
+                    Scalar::Text(text) => similar(text, ids.filter(|id| !id.is_empty())),
+                    _ => None,
+                };
+                let help = similar.map_or(help, |similar| format!("write `{similar}`"));
+                fault(name.span, message).help(help)
+            }
+        }))
+    }
+
+    /// Reports a series of slots with fewer modules than its minimum.
+    fn check_minimum(&self, plugged: &[Plugged<'_>], span: Span, diagnostics: &mut Diagnostics) {
+        for (first, slot) in self.series() {
+            let (minimum, maximum) = slot.instances;
+            let is_inside = |number: u16| number >= first && number - first < maximum;
+            let count = plugged.iter().filter(|plugged| is_inside(plugged.number)).count();
+            if count < usize::from(minimum) {
+                let message = match maximum {
+                    0 | 1 => format!("slot {first} (`{}`) has no module", slot.name),
+                    _ => {
+                        let last = first.saturating_add(maximum - 1);
+                        let slots = format!("slots {first} to {last} (`{}`)", slot.name);
+                        format!("{slots} have {count} modules, but the minimum is {minimum}")
+                    }
+                };
+                diagnostics.push(fault(span, message).help("declare the modules in `modules`: slot = module"));
+            }
+        }
+    }
+}
+
+fn is_named(module: &Module, name: &Scalar) -> bool {
+    match name {
+        Scalar::Text(text) => [&module.id, &module.name].iter().any(|name| name.eq_ignore_ascii_case(text)),
+        Scalar::Integer(ident) => i128::from(module.number) == *ident,
+        _ => false,
+    }
+}
+
+/// Formats a module as the file names it.
+fn given(name: &Scalar) -> String {
+    match name {
+        Scalar::Text(text) => format!("`{text}`"),
+        Scalar::Integer(ident) => u32::try_from(*ident).map_or_else(|_| ident.to_string(), hex32),
+        other => other.described(),
+    }
+}

@@ -1,0 +1,188 @@
+//! The resolved segment: the configuration of each SubDevice as data.
+
+use lexibus_codegen::facts::number;
+use lexibus_codegen::ir::Direction;
+use serde::{Serialize, Serializer};
+
+/// An EtherCAT segment.
+#[derive(Debug, Default, Serialize)]
+pub struct Segment {
+    /// Cycle time in ns; `None` if the file does not declare it.
+    pub cycle_time: Option<u64>,
+    /// Length of the outputs of all SubDevices in bytes. They start at logical address 0.
+    pub output_bytes: u32,
+    /// Length of the inputs of all SubDevices in bytes. They follow the outputs.
+    pub input_bytes: u32,
+    /// SubDevices in the order of their positions.
+    pub subdevices: Vec<SubDevice>,
+}
+
+/// The configuration of a SubDevice.
+#[derive(Debug, Serialize)]
+pub struct SubDevice {
+    /// Name of the SubDevice, as its file spells it.
+    pub name: String,
+    /// Position on the bus, counted from 0.
+    pub position: u16,
+    /// Station alias; 0 = none.
+    pub alias: u16,
+    /// Expected identity.
+    pub identity: Identity,
+    /// Modules in the slots, sorted by slot.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub modules: Vec<PluggedModule>,
+    /// Commands in the order in which a MainDevice sends them.
+    pub startup: Vec<StartupCommand>,
+    /// Sync managers, sorted by number.
+    pub sync_managers: Vec<SyncManager>,
+    /// FMMUs of the process data.
+    pub fmmus: Vec<Fmmu>,
+    /// Assigned PDOs, in the order of the process data of their sync managers.
+    pub pdos: Vec<AssignedPdo>,
+    /// Settings of the distributed clocks; `None` if the description has no modes.
+    pub dc: Option<Clock>,
+}
+
+/// Identity of a SubDevice; `None` = the description does not state the number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Identity {
+    /// Vendor-ID.
+    pub vendor_id: Option<u32>,
+    /// Product code.
+    pub product_code: Option<u32>,
+    /// Revision number.
+    pub revision_number: Option<u32>,
+}
+
+/// A module in a slot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PluggedModule {
+    /// Number of the slot, counted from 0.
+    pub slot: u16,
+    /// Ident of the module.
+    pub ident: u32,
+    /// Name of the module.
+    pub name: String,
+}
+
+/// An SDO download during a state transition.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct StartupCommand {
+    /// State transition: `IP` = Init to Pre-Operational, `PS` = Pre-Operational to Safe-Operational, `SO`, `SP`, `OP`, `OS`.
+    pub transition: &'static str,
+    /// Index of the object.
+    pub index: u16,
+    /// Sub-index of the object.
+    pub sub_index: u8,
+    /// True if the command uses complete access.
+    pub complete_access: bool,
+    /// Bytes of the value, as in the SDO download.
+    #[serde(serialize_with = "hexadecimal")]
+    pub data: Vec<u8>,
+}
+
+fn hexadecimal<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&number::bytes(bytes))
+}
+
+/// Settings of a sync manager (ETG.1000.4 6.7.2).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SyncManager {
+    /// Number of the sync manager.
+    pub number: u8,
+    /// Purpose as in an ESI: `MBoxOut`, `MBoxIn`, `Outputs`, `Inputs`.
+    pub purpose: &'static str,
+    /// Physical start address.
+    pub start_address: u16,
+    /// Length in bytes. For process data, this is the length of the assigned PDOs.
+    pub length: u16,
+    /// Value of the control register.
+    pub control: u8,
+    /// True if the sync manager is enabled. A sync manager without data is disabled.
+    pub enable: bool,
+    /// True if the sync manager is enabled only in Operational.
+    pub op_only: bool,
+}
+
+/// An FMMU, which maps the process data of a sync manager bytewise to logical addresses (ETG.1000.4 6.6.2).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Fmmu {
+    /// Number of the FMMU.
+    pub number: u8,
+    /// Number of the sync manager.
+    pub sync_manager: u8,
+    /// Direction of the data: `outputs` or `inputs`.
+    #[serde(serialize_with = "direction")]
+    pub direction: Direction,
+    /// Logical start address. The first byte of the outputs has address 0.
+    pub logical_address: u32,
+    /// Length in bytes.
+    pub length: u16,
+    /// Physical start address.
+    pub physical_address: u16,
+    /// True if the FMMU is enabled only in Operational.
+    pub op_only: bool,
+}
+
+fn direction<S: Serializer>(direction: &Direction, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(match direction {
+        Direction::Receive => "outputs",
+        Direction::Transmit => "inputs",
+    })
+}
+
+/// An assigned PDO or padding, with the position of its data.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct AssignedPdo {
+    /// Index of the PDO; 0 for padding without a PDO.
+    pub index: u16,
+    /// Name of the PDO; may be empty.
+    pub name: String,
+    /// Slot of the module that contains the PDO; `None` for a PDO of the SubDevice itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slot: Option<u16>,
+    /// Number of the sync manager.
+    pub sync_manager: u8,
+    /// Offset in bits in the process data of the sync manager.
+    pub bit_offset: u32,
+    /// Length in bits.
+    pub bits: u32,
+}
+
+/// Settings of the distributed clocks of a SubDevice.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Clock {
+    /// Name of the mode.
+    pub mode: String,
+    /// Value of register 0x0980 (`AssignActivate`).
+    pub assign_activate: u32,
+    /// Times of SYNC0.
+    pub sync0: ClockSignal,
+    /// Times of SYNC1.
+    pub sync1: ClockSignal,
+    /// Settings that the mode requires of sync managers. They are not applied.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sync_managers: Vec<ClockSyncManager>,
+}
+
+/// Times of a SYNC signal in ns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ClockSignal {
+    /// Cycle time.
+    pub cycle_time: i64,
+    /// Shift time.
+    pub shift_time: i64,
+    /// True if the shift is relative to the inputs.
+    pub relative_to_inputs: bool,
+}
+
+/// Settings of a sync manager that a mode of the distributed clocks requires.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ClockSyncManager {
+    /// Number of the sync manager.
+    pub number: u8,
+    /// Synchronization type as in object 0x1C32:01; `None` if the description does not state it.
+    pub sync_type: Option<u16>,
+    /// Indices of PDOs, and the oversampling factor of each PDO.
+    pub pdos: Vec<(u16, Option<u16>)>,
+}
