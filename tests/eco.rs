@@ -126,7 +126,7 @@ fn saving_and_guarding() {
 
 #[test]
 fn interpolator() {
-    // Section "Modo interpolatore". The statusword is mapped at sub-index 2, but the manual prints sub-index 1.
+    // Section "Modo interpolatore". The mapping entry of the statusword is 0x1A00:02, but the manual prints sub-index 1.
     writes(interpolation_time_period::IP_TIME_UNITS, 1, [0x2F, 0xC2, 0x60, 1, 1, 0, 0, 0]);
     // 513 is the default COB-ID of RPDO 1 for node 1. The example sets this COB-ID in all nodes that share the PDO.
     let of_node_1 = ReceivePdoIdentifier::from_raw(513);
@@ -203,7 +203,7 @@ fn procedures_send_what_the_manual_lists() {
     // Section "Modo controllo di velocità".
     let settings = [(0x6092, 1, 32, 60), (0x6083, 0, 32, 5), (0x6084, 0, 32, 5)];
     sends(&procedures::VELOCITY_BY_402, &[&settings[..], &[(0x6060, 0, 8, 3), (0x60FF, 0, 32, 1000)]].concat());
-    // Section "Modo interpolatore". The statusword is mapped at sub-index 2, but the manual prints sub-index 1.
+    // Section "Modo interpolatore". The mapping entry of the statusword is 0x1A00:02, but the manual prints sub-index 1.
     let out = [(0x1400, 2, 8, 1), (0x1600, 0, 8, 0), (0x1600, 1, 32, 0x60C1_0120), (0x1600, 2, 32, 0x6040_0010)];
     let back = [(0x1800, 2, 8, 1), (0x1A00, 0, 8, 0), (0x1A00, 1, 32, 0x6064_0020), (0x1A00, 2, 32, 0x6041_0010)];
     let all = [&out[..], &[(0x1600, 0, 8, 2)], &back, &[(0x1A00, 0, 8, 2)]].concat();

@@ -107,7 +107,7 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// First use of each type. The map is built at the first lookup, because only diagnostics need the map.
+/// Location of the first use of each type. The map is built at the first lookup, because only diagnostics need the map.
 pub(crate) struct TypeUses<'a> {
     uses: OnceCell<HashMap<TypeId, Span>>,
     owner: Owner<'a>,

@@ -52,7 +52,7 @@ pub(super) fn for_each(device: &mut Device, visit: Visit<'_>) {
     }
 }
 
-/// Visits the references in items and types that can refer to items.
+/// Visits each reference in an item or type whose target can be an item.
 pub(super) fn of_items_and_types<'g>(
     groups: impl Iterator<Item = &'g mut Group>,
     types: &mut [TypeDef],

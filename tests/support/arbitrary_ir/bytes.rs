@@ -1,4 +1,4 @@
-//! Random choices from a sequence of bytes. After the last byte, each choice returns the minimum, and lists get no more
+//! Derives random choices from a sequence of bytes. After the last byte, each choice returns the minimum, and lists get no more
 //! elements.
 
 use std::ops::RangeInclusive;

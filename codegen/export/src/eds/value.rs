@@ -83,7 +83,7 @@ fn real(value: &Value, ty: Type) -> Written {
     match value {
         Value::Real(value) if value.is_finite() => {
             let short = format!("{:?}", *value as f32);
-            // A shorter text is sufficient if it gives the same REAL32 value.
+            // The digits of the 32-bit value are sufficient if they give exactly the same 64-bit value.
             let is_enough = ty == Type::Real32 && short.parse() == Ok(*value);
             let text = if is_enough { short } else { format!("{value:?}") };
             written(text.strip_suffix(".0").map_or(text.clone(), str::to_owned))

@@ -36,7 +36,7 @@ options! {
         subslot: u16 = "subslot",
         /// Minimum interval between two frames in units of 31.25 µs (MinDeviceInterval).
         min_device_interval: u16 = "min-device-interval",
-        /// Last part of the object UUID (ObjectUUID_LocalIndex).
+        /// Instance number in the object UUID of the device (ObjectUUID_LocalIndex).
         object_uuid_index: u16 = "object-uuid-index",
         /// Maximum length of the controller's inputs in bytes, including provider and consumer status (MaxInputLength).
         max_input_length: u16 = "max-input-length",
