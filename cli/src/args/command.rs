@@ -319,14 +319,20 @@ mod tests {
     }
 
     #[test]
-    fn the_help_of_each_subcommand_ends_with_a_valid_example() {
+    fn the_help_of_each_subcommand_ends_with_valid_examples() {
         for command in Arguments::command().get_subcommands_mut() {
             let name = command.get_name().to_owned();
             let help = command.render_long_help().to_string();
-            let (_, example) =
-                help.trim_end().rsplit_once("\nExample:\n  ").unwrap_or_else(|| panic!("{name}: {help}"));
-            assert!(example.starts_with(&format!("lexibus {name} ")), "{example}");
-            Arguments::try_parse_from(example.split_whitespace()).unwrap_or_else(|error| panic!("{example}: {error}"));
+            let (_, examples) = help
+                .trim_end()
+                .rsplit_once("\nExample:\n")
+                .or_else(|| help.trim_end().rsplit_once("\nExamples:\n"))
+                .unwrap_or_else(|| panic!("{name}: {help}"));
+            for example in examples.lines().map(str::trim) {
+                assert!(example.starts_with(&format!("lexibus {name} ")), "{example}");
+                Arguments::try_parse_from(example.split_whitespace())
+                    .unwrap_or_else(|error| panic!("{example}: {error}"));
+            }
         }
     }
 }
