@@ -273,10 +273,10 @@ fn a_node_of_a_network_is_accessed_by_name() {
     assert!(code == Some(0) && text.contains("write 0x6081:00 Profile velocity = 20000\n"), "{text}");
     let (code, text, error) = in_folder(&["verify", "axis1"]);
     assert!(code == Some(0) && text.starts_with("0 deviations"), "{text}{error}");
-    let monitor = ["monitor", "axis1", "--read", "0x6081", "--duration", "300", "--format", "csv"];
+    let monitor = ["monitor", "axis1", "--read", "0x6081", "--duration", "2000", "--format", "csv"];
     let (code, text, error) = in_folder(&monitor);
     assert!(code == Some(0) && text.contains(",5,sdo,0x6081:00,Profile velocity,20000\n"), "{text}{error}");
-    let (code, text, error) = in_folder(&["monitor", "--duration", "500"]);
+    let (code, text, error) = in_folder(&["monitor", "--duration", "2000"]);
     assert!(code == Some(0) && text.contains("node 5: state Pre-operational\n"), "{text}{error}");
     // A node that the network file does not contain is an error. `--overlay` is an error, because the network file
     // names the overlays itself.
