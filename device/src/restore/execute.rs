@@ -74,7 +74,7 @@ impl fmt::Display for Outcome<'_> {
             writeln!(f, "{write}: {status}")?;
         }
         for (write, actual) in &self.mismatches {
-            writeln!(f, "{write}: written, but the device returns another value or an error: {actual}")?;
+            writeln!(f, "{write}: written, but reading it back returned: {actual}")?;
         }
         if self.unconfirmed > 0 {
             writeln!(f, "{} written values could not be read back", self.unconfirmed)?;

@@ -233,7 +233,7 @@ fn files_that_are_no_backups_are_refused() {
     assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plain\" }]").contains("the value is missing"));
     assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plan\", value = 1 }]").contains("did you mean"));
     let other = "lexibus-backup = 1\nparameters = [{ address = \"0\", name = \"Gain\", value = 1 }]";
-    assert!(error(other).contains("has the name `Gain`"));
+    assert!(error(other).contains("states another name for this address: `Gain`"));
     // The plan refuses a value that doesn't fit the type.
     let text = "lexibus-backup = 1\nparameters = [{ name = \"Plain\", value = 70000 }]";
     let saved = Backup::from_toml(text, &description).expect("a backup");

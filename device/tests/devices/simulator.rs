@@ -184,7 +184,7 @@ fn a_device_that_keeps_another_value_is_reported() {
     let saved = save(&description, &mut connection);
     let outcome = restore(&description, &saved, &mut connection);
     assert_eq!(outcome.mismatches.len(), 1, "{outcome}");
-    assert!(outcome.to_string().contains("the device has another value after the write: 4"), "{outcome}");
+    assert!(outcome.to_string().contains("written, but reading it back returned: 4"), "{outcome}");
 }
 
 #[test]
