@@ -92,7 +92,7 @@ impl Check<'_, '_> {
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
-            // A limit just outside the named values is probably wrong. A limit far outside them probably leaves room for
+            // A limit just outside the named values is probably wrong. A limit far outside them probably allows
             // values without names.
             let named = || values.iter().filter(|label| label.is_named());
             let is_slip = match is_upper {

@@ -159,7 +159,8 @@ impl Item {
         self.configured.as_ref()?.value.as_ref()
     }
 
-    /// Returns the initial value of the item: the value that a configuration file sets, or else the default value.
+    /// Returns the initial value of the item: the value that a configuration file sets or, if none is set,
+    /// the default value.
     pub fn initial(&self) -> Option<&Value> {
         self.configured_value().or(self.default.as_ref())
     }

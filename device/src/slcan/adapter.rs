@@ -77,8 +77,8 @@ impl<L: SerialLine> Adapter<L> {
         self.command(b"O\r", "the adapter refuses to open the channel")
     }
 
-    /// Discards received bytes until the adapter sends nothing for [`SILENCE`], but for about five times [`SILENCE`] at
-    /// most.
+    /// Discards received bytes until the adapter sends nothing for [`SILENCE`]. Stops after about five times
+    /// [`SILENCE`].
     fn discard(&mut self) -> io::Result<()> {
         let end = Instant::now() + 5 * SILENCE;
         while self.read(SILENCE)? > 0 && Instant::now() < end {}

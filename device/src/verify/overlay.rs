@@ -10,7 +10,7 @@ impl Report {
     /// Returns an overlay with the deviations that an overlay can express, or `None` if there are none.
     ///
     /// Each row has the finding as a comment. The length of a value determines its type: an unsigned integer up to 8
-    /// bytes, or else `bytes`. The type of an undeclared object that cannot be read is `?`.
+    /// bytes, and `bytes` above. The type of an undeclared object that cannot be read is `?`.
     #[must_use]
     pub fn overlay(&self) -> Option<String> {
         let rows: Vec<(&Finding, String)> =
@@ -59,7 +59,7 @@ fn row(finding: &Finding) -> Option<String> {
     }
 }
 
-/// Returns an unsigned integer type up to 8 bytes, or else `bytes`. Returns `None` for length 0.
+/// Returns an unsigned integer type up to 8 bytes, and `bytes` above. Returns `None` for length 0.
 fn type_of(bytes: usize) -> Option<String> {
     match bytes {
         0 => None,

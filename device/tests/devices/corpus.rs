@@ -35,8 +35,8 @@ impl Mirror {
     }
 }
 
-/// Returns the bytes of the value that the simulated device has: the identity number, the initial value, or else a
-/// value within the limits.
+/// Returns the bytes of the value that the simulated device has: the identity number, the initial value or, if there
+/// is none, a value within the limits.
 fn initial(parameter: &Parameter<'_>) -> Vec<u8> {
     let identity = &parameter.description().device().identity;
     let object = parameter.address().object();

@@ -100,7 +100,7 @@ fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {
 }
 
 /// Returns the first key of a row that describes a value or a further address of a value. An object with sub-entries
-/// does not have a value of its own.
+/// has no value itself.
 pub(super) fn of_value(row: &Row) -> Option<&'static str> {
     macro_rules! first {
         ($($key:literal $field:ident)*) => {

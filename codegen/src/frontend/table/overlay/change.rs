@@ -78,7 +78,7 @@ impl RowPatcher<'_> {
         }
     }
 
-    /// Returns the reason for the change that a row makes: the key `why` of the row, or else of the overlay.
+    /// Returns the reason for the change that a row makes: the key `why` of the row or, if it is missing, of the overlay.
     fn why<'r>(&'r self, row: &'r Row) -> &'r str {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
