@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use lexibus_codegen::facts::pdo::is_mapping;
 use lexibus_codegen::facts::physical::{shown_unit, Physical};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::facts::{address, encoding, item as facts, types};
@@ -168,8 +169,8 @@ impl<'d> Parameter<'d> {
     pub fn text(&self, value: &Value) -> String {
         let text = facts::value(self.item, value, self.types());
         // The text of a COB-ID or of a mapped object already explains its bits.
-        let is_explained = PLAIN.is_named(self.item, value)
-            || self.address.object().is_some_and(|object| matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF));
+        let is_explained =
+            PLAIN.is_named(self.item, value) || self.address.object().is_some_and(|object| is_mapping(object.index));
         if let Some(meaning) = facts::meaning(self.ty(), value, self.types()).filter(|_| !is_explained) {
             return format!("{text} ({meaning})");
         }

@@ -232,6 +232,6 @@ fn is_io_output(index: u16) -> bool {
 }
 
 /// Returns the letters and digits of a name in lower case.
-fn letters(name: &str) -> String {
+pub(crate) fn letters(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }

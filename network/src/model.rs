@@ -21,6 +21,24 @@ pub const EXTENDED: u32 = 1 << 29;
 /// Bit of the COB-ID of a TPDO that the node does not send on RTR (CiA 301 7.5.2.37).
 pub const NO_RTR: u32 = 1 << 30;
 
+/// Bit of 0x1F81 (CiA 302-2): the master boots the node.
+pub const BOOT: u32 = 0x04;
+
+/// Bit of 0x1F81: the network needs the node.
+pub const MANDATORY: u32 = 0x08;
+
+/// Bit of 0x1F81: the master does not reset the node while it is Operational.
+pub const KEEP_RUNNING: u32 = 0x10;
+
+/// Bit of 0x1F81: the master verifies the software version.
+pub const VERIFY_SOFTWARE: u32 = 0x20;
+
+/// Bit of 0x1F81: the master updates the software.
+pub const UPDATE_SOFTWARE: u32 = 0x40;
+
+/// Bit of 0x1F81: the master restores the defaults before the configuration.
+pub const RESTORE: u32 = 0x80;
+
 /// A network whose nodes have descriptions.
 #[derive(Debug, Default)]
 pub struct Network {
@@ -154,6 +172,25 @@ impl NetworkNode {
         self.device().entry(object.0, object.1)
     }
 
+    /// Returns the item that a PDO maps, or `None` for a gap and for an object that the description does not contain.
+    pub fn mapped_item(&self, entry: &MappedObject) -> Option<&Item> {
+        self.item((entry.index, entry.sub_index)).filter(|_| !entry.is_gap())
+    }
+
+    /// Returns the name of an object's entry. If the object has several entries, the name of the object and `separator` precede it.
+    pub fn entry_name(&self, object: (u16, u8), separator: &str) -> String {
+        let entry = self.item(object).map(|item| item.name.as_str()).unwrap_or_default();
+        match self.device().object(object.0).filter(|group| group.items.len() > 1) {
+            Some(group) => format!("{}{separator}{entry}", group.name),
+            None => entry.to_owned(),
+        }
+    }
+
+    /// Returns the name of a PDO of this node: ``TPDO 1 of `axis1` ``.
+    pub fn pdo_title(&self, pdo: &NetworkPdo) -> String {
+        format!("{} of `{}`", pdo.title(), self.name.value)
+    }
+
     /// Returns the values that the objects have after the configuration.
     pub fn values(&self) -> Values<'_> {
         Values { device: self.device(), id: self.id, writes: &self.writes }
@@ -264,6 +301,11 @@ impl MappedObject {
     /// Returns the object in an entry of a mapping (CiA 301 7.5.2.36).
     pub fn of_word(word: u32) -> Self {
         MappedObject { index: (word >> 16) as u16, sub_index: (word >> 8) as u8, bits: word as u8 }
+    }
+
+    /// Returns whether the entry is a gap: its index is the code of a data type.
+    pub fn is_gap(self) -> bool {
+        self.index < 0x1000
     }
 
     /// Returns the mapping entry for the object (CiA 301 7.5.2.36).

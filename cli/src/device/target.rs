@@ -34,8 +34,7 @@ impl Device {
     fn of(target: &Target, values: Values) -> Result<Self, Failure> {
         let timeout = Duration::from_millis(target.timeout.into());
         if let Some(node) = target.node {
-            let bus =
-                target.bus.clone().ok_or_else(|| Failure::Usage("add the bus, such as --bus can:can0".to_owned()))?;
+            let bus = target.bus.clone().ok_or_else(no_bus)?;
             let description = files::description(&target.file_or_node, &target.options, bus.network())?;
             return Ok(Self { bus, node, description, timeout });
         }
@@ -48,6 +47,10 @@ impl Device {
     pub(super) fn connect(&self) -> Result<Box<dyn Connection>, Failure> {
         Ok(self.bus.connect(&self.description, self.node, self.timeout)?)
     }
+}
+
+fn no_bus() -> Failure {
+    Failure::Usage("add the bus, such as --bus can:can0".to_owned())
 }
 
 /// Opens the network file that contains the node of a target.
@@ -107,7 +110,7 @@ impl Watched {
         match (&self.network, &self.bus) {
             (Some(network), bus) => network.bus(bus.as_ref()),
             (None, Some(bus)) => Ok(bus.clone()),
-            (None, None) => Err(Failure::Usage("add the bus, such as --bus can:can0".to_owned())),
+            (None, None) => Err(no_bus()),
         }
     }
 }

@@ -75,6 +75,11 @@ pub fn is_changeable(pdo: &Pdo) -> bool {
     !(pdo.fixed || pdo.is_virtual || pdo.depends_on_slot || pdo.depends_on_slot_group)
 }
 
+/// Returns whether an object contains the mapping of a PDO (CiA 301 7.5.2.36 and 7.5.2.38).
+pub fn is_mapping(index: u16) -> bool {
+    matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
+}
+
 /// Returns the number of consecutive writable entries in a mapping object, counted from sub-index 1, up to `MAX_PDO_SUBS`.
 /// Returns `None` if there are none, or if the number of entries cannot be written.
 pub fn writable_entries(mapping: &Group) -> Option<usize> {

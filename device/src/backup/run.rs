@@ -1,5 +1,6 @@
 //! Reads the parameters of a device.
 
+use lexibus_codegen::facts::pdo;
 use lexibus_codegen::ir::Storage;
 
 use super::entry::{Backup, Entry, Skipped};
@@ -88,10 +89,8 @@ fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mu
 /// Returns whether the device can lack the parameter: a mapping entry above the number of mapped objects, an optional
 /// parameter, or a parameter of some models or versions.
 fn is_optional(parameter: &Parameter<'_>) -> bool {
-    let is_mapping = parameter
-        .address()
-        .object()
-        .is_some_and(|object| object.sub_index > 0 && matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF));
+    let is_mapping =
+        parameter.address().object().is_some_and(|object| object.sub_index > 0 && pdo::is_mapping(object.index));
     is_mapping || parameter.item().is_optional || parameter.item().availability.is_some()
 }
 

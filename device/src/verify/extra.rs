@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use lexibus_codegen::facts::pdo;
 use lexibus_codegen::ir::{Group, Value};
 
 use super::finding::{Finding, FindingKind, Found};
-use super::mapping;
 use super::session::Run;
 use crate::connection::Connection;
 use crate::failure::Failure;
@@ -72,7 +72,7 @@ fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let description = run.description;
     for group in &description.device().groups {
         let has_entries = group.object_code().is_some_and(lexibus_codegen::ir::ObjectCode::has_subs);
-        let Some(index) = group.index().filter(|index| has_entries && *index != 0x1003 && !mapping::is_mapping(*index))
+        let Some(index) = group.index().filter(|index| has_entries && *index != 0x1003 && !pdo::is_mapping(*index))
         else {
             continue;
         };

@@ -109,37 +109,21 @@ pub struct Finding {
 impl Finding {
     /// Creates a finding about a parameter.
     pub(super) fn of(parameter: &Parameter<'_>, kind: FindingKind, message: impl Into<String>) -> Self {
-        let message = message.into();
-        let (address, name) = (parameter.address_text(), parameter.path());
-        Self { kind, address, name, message, declared: None, actual: None, abort_code: None, found: Found::Other }
+        Self::new(kind, parameter.address_text(), parameter.path(), message.into())
     }
 
     /// Creates a finding about an object that the description doesn't declare.
     pub(super) fn of_object(index: u16, sub_index: u8, message: impl Into<String>) -> Self {
-        Self {
-            kind: FindingKind::Extra,
-            address: address::object(index, sub_index),
-            name: String::new(),
-            message: message.into(),
-            declared: None,
-            actual: None,
-            abort_code: None,
-            found: Found::Other,
-        }
+        Self::new(FindingKind::Extra, address::object(index, sub_index), String::new(), message.into())
     }
 
     /// Creates a finding about a fact of the whole device.
     pub(super) fn of_device(kind: FindingKind, fact: &str, message: impl Into<String>) -> Self {
-        Self {
-            kind,
-            address: fact.to_owned(),
-            name: String::new(),
-            message: message.into(),
-            declared: None,
-            actual: None,
-            abort_code: None,
-            found: Found::Other,
-        }
+        Self::new(kind, fact.to_owned(), String::new(), message.into())
+    }
+
+    fn new(kind: FindingKind, address: String, name: String, message: String) -> Self {
+        Self { kind, address, name, message, declared: None, actual: None, abort_code: None, found: Found::Other }
     }
 
     /// Adds what the description declares and what the device has.

@@ -3,6 +3,7 @@
 use super::finding::{Finding, FindingKind};
 use super::session::Run;
 use crate::connection::Connection;
+use crate::protection::letters;
 
 /// Address of the findings in the report.
 const IDENTITY: &str = "identity";
@@ -12,7 +13,7 @@ pub(super) fn check<C: Connection>(run: &mut Run<'_, C>) {
     let identity = &run.description.device().identity;
     // The product name of a register table is often that of a series, so only the order code is compared.
     let facts = [(0, "vendor name", identity.vendor_name.as_str()), (1, "product code", identity.order_code.as_str())];
-    let stated = || facts.into_iter().filter(|(_, _, declared)| !folded(declared).is_empty());
+    let stated = || facts.into_iter().filter(|(_, _, declared)| !letters(declared).is_empty());
     if stated().next().is_none() {
         return unverifiable(run, "the description states neither vendor nor order code".to_owned());
     }
@@ -21,7 +22,7 @@ pub(super) fn check<C: Connection>(run: &mut Run<'_, C>) {
         Err(failure) => return unverifiable(run, format!("no device identification (function 43): {failure}")),
     };
     for (id, fact, declared) in stated() {
-        match objects.iter().find(|(object, text)| *object == id && !folded(text).is_empty()) {
+        match objects.iter().find(|(object, text)| *object == id && !letters(text).is_empty()) {
             None => unverifiable(run, format!("the device identification has no {fact}")),
             Some((_, actual)) if agrees(declared, actual) => {}
             Some((_, actual)) => {
@@ -38,13 +39,8 @@ fn unverifiable<C: Connection>(run: &mut Run<'_, C>, message: String) {
 
 /// Returns whether two names are the same, or one contains the other: `AEC s.r.l.` and `AEC SRL`.
 fn agrees(one: &str, other: &str) -> bool {
-    let (one, other) = (folded(one), folded(other));
+    let (one, other) = (letters(one), letters(other));
     one.contains(&other) || other.contains(&one)
-}
-
-/// Returns a name without case, spaces and punctuation.
-fn folded(name: &str) -> String {
-    name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 
 use lexibus::AbortCode;
 use lexibus_codegen::facts::number::hex32;
+use lexibus_codegen::facts::pdo;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Access, Identity, Type, Value};
 
 use super::finding::{Finding, FindingKind, Found};
-use super::mapping;
 use super::session::{unverifiable, Run};
 use crate::address::Network;
 use crate::connection::Connection;
@@ -98,7 +98,7 @@ fn is_conditional(parameter: &Parameter<'_>) -> bool {
 fn is_entry(parameter: &Parameter<'_>) -> bool {
     const HISTORY: u16 = 0x1003;
     let object = parameter.address().object();
-    object.is_some_and(|object| object.sub_index > 0 && (object.index == HISTORY || mapping::is_mapping(object.index)))
+    object.is_some_and(|object| object.sub_index > 0 && (object.index == HISTORY || pdo::is_mapping(object.index)))
 }
 
 /// Returns whether a failure means that an entry of a list has no value.
@@ -176,7 +176,7 @@ fn expected(parameter: &Parameter<'_>) -> Option<Value> {
     };
     let is_fixed = object.is_some_and(|object| matches!(object.index, 0x1000 | 0x1018));
     // The number of entries is checked in `extra`, and mappings are checked as a whole in `mapping`.
-    let is_mapping = object.is_some_and(|object| mapping::is_mapping(object.index));
+    let is_mapping = object.is_some_and(|object| pdo::is_mapping(object.index));
     let is_fixed =
         !is_number_of_entries(parameter) && !is_mapping && (is_fixed || parameter.access() == Access::Constant);
     number.map(|number| Value::Int(number.into())).or_else(|| parameter.default().filter(|_| is_fixed).cloned())
@@ -192,7 +192,7 @@ fn identity_number(identity: &Identity, sub_index: u8) -> Option<u32> {
     }
 }
 
-/// Compares the identity numbers that the description states, but for which it declares no sub-index of 0x1018.
+/// Compares the identity numbers that the description states without a sub-index of 0x1018 for them.
 pub(super) fn check_identity<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     const IDENTITY: u16 = 0x1018;
     let description = run.description;

@@ -8,11 +8,6 @@ use super::session::Run;
 use crate::connection::Connection;
 use crate::failure::Failure;
 
-/// Returns whether an object contains a PDO mapping.
-pub(super) fn is_mapping(index: u16) -> bool {
-    matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
-}
-
 /// An entry of a mapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Entry {
@@ -35,7 +30,7 @@ impl Entry {
 pub(super) fn check<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let description = run.description;
     let groups = description.device().groups.iter();
-    for group in groups.filter(|group| group.index().is_some_and(is_mapping)) {
+    for group in groups.filter(|group| group.index().is_some_and(pdo::is_mapping)) {
         check_mapping(run, group)?;
     }
     Ok(())

@@ -45,13 +45,17 @@ impl BusLoad {
 
     /// Returns the load as text: `bus load of cyclic frames: 8.0 % of 500 kbit/s`, and the PDOs whose rate has no limit.
     pub fn summary(&self) -> String {
-        let (percent, rate) = (self.ratio() * 100.0, self.bit_rate / 1000);
         let unbounded = match self.unbounded.as_slice() {
             [] => String::new(),
             [one] => format!(", without {one}, which has no inhibit time"),
             several => format!(", without {} PDOs that have no inhibit time", several.len()),
         };
-        format!("bus load of cyclic frames: {percent:.1} % of {rate} kbit/s{unbounded}")
+        format!("bus load of cyclic frames: {}{unbounded}", self.share())
+    }
+
+    /// Returns the load as a percentage of the bit rate: `8.0 % of 500 kbit/s`.
+    pub fn share(&self) -> String {
+        format!("{:.1} % of {} kbit/s", self.ratio() * 100.0, self.bit_rate / 1000)
     }
 
     /// Returns the load as a fraction of the bit rate: 1.0 is a full bus.
@@ -102,12 +106,10 @@ pub fn bus_load(network: &Network) -> BusLoad {
     let sync = fastest(&producers).map_or(0.0, SyncProducer::rate);
     let mut unbounded = Vec::new();
     for (node, pdo) in network.sent() {
-        let title = pdo.title();
-        let name = format!("{title} of `{}`", node.name.value);
         let sender = if pdo.direction == Direction::Transmit { node.id } else { master_id };
         match rate(pdo, sync) {
-            Some(rate) => add(&title, name, sender, (pdo.can_id(), pdo.bytes()), rate),
-            None => unbounded.push(name),
+            Some(rate) => add(&pdo.title(), node.pdo_title(pdo), sender, (pdo.can_id(), pdo.bytes()), rate),
+            None => unbounded.push(node.pdo_title(pdo)),
         }
     }
     load.unbounded = unbounded;

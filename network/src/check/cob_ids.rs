@@ -43,7 +43,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
         }
     }
     for (node, pdo) in network.pdos(Direction::Receive).filter(|(_, pdo)| !known.contains(&(pdo.cob_id & CAN_ID))) {
-        let name = format!("{} of `{}`", pdo.title(), node.name.value);
+        let name = node.pdo_title(pdo);
         if let Some(fault) = restricted::fault(pdo.cob_id, &name, place(node, pdo)) {
             diagnostics.push(fault);
         }
@@ -59,10 +59,8 @@ fn conflict(sender: &Sender, other: &Sender) -> Diagnostic {
 }
 
 fn of_pdo((node, pdo): (&NetworkNode, &NetworkPdo)) -> Sender {
-    let name = match pdo.direction {
-        Direction::Transmit => format!("{} of `{}`", pdo.title(), node.name.value),
-        Direction::Receive => format!("{} of `{}` (sent by the master)", pdo.title(), node.name.value),
-    };
+    let name = node.pdo_title(pdo);
+    let name = if pdo.direction == Direction::Transmit { name } else { name + " (sent by the master)" };
     Sender { cob_id: pdo.cob_id, name, span: place(node, pdo) }
 }
 

@@ -16,7 +16,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     }
     for (node, pdo) in network.pdos(Direction::Transmit) {
         if network.receivers(pdo.cob_id).next().is_none() {
-            let message = format!("no node receives {} of `{}`", pdo.title(), node.name.value);
+            let message = format!("no node receives {}", node.pdo_title(pdo));
             let found = Diagnostic::new(&codes::PDO_WITHOUT_PARTNER, place(node, pdo), message);
             let receiver = format!("`cob_id = \"{}.tpdo{}\"`", node.name.value, pdo.number);
             diagnostics.push(found.help(format!(
@@ -27,7 +27,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     let is_sent = |can_id| network.pdos(Direction::Transmit).any(|(_, pdo)| pdo.can_id() == can_id);
     for (node, pdo) in network.pdos(Direction::Receive).filter(|(_, pdo)| !pdo.span.is_empty()) {
         if !is_sent(pdo.can_id()) {
-            let message = format!("no node sends {} of `{}`", pdo.title(), node.name.value);
+            let message = format!("no node sends {}", node.pdo_title(pdo));
             let found = Diagnostic::new(&codes::PDO_WITHOUT_PARTNER, place(node, pdo), message);
             diagnostics.push(found.help("declare its sender with `cob_id`, such as \"axis1.tpdo1\""));
         }

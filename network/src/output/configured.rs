@@ -76,18 +76,14 @@ fn mapped(entries: &Entries<'_>, node: &NetworkNode, pdo: &NetworkPdo) -> Vec<Pd
         let bits = u32::from(mapped.bits);
         let mut entry = PdoEntry { bit_offset: offset, ..PdoEntry::new(mapped.index, mapped.sub_index, bits) };
         offset += bits;
-        match entries.get(mapped.index, mapped.sub_index).filter(|_| mapped.index >= 0x1000) {
-            None if mapped.index < 0x1000 => entry.kind = PdoEntryKind::Padding,
+        match entries.get(mapped.index, mapped.sub_index).filter(|_| !mapped.is_gap()) {
+            None if mapped.is_gap() => entry.kind = PdoEntryKind::Padding,
             None => {}
             Some(item) => {
                 entry.kind = PdoEntryKind::Item;
                 entry.item = entries.find(mapped.index, mapped.sub_index);
                 entry.ty = item.ty;
-                let group = node.device().object(mapped.index).filter(|group| group.items.len() > 1);
-                entry.name = match group {
-                    Some(group) => format!("{} {}", group.name, item.name).into(),
-                    None => item.name.clone(),
-                };
+                entry.name = node.entry_name((mapped.index, mapped.sub_index), " ").into();
             }
         }
         entry

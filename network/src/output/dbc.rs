@@ -109,8 +109,7 @@ fn message(
     let receivers = if receivers.is_empty() { NOBODY.to_owned() } else { receivers.join(",") };
     let (mut start, mut names) = (0, Names::default());
     for entry in &pdo.entries {
-        let item = node.item((entry.index, entry.sub_index)).filter(|_| entry.index >= 0x1000);
-        if let Some(item) = item {
+        if let Some(item) = node.mapped_item(entry) {
             signal(out, id, &mut names, &Signal { node, item, entry, start }, &receivers);
         }
         start += u32::from(entry.bits);
@@ -128,7 +127,7 @@ struct Signal<'n> {
 
 fn signal(out: &mut Dbc, id: u32, names: &mut Names, signal: &Signal<'_>, receivers: &str) {
     let Signal { node, item, entry, start } = signal;
-    let name = names.unique(&path(node, item, entry));
+    let name = names.unique(&node.entry_name((entry.index, entry.sub_index), " "));
     let ty = mapped_type(types::basic(&node.device().types, item.object_type()), entry.bits);
     let (factor, offset) = scale(item);
     let sign = if matches!(ty, Type::Integer(_) | Type::Real32 | Type::Real64) { '-' } else { '+' };
@@ -164,14 +163,6 @@ fn mapped_type(ty: Type, bits: u8) -> Type {
         (Type::Real32, 32) | (Type::Real64, 64) => ty,
         (Type::Real32 | Type::Real64, _) => Type::Unsigned(bits),
         _ => ty,
-    }
-}
-
-/// Returns the name of an item, after the name of its object if the object has several items.
-fn path(node: &NetworkNode, item: &Item, entry: &MappedObject) -> String {
-    match node.device().object(entry.index).filter(|group| group.items.len() > 1) {
-        Some(group) => format!("{} {}", group.name, item.name),
-        None => item.name.to_string(),
     }
 }
 

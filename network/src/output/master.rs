@@ -275,7 +275,7 @@ fn place(node: &NetworkNode, pdo: &NetworkPdo, index: u16, places: &mut Places) 
 
 /// Returns name and type of a mapped object. A gap has the name of its data type.
 fn data(node: &NetworkNode, entry: &MappedObject) -> (String, Type) {
-    match node.item((entry.index, entry.sub_index)).filter(|_| entry.index >= 0x1000) {
+    match node.mapped_item(entry) {
         Some(item) => (item.name.to_string(), types::basic(&node.device().types, item.object_type())),
         None => {
             let ty = Type::from_cia301(entry.index.into()).unwrap_or(Type::Unsigned(entry.bits));

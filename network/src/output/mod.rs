@@ -11,6 +11,7 @@ mod identity;
 mod master;
 mod master_objects;
 mod rust;
+mod rust_text;
 mod segment;
 mod segment_rust;
 mod site;

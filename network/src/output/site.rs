@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use lexibus_codegen::facts::item;
+use lexibus_codegen::facts::pdo::is_mapping;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{Direction, Item, Value};
 use lexibus_site::network::{Frame, Node, Parameter, Party};
@@ -10,16 +11,20 @@ use lexibus_site::{network, Page, Site};
 
 use super::configured::node_catalog;
 use crate::check::{bus_load, frame_bits, Traffic};
-use crate::model::{Network, NetworkNode, NetworkPdo, EXTENDED};
+use crate::model::{
+    MappedObject, Network, NetworkNode, NetworkPdo, BOOT, EXTENDED, KEEP_RUNNING, MANDATORY, UPDATE_SOFTWARE,
+    VERIFY_SOFTWARE,
+};
 use crate::values::Write;
 
-/// The first index of an object. Smaller indices are data types, which leave a gap in a PDO.
-const FIRST_OBJECT: u16 = 0x1000;
+/// Separator between the names of an object and of its entry.
+const SEPARATOR: &str = " / ";
 
 /// Announces the devices of all nodes. Announce all networks of a site before you add the pages of one of them.
 pub fn announce(network: &Network, title: &str, site: &mut Site) {
     for node in &network.nodes {
-        site.announce(&catalog_name(title, node), &node_catalog(network, node));
+        // The configuration of a node does not change the folders of its device.
+        site.announce(&catalog_name(title, node), node.description.catalog());
     }
 }
 
@@ -28,12 +33,13 @@ pub fn announce(network: &Network, title: &str, site: &mut Site) {
 pub fn pages(network: &Network, title: &str, site: &mut Site) -> Vec<Page> {
     let add = |node| site.add(&catalog_name(title, node), &node_catalog(network, node));
     let mut pages: Vec<Page> = network.nodes.iter().flat_map(add).collect();
+    let load = bus_load(network);
     let page = network::Network {
         name: title.to_owned(),
         bit_rate: u32::from(network.bit_rate) * 1000,
-        summary: bus_load(network).summary(),
+        summary: load.summary(),
         nodes: network.nodes.iter().map(|node| shown_node(title, node)).collect(),
-        frames: frames(network),
+        frames: frames(network, &load.traffic),
     };
     pages.push(site.network(&page));
     pages
@@ -46,12 +52,11 @@ fn catalog_name(title: &str, node: &NetworkNode) -> String {
 
 fn shown_node(title: &str, node: &NetworkNode) -> Node {
     let parameter = |write: &Write| {
-        let (index, sub_index) = write.object;
         let item = node.item(write.object);
         let value = write.value.as_ref().or_else(|| item?.initial());
         Parameter {
             object: write.object,
-            name: name(node, index, sub_index),
+            name: node.entry_name(write.object, SEPARATOR),
             value: value.zip(item).map_or_else(String::new, |(value, item)| shown_value(node, item, value)),
         }
     };
@@ -69,8 +74,9 @@ fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     let (value, types) = (value.resolved(node.id), &node.device().types);
     let text = item::value(item, &value, types);
     let meaning = match (item.object(), value.as_int()) {
-        (Some((0x1600..=0x17FF | 0x1A00..=0x1BFF, 1..)), Some(word)) => {
-            Some(name(node, (word >> 16) as u16, (word >> 8) as u8)).filter(|name| !name.is_empty())
+        (Some((index, 1..)), Some(word)) if is_mapping(index) => {
+            let mapped = MappedObject::of_word(word as u32);
+            Some(node.entry_name((mapped.index, mapped.sub_index), SEPARATOR)).filter(|name| !name.is_empty())
         }
         _ if PLAIN.is_named(item, &value) => None,
         _ => item::meaning(item.ty, &value, types),
@@ -81,22 +87,13 @@ fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     }
 }
 
-/// Returns the name of an object: `Interpolation time period / Interpolation time index` if the object has several entries.
-fn name(node: &NetworkNode, index: u16, sub_index: u8) -> String {
-    let entry = node.item((index, sub_index)).map(|item| item.name.as_str()).unwrap_or_default();
-    match node.device().object(index).filter(|group| group.items.len() > 1) {
-        Some(group) => format!("{} / {entry}", group.name),
-        None => entry.to_owned(),
-    }
-}
-
 /// Bits of 0x1F81 (CiA 302-2), and the facts that they state.
 const ASSIGNMENT: [(u32, &str); 5] = [
-    (0x04, "Booted by the master."),
-    (0x08, "Mandatory."),
-    (0x10, "Keeps running if it is Operational when the master starts."),
-    (0x20, "Its software version is verified."),
-    (0x40, "Its software is updated automatically."),
+    (BOOT, "Booted by the master."),
+    (MANDATORY, "Mandatory."),
+    (KEEP_RUNNING, "Keeps running if it is Operational when the master starts."),
+    (VERIFY_SOFTWARE, "Its software version is verified."),
+    (UPDATE_SOFTWARE, "Its software is updated automatically."),
 ];
 
 fn facts(node: &NetworkNode) -> Vec<String> {
@@ -114,14 +111,13 @@ fn facts(node: &NetworkNode) -> Vec<String> {
 }
 
 /// Returns the frames of all senders.
-fn frames(network: &Network) -> Vec<Frame> {
-    let load = bus_load(network);
+fn frames(network: &Network, traffic: &[Traffic]) -> Vec<Frame> {
     let mut known = BTreeSet::new();
     let sent = network.pdos(Direction::Transmit).chain(network.pdos(Direction::Receive));
     let sent = sent.filter(|(_, pdo)| known.insert(pdo.can_id()));
-    let mut frames: Vec<Frame> = sent.map(|(node, pdo)| frame_of(network, &load.traffic, node, pdo)).collect();
+    let mut frames: Vec<Frame> = sent.map(|(node, pdo)| frame_of(network, traffic, node, pdo)).collect();
     let is_service = |traffic: &&Traffic| !known.contains(&traffic.can_id);
-    frames.extend(load.traffic.iter().filter(is_service).map(|traffic| service(network, traffic)));
+    frames.extend(traffic.iter().filter(is_service).map(|traffic| service(network, traffic)));
     frames
 }
 
@@ -140,7 +136,7 @@ fn frame_of(network: &Network, traffic: &[Traffic], node: &NetworkNode, pdo: &Ne
     if pdo.direction == Direction::Transmit && network.master.as_ref().is_some_and(|master| master.exchanges_pdos) {
         receivers.push(Party::Master);
     }
-    let objects = pdo.entries.iter().filter(|entry| entry.index >= FIRST_OBJECT);
+    let objects = pdo.entries.iter().filter(|entry| !entry.is_gap());
     Frame {
         name: pdo.title(),
         can_id: pdo.can_id() & !EXTENDED,
@@ -150,7 +146,7 @@ fn frame_of(network: &Network, traffic: &[Traffic], node: &NetworkNode, pdo: &Ne
         bytes: pdo.bytes(),
         bits: frame_bits(pdo.can_id(), pdo.bytes()),
         rate: traffic.iter().find(|traffic| traffic.can_id == pdo.can_id()).map(|traffic| traffic.rate),
-        objects: objects.map(|entry| name(node, entry.index, entry.sub_index)).collect(),
+        objects: objects.map(|entry| node.entry_name((entry.index, entry.sub_index), SEPARATOR)).collect(),
     }
 }
 

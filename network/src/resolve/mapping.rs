@@ -28,7 +28,7 @@ pub(super) fn check(node: &NetworkNode, diagnostics: &mut Diagnostics) {
 
 fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) -> Option<Diagnostic> {
     // An index below 0x1000 is a data type, which leaves a gap.
-    if entry.index < 0x1000 {
+    if entry.is_gap() {
         return None;
     }
     let object = (entry.index, entry.sub_index);

@@ -13,7 +13,9 @@ use super::versions;
 use super::writer::Writer;
 use crate::declared::DeclaredNode;
 use crate::description::{expanded, Description};
-use crate::model::{file_stem, NetworkNode, DISABLED};
+use crate::model::{
+    file_stem, NetworkNode, BOOT, DISABLED, KEEP_RUNNING, MANDATORY, RESTORE, UPDATE_SOFTWARE, VERIFY_SOFTWARE,
+};
 use crate::syntax::At;
 use crate::values::{Values, Write};
 
@@ -125,12 +127,12 @@ fn identity(declared: &DeclaredNode, values: Values<'_>) -> [u32; 4] {
 /// Returns the bits of the node in 0x1F81 (CiA 302-2).
 fn assignment(declared: &DeclaredNode, guard_time: u16) -> u32 {
     let flags = [
-        (declared.boot, 0x04),
-        (declared.mandatory, 0x08),
-        (!declared.reset_communication, 0x10),
-        (declared.software_version != 0, 0x20),
-        (declared.software_file.is_some(), 0x40),
-        (declared.restore != 0, 0x80),
+        (declared.boot, BOOT),
+        (declared.mandatory, MANDATORY),
+        (!declared.reset_communication, KEEP_RUNNING),
+        (declared.software_version != 0, VERIFY_SOFTWARE),
+        (declared.software_file.is_some(), UPDATE_SOFTWARE),
+        (declared.restore != 0, RESTORE),
     ];
     let bits = flags.iter().filter(|(is_set, _)| *is_set).fold(1, |bits, (_, bit)| bits | bit);
     bits | u32::from(declared.retry_factor) << 8 | u32::from(guard_time) << 16

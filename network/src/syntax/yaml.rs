@@ -24,7 +24,7 @@ const BYTES_OF_ELEMENT: usize = 64;
 /// Returns the first error: invalid syntax, a key that is not a text, an integer or a Boolean value, a key that occurs twice, an
 /// alias within its own anchor, or too many elements or levels.
 pub fn parse(source: &Source, file: FileId) -> Result<Node, SyntaxError> {
-    let mut loader = Loader { text: source.text(), offsets: Offsets::default(), file, ..Loader::new() };
+    let mut loader = Loader::new(source.text(), file);
     for event in Parser::new_from_str(source.text()) {
         let (event, marks) = event.map_err(|error| {
             let at = loader.offsets.of(loader.text, error.marker().index());
@@ -97,11 +97,10 @@ struct Loader<'t> {
     elements: usize,
 }
 
-impl Loader<'_> {
-    fn new() -> Self {
-        let file = FileId(0);
+impl<'t> Loader<'t> {
+    fn new(text: &'t str, file: FileId) -> Self {
         let offsets = Offsets::default();
-        Loader { text: "", offsets, file, open: Vec::new(), root: None, anchors: HashMap::new(), elements: 0 }
+        Loader { text, offsets, file, open: Vec::new(), root: None, anchors: HashMap::new(), elements: 0 }
     }
 
     fn event(&mut self, event: Event<'_>, marks: Marks) -> Result<(), SyntaxError> {

@@ -42,6 +42,7 @@ pub(super) fn fmmus(context: &mut Context<'_>) -> Vec<u8> {
 /// manager.
 pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
     let mut bytes = Vec::new();
+    let assigned = context.device.process_data.assigned_by_default();
     for manager in &context.device.process_data.sync_managers {
         bytes.resize(8 * usize::from(manager.number), 0);
         let purpose = match manager.purpose {
@@ -51,7 +52,7 @@ pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
             SyncManagerPurpose::Inputs => 4,
         };
         bytes.extend(manager.start_address.to_le_bytes());
-        bytes.extend(length(context, manager).to_le_bytes());
+        bytes.extend(length(&assigned, manager).to_le_bytes());
         let enable = bits(&[manager.enable, false, manager.is_virtual, manager.op_only]);
         bytes.extend([manager.control, 0, enable, purpose]);
     }
@@ -60,9 +61,8 @@ pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
 
 /// Returns the length of a sync manager in bytes. If the description declares no default length, returns the total
 /// length of the PDOs that are assigned by default.
-fn length(context: &Context<'_>, manager: &SyncManager) -> u16 {
+fn length(assigned: &[(&Pdo, u8)], manager: &SyncManager) -> u16 {
     manager.default_size.unwrap_or_else(|| {
-        let assigned = context.device.process_data.assigned_by_default();
         let own = assigned.iter().filter(|(_, number)| *number == manager.number);
         let bits = own.fold(0, |bits: u32, (pdo, _)| bits.saturating_add(pdo.bits()));
         bits.div_ceil(8).try_into().unwrap_or(u16::MAX)
