@@ -13,7 +13,9 @@ source=$folder/source
 scratch=$folder/scratch
 crates=(lexibus lexibus-codegen lexibus-macros lexibus-site lexibus-export lexibus-import lexibus-network lexibus-device lexibus-cli lexibus-drives)
 
-rm -rf "$source" "$scratch" "$folder/installed"
+# Cargo considers crates with the same version from a local source as unchanged. Remove its records of our crates, so that it
+# compiles their new contents.
+rm -rf "$source" "$scratch" "$folder/installed" "$folder"/build/debug/.fingerprint/lexibus*
 mkdir -p "$source" "$scratch"
 
 # Use --no-verify, because Cargo's verification would compile everything once more. The following builds replace the verification.
