@@ -42,7 +42,7 @@ fn the_page_shows_who_sends_what_to_whom() {
         format!("[axis{number}](../example/demo-servo-0x00004022/0x00010000-packaging-line-axis{number}/{page})")
     };
     let expected = [
-        "Bus load of cyclic frames: 8.0 % of 500 kbit/s, without 5 PDOs that have no inhibit time.".to_owned(),
+        "Bus load of cyclic frames: 8.0 % of 500 kbit/s, without 5 PDOs that have neither inhibit time nor event timer.".to_owned(),
         format!(
             "| 0x281 | TPDO 2 | {} | {}, master | Position actual value | on an event, at intervals of at least 10 ms, at \
              the latest after 500 ms | 4 |",

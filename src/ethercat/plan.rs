@@ -48,8 +48,8 @@ pub enum PlanError {
     },
     /// A series of slots has fewer modules than its minimum. Contains the number of the first free slot of the series.
     Empty(u16),
-    /// A list object has too few sub-indices. List objects are the PDO assignments (0x1C10 and following) and the list
-    /// of module idents (0xF030).
+    /// A list object has too few sub-indices. List objects are the PDO assignments (0x1C10 and following), the list of
+    /// module idents (0xF030), and the mapping of a PDO for padding.
     TooMany {
         /// Index of the list object.
         index: u16,
@@ -174,7 +174,8 @@ impl<const N: usize> SlotPlan<N> {
     }
 
     /// Checks that every series of slots has its minimum number of modules. Also checks the length of the process data
-    /// of each sync manager, and the number of entries of each list object.
+    /// of each sync manager, and the number of entries of each list object. The list objects are described at
+    /// [`PlanError::TooMany`].
     ///
     /// # Errors
     ///
@@ -195,7 +196,11 @@ impl<const N: usize> SlotPlan<N> {
             if bytes > max {
                 return Err(PlanError::TooLong { sync_manager: manager.number, bytes, max });
             }
-            room_for(manager.assignment(), self.pdos(manager.number).filter(|placed| placed.index != 0).count())?;
+            let assigned = || self.pdos(manager.number).filter(|placed| placed.index != 0);
+            room_for(manager.assignment(), assigned().count())?;
+            for gap in assigned().filter(|placed| placed.content == Content::Gap) {
+                room_for(gap.index, gap.bits.div_ceil(MAX_ENTRY_BITS) as usize)?;
+            }
         }
         room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
     }
@@ -405,12 +410,15 @@ impl SlotPdo {
     }
 }
 
-/// Returns the writes that map `bits` bits of padding. Each entry of the mapping has at most 255 bits.
+/// Maximum number of bits of an entry in a PDO mapping.
+const MAX_ENTRY_BITS: u32 = u8::MAX as u32;
+
+/// Returns the writes that map `bits` bits of padding. [`SlotPlan::check`] checks that the mapping has enough sub-indices.
 fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
-    const MOST: u32 = u8::MAX as u32;
-    let count = bits.div_ceil(MOST).min(MOST);
+    let count = bits.div_ceil(MAX_ENTRY_BITS).min(u8::MAX.into());
     let entry = move |at: u32| {
-        SdoWrite::new_u32(index, at as u8 + 1, MappedEntry::new(0, 0, (bits - at * MOST).min(MOST)).word())
+        let rest = (bits - at * MAX_ENTRY_BITS).min(MAX_ENTRY_BITS);
+        SdoWrite::new_u32(index, at as u8 + 1, MappedEntry::new(0, 0, rest).word())
     };
     let count_of = move |count: u32| core::iter::once(SdoWrite::new_u8(index, 0, count as u8));
     count_of(0).chain((0..count).map(entry)).chain(count_of(count))

@@ -432,10 +432,7 @@ impl Reader<'_, '_> {
             length: written.length,
         };
         let Some(size) = size else {
-            if matches!(ty.base, Base::Unsigned | Base::Signed)
-                && written.bits.is_none()
-                && written.base == Base::Unsigned
-            {
+            if matches!(ty.base, Base::Unsigned | Base::Signed) && written.bits.is_none() {
                 let span = self.cell(record, Field::Type).map_or(record.span, |cell| cell.span);
                 self.assume("bits", span, "integers without a stated length are read as 16-bit integers");
             }

@@ -338,20 +338,21 @@ impl Words<'_> {
         }
     }
 
-    /// Formats a value of an item. A COB-ID is followed by its flags. If the item has a scale, a special value is shown
-    /// as its meaning, and another value as a physical value, both with the raw value. A reference to an object is
-    /// hexadecimal. `raw` formats all other values.
+    /// Formats a value of an item. A COB-ID is followed by its flags. A special value is shown as its meaning, and another value
+    /// of an item with a scale as a physical value, both with the raw value. A reference to an object is hexadecimal. `raw`
+    /// formats all other values.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
-        match (cob_id, Physical::of(item.quantity.as_deref())) {
-            (Some(text), _) => self.escaped(&text),
-            (None, Some(_)) if sentinel(item, value).is_some() => {
-                let meaning = sentinel(item, value).unwrap_or_default();
-                format!("{} (raw {})", self.escaped(meaning), raw(value))
-            }
-            (None, None) if is_object_reference(item) => self.reference(value, raw),
-            (None, Some(physical)) => physical.value(value, raw, &|unit| self.escaped(unit)),
-            (None, None) => raw(value),
+        if let Some(text) = cob_id {
+            return self.escaped(&text);
+        }
+        if let Some(meaning) = sentinel(item, value) {
+            return format!("{} (raw {})", self.escaped(meaning), raw(value));
+        }
+        match Physical::of(item.quantity.as_deref()) {
+            Some(physical) => physical.value(value, raw, &|unit| self.escaped(unit)),
+            None if is_object_reference(item) => self.reference(value, raw),
+            None => raw(value),
         }
     }
 

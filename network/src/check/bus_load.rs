@@ -47,8 +47,8 @@ impl BusLoad {
     pub fn summary(&self) -> String {
         let unbounded = match self.unbounded.as_slice() {
             [] => String::new(),
-            [one] => format!(", without {one}, which has no inhibit time"),
-            several => format!(", without {} PDOs that have no inhibit time", several.len()),
+            [one] => format!(", without {one}, which has neither inhibit time nor event timer"),
+            several => format!(", without {} PDOs that have neither inhibit time nor event timer", several.len()),
         };
         format!("bus load of cyclic frames: {}{unbounded}", self.share())
     }

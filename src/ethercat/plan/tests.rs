@@ -3,7 +3,7 @@
 use std::vec::Vec;
 
 use super::super::samples::{COUPLER, INPUTS, OUTPUTS, WIDE};
-use super::super::{Slots, Transitions};
+use super::super::{Device, PdoGroup, Slots, Transitions};
 use super::*;
 
 fn plan() -> SlotPlan<8> {
@@ -48,6 +48,26 @@ fn lists_of_the_device_have_room_for_255() {
     assert_eq!(room_for(0xF030, 255), Ok(()));
     let many = room_for(0xF030, 256).unwrap_err();
     assert_eq!(std::format!("{many}"), "object 0xF030 cannot hold 256 entries");
+}
+
+/// The coupler, with an alignment of its second group that needs more padding than a mapping can describe.
+static WIDELY_ALIGNED: Device = Device {
+    slots: Some(Slots {
+        pdo_groups: &[
+            PdoGroup { alignment: 0, rx_pdo: None, tx_pdo: None },
+            PdoGroup { alignment: 9000, rx_pdo: Some(0x16F0), tx_pdo: Some(0x1AF0) },
+        ],
+        ..COUPLER.slots.unwrap()
+    }),
+    ..COUPLER
+};
+
+#[test]
+fn padding_needs_room_in_its_mapping() {
+    let mut plan = SlotPlan::<8>::new(&WIDELY_ALIGNED).unwrap();
+    plan.plug(0, &OUTPUTS).unwrap();
+    plan.plug(1, &INPUTS).unwrap();
+    assert_eq!(plan.check(), Err(PlanError::TooMany { index: 0x1AF0, count: 283 }));
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub(super) fn text(value: &Value, ty: Type, role: Role, form: Form) -> Written {
     match ty {
         Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer(value, ty, role, form.hex),
         Type::Real32 | Type::Real64 if form.reals == Reals::Pattern => pattern(value, ty),
-        Type::Real32 | Type::Real64 => real(value, ty),
+        Type::Real32 | Type::Real64 => real(value),
         Type::VisibleString(_) | Type::UnicodeString(_) => string(value),
         Type::OctetString(_) => octets(value),
         Type::TimeOfDay | Type::TimeDifference => time(value),
@@ -79,14 +79,11 @@ fn integer(value: &Value, ty: Type, role: Role, hex: bool) -> Written {
     }
 }
 
-fn real(value: &Value, ty: Type) -> Written {
+fn real(value: &Value) -> Written {
     match value {
         Value::Real(value) if value.is_finite() => {
-            let short = format!("{:?}", *value as f32);
-            // The digits of the 32-bit value are sufficient if they give exactly the same 64-bit value.
-            let is_enough = ty == Type::Real32 && short.parse() == Ok(*value);
-            let text = if is_enough { short } else { format!("{value:?}") };
-            written(text.strip_suffix(".0").map_or(text.clone(), str::to_owned))
+            let text = format!("{value:?}");
+            written(text.strip_suffix(".0").unwrap_or(&text).to_owned())
         }
         Value::Int(_) | Value::Bool(_) => integer(value, Type::Integer(64), Role::Value, false),
         Value::Raw(text) => written(without_comment(text)),
@@ -100,7 +97,7 @@ fn pattern(value: &Value, ty: Type) -> Written {
     match (value.as_real().filter(|value| value.is_finite()), ty) {
         (Some(value), Type::Real32) => written(format!("0x{:08X}", (value as f32).to_bits())),
         (Some(value), _) => written(format!("0x{:016X}", value.to_bits())),
-        (None, _) => real(value, ty),
+        (None, _) => real(value),
     }
 }
 

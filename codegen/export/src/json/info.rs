@@ -221,7 +221,7 @@ pub fn info(compilation: &Compilation) -> Info {
             Severity::Error => &mut info.errors,
             Severity::Warning => &mut info.warnings,
         };
-        *counts.entry(diagnostic.code.id).or_default() += 1;
+        *counts.entry(diagnostic.code.id).or_default() += diagnostic.occurrences();
     }
     info
 }

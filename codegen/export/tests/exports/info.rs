@@ -4,12 +4,25 @@
 mod table_support;
 
 use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::limits::MAX_SAME_DIAGNOSTICS;
 use lexibus_codegen::source::Source;
 use lexibus_export::json;
 use table_support::examples;
 
 fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
+}
+
+/// A file has a limited number of diagnostics of a code. The counts also include those beyond the limit.
+#[test]
+fn info_counts_all_warnings() {
+    let count = MAX_SAME_DIAGNOSTICS + 25;
+    let rows: String = (0..count)
+        .map(|at| format!("a{at} = {{ reg = {at}, type = \"u16\", access = \"ro\", unit = \"furlong\" }}\n"))
+        .collect();
+    let table = format!("lexibus = 1\n[device]\nname = \"Pump\"\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n[[chapters]]\n[chapters.registers]\n{rows}");
+    let info = json::info(&read(&table));
+    assert_eq!(info.warnings.get("TAB008"), Some(&count), "{:?}", info.warnings);
 }
 
 /// Tests the counts for the first example in the documentation of register tables, which is a complete device.

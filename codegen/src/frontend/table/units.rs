@@ -82,9 +82,12 @@ pub fn usual_unit(text: &str) -> Option<&'static str> {
     ];
     let lower = text.to_lowercase();
     let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
-    // These symbols are recognized in upper case and lower case, except `a`.
+    // These symbols are recognized in upper case and lower case. The prefixes `m`, `M` and `n` keep their meaning, and `a` is
+    // also a year.
     let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
-    let cased = || cased.into_iter().find(|symbol| symbol.to_lowercase() == lower && !matches!(text, "a" | "mw"));
+    let prefix = |text: &str| text.chars().next().filter(|first| matches!(first, 'm' | 'M' | 'n'));
+    let is_same = |symbol: &str| symbol.to_lowercase() == lower && prefix(symbol) == prefix(text) && text != "a";
+    let cased = || cased.into_iter().find(|symbol| is_same(symbol));
     known.map(|&(symbol, _)| symbol).or_else(cased)
 }
 
@@ -107,6 +110,11 @@ mod tests {
         for (text, symbol) in [("degC", "°C"), ("Volts", "V"), ("KW", "kW"), ("1/min", "rpm"), ("m3/h", "m³/h")] {
             assert_eq!(usual_unit(text), Some(symbol), "{text}");
         }
-        assert_eq!(usual_unit("furlong"), None);
+        for text in ["furlong", "MV", "MA", "nm", "a", "mw"] {
+            assert_eq!(usual_unit(text), None, "{text}");
+        }
+        for (text, symbol) in [("mv", "mV"), ("ma", "mA"), ("NM", "Nm"), ("HZ", "Hz")] {
+            assert_eq!(usual_unit(text), Some(symbol), "{text}");
+        }
     }
 }
