@@ -220,6 +220,10 @@ fn what_is_assumed_is_told_once() {
     assert_eq!(codes("Name,Address,Type,Access,Gain\na,1,u16,ro,10\nb,2,u16,ro,100\n"), ["CSV007"]);
     assert_eq!(codes("Name,Address,Access\na,1,ro\nb,2,ro\n"), ["CSV007"]);
     assert_eq!(codes("Name,Address,Type\na,1,u16\nb,2,u16\n"), ["CSV007"]);
+    for integer in ["INT", "signed", "unsigned"] {
+        let list = format!("Name,Address,Type,Access\na,1,{integer},ro\nb,2,{integer},ro\n");
+        assert_eq!(codes(&list), ["CSV007"], "{integer}");
+    }
     assert_eq!(codes("Name,Address,Type,Access\n\"a,1,u16,ro\nb,2,u16,ro\n").last(), Some(&"CSV008"));
     let physical = read("Name;Address;Type;Access;Scale;Max\na;1;u16;ro;0,1;400,5\nb;2;u16;ro;0,1;10\n");
     let table = physical.table.as_deref().unwrap_or_default();

@@ -22,7 +22,7 @@ fn info_counts_all_warnings() {
         .collect();
     let table = format!("lexibus = 1\n[device]\nname = \"Pump\"\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n[[chapters]]\n[chapters.registers]\n{rows}");
     let info = json::info(&read(&table));
-    assert_eq!(info.warnings.get("TAB008"), Some(&count), "{:?}", info.warnings);
+    assert_eq!(info.warnings.get("TAB011"), Some(&count), "{:?}", info.warnings);
 }
 
 /// Tests the counts for the first example in the documentation of register tables, which is a complete device.
