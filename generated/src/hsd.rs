@@ -977,7 +977,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// Maximum following error of the position. The value 0 disables the check.
     ///
-    /// MAXERRORP: Unit count, range 0 to 2147483647, default 0, parameter 0x010F, INTEGER32, read-write.
+    /// MAXERRORP: Unit count, range 0 to 2147483647, default not checked (raw 0), parameter 0x010F, INTEGER32, read-write.
     /// Non-volatile: stored by the command [CmdSaveParFl](messages::CmdSaveParFl).
     /// Constant: [`objects::MAXERRORP`].
     ///
@@ -10827,7 +10827,7 @@ pub mod objects {
         "rpm",
         rt::Flags::NONE,
     );
-    /// MAXERRORP: Unit count, range 0 to 2147483647, default 0, parameter 0x010F, INTEGER32, read-write.
+    /// MAXERRORP: Unit count, range 0 to 2147483647, default not checked (raw 0), parameter 0x010F, INTEGER32, read-write.
     /// Accessor: [`maxerrorp`](super::HsdMotor::maxerrorp).
     ///
     /// Maximum following error of the position. The value 0 disables the check.
