@@ -235,7 +235,10 @@ impl Builder {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", path.display()));
         }
         self.report(&compilation);
-        compilation.rust(&options.rust).ok_or_else(|| BuildError::Input(errors(&compilation)))
+        if !compilation.is_usable() {
+            return Err(BuildError::Input(errors(&compilation)));
+        }
+        compilation.rust(&options.rust).ok_or_else(|| BuildError::Empty { path: input.into() })
     }
 
     fn options(&self) -> Result<Options, BuildError> {
@@ -272,10 +275,6 @@ impl Builder {
 }
 
 fn errors(compilation: &Compilation) -> String {
-    if compilation.is_usable() {
-        let name = compilation.sources.first().map_or("the file", |source| source.name());
-        return format!("{name}: {}", compile::NOTHING_TO_GENERATE);
-    }
     let errors = compilation.diagnostics.list().iter().filter(|d| d.severity == Severity::Error);
     let shown = errors.map(|error| render::terminal::render(error, &compilation.sources, false));
     shown.collect::<Vec<_>>().join("\n\n")
@@ -300,9 +299,13 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input has errors, or there is nothing to generate. The text contains the rendered errors, or states that
-    /// there is nothing to generate.
+    /// The input has errors. The text contains the rendered errors.
     Input(String),
+    /// The input describes no device and no module.
+    Empty {
+        /// Path of the input.
+        path: PathBuf,
+    },
     /// A level is set for an unknown code.
     UnknownCode(UnknownCode),
     /// A filter for devices or objects is invalid.
@@ -317,6 +320,7 @@ impl fmt::Display for BuildError {
             BuildError::Read { path, error } => write!(f, "cannot read {}: {error}", path.display()),
             BuildError::Write { path, error } => write!(f, "cannot write {}: {error}", path.display()),
             BuildError::Input(text) => write!(f, "the device description has errors\n\n{text}"),
+            BuildError::Empty { path } => write!(f, "{}: {}", path.display(), compile::NOTHING_TO_GENERATE),
             BuildError::UnknownCode(error) => write!(f, "{error}"),
             BuildError::Selection(error) => write!(f, "{error}"),
             BuildError::NoOutDir => f.write_str("OUT_DIR is not set: call `out_dir` if this is not a build script"),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::{Builder, Presence};
+use lexibus_codegen::{BuildError, Builder, Presence};
 
 const EDS: &str = "[DeviceInfo]\nProductName=Valve\n[2000]\nParameterName=Opening\nDataType=0x0005\nAccessType=rw\n\
                    DefaultValue=012\n";
@@ -81,6 +81,21 @@ fn errors_are_for_people() {
     assert!(error.to_string().contains("did you mean `octal-number`?"), "{error}");
     let error = builder.compile(folder.join("missing.eds")).expect_err("no such file");
     assert!(error.to_string().contains("missing.eds"), "{error}");
+}
+
+/// A file without errors that describes no device is not called a file with errors.
+#[test]
+fn an_empty_description_has_its_own_error() {
+    let input = folder("empty").join("vendor.xml");
+    let esi = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices/></Descriptions></EtherCATInfo>";
+    std::fs::write(&input, esi).expect("the input");
+    let error = Builder::new().quiet().generate(&input).expect_err("no device");
+    assert!(matches!(&error, BuildError::Empty { path } if *path == input), "{error}");
+    let text = error.to_string();
+    assert!(
+        text.ends_with("vendor.xml: there is nothing to generate, because the file describes no device and no module"),
+        "{text}"
+    );
 }
 
 #[test]
