@@ -146,7 +146,7 @@ impl Baseline {
             text += &json_line(&entry)?;
         }
         write_if_changed(&self.path, &text)
-            .map_err(|error| Failure::Usage(format!("cannot write {}: {error}", self.path.display())))?;
+            .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", self.path.display())))?;
         let number: usize = found.map(|(_, count)| count.found).sum();
         let diagnostics = if number == 1 { "diagnostic" } else { "diagnostics" };
         Ok(format!("wrote {}: {number} {diagnostics}", self.path.display()))

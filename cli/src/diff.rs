@@ -37,7 +37,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let text = report(diff, &changes, summary)?;
     match &diff.out {
         Some(path) => write_if_changed(path, &text)
-            .map_err(|error| Failure::Usage(format!("cannot write {}: {error}", path.display())))?,
+            .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", path.display())))?,
         None => std::io::stdout().lock().write_all(text.as_bytes())?,
     }
     Ok(summary.api == 0 && summary.wire == 0)

@@ -9,7 +9,7 @@ use lexibus_site::{Format, Page, Site};
 
 use super::args::{Docs, DocsFormat};
 use super::docs_networks::Networks;
-use super::output::difference;
+use super::output::{create_folder, difference};
 use super::report::Reporter;
 use super::{inputs, Failure};
 
@@ -23,6 +23,9 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     if let Some(reason) = foreign(&docs.out, format) {
         reporter.error(&reason);
         return reporter.finish();
+    }
+    if !docs.check {
+        create_folder(&docs.out)?;
     }
     let mut site = Site::new(format);
     let mut files = inputs::sorted(&docs.inputs)?;

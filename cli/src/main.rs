@@ -82,8 +82,7 @@ fn main() -> ExitCode {
             }
             ExitCode::from(FAILED)
         }
-        #[cfg(feature = "bus")]
-        Err(Failure::Device(message)) => {
+        Err(Failure::Failed(message)) => {
             say(&format!("error: {message}"));
             ExitCode::from(FAILED)
         }
@@ -108,9 +107,9 @@ enum Failure {
     Usage(String),
     /// The output cannot be written.
     Output(std::io::Error),
-    /// A command that accesses devices failed because of a device, a bus, a value or a file.
-    #[cfg(feature = "bus")]
-    Device(String),
+    /// A file or folder cannot be written, or a command that accesses devices failed because of a device, a bus, a value
+    /// or a file.
+    Failed(String),
 }
 
 impl From<std::io::Error> for Failure {

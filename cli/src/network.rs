@@ -91,8 +91,7 @@ fn write(file: &OutputFile, arguments: &NetworkBuild, reporter: &mut Reporter) -
         return Ok(());
     }
     let folder = path.parent().unwrap_or(&arguments.out);
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::Usage(format!("cannot create the folder {}: {error}", folder.display())))?;
+    output::create_folder(folder)?;
     if let Err(error) = write_if_changed(&path, &file.content) {
         reporter.error(&format!("cannot write {}: {error}", path.display()));
     }

@@ -39,8 +39,7 @@ impl<'g> Target<'g> {
         }
         let folder = out.and_then(|out| if is_folder { Some(out) } else { out.parent() });
         if let Some(out) = folder.filter(|out| !check && !out.as_os_str().is_empty()) {
-            std::fs::create_dir_all(out)
-                .map_err(|error| Failure::Usage(format!("cannot create the folder {}: {error}", out.display())))?;
+            create_folder(out)?;
         }
         Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), is_reported: false, files: 0 })
     }
@@ -104,6 +103,12 @@ impl<'g> Target<'g> {
     }
 }
 
+/// Creates a folder and its missing parents, if it does not exist.
+pub(super) fn create_folder(path: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(path)
+        .map_err(|error| Failure::Failed(format!("cannot create the folder {}: {error}", path.display())))
+}
+
 /// Creates a file that the user will edit. Does not overwrite an existing file.
 pub(super) fn create(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let _writing = writing();
@@ -113,7 +118,7 @@ pub(super) fn create(path: &Path, content: &[u8]) -> Result<(), Failure> {
         std::io::ErrorKind::AlreadyExists => {
             Failure::Usage(format!("{} exists already and is not overwritten", path.display()))
         }
-        _ => Failure::Usage(format!("cannot write {}: {error}", path.display())),
+        _ => Failure::Failed(format!("cannot write {}: {error}", path.display())),
     })
 }
 

@@ -94,6 +94,32 @@ fn a_full_disk_leaves_the_old_file() {
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file remains");
 }
 
+/// Output that cannot be written has the exit code 1 for every command, without a hint about the arguments.
+#[test]
+fn output_that_cannot_be_written_is_no_wrong_argument() {
+    let folder = folder("unwritable");
+    std::fs::write(folder.join("taken"), "a file, and no folder").expect("a file");
+    std::fs::write(folder.join("list.csv"), "Name,Address,Type,Access\na,1,u16,ro\n").expect("a file");
+    std::fs::copy(DEMO, folder.join("demo.eds")).expect("a description");
+    for command in [
+        "generate $DEMO --out taken/x.rs",
+        "generate $DEMO demo.eds --out taken/x/",
+        "export --format eds $DEMO --out taken/x.eds",
+        "docs $DEMO --out taken/x",
+        "docs $DEMO --out taken",
+        "diff $DEMO $DEMO --out taken/x",
+        "check $DEMO --baseline taken/x --write-baseline",
+        "new x --out taken/x.toml",
+        "new --crate x --from $DEMO --out taken/x",
+        "import list.csv --out taken/x.toml",
+    ] {
+        let output = shell(&folder, &format!("$LEXIBUS {command}"));
+        let text = error(&output);
+        assert_eq!(output.status.code(), Some(1), "{command}: {text}");
+        assert!(text.contains("cannot") && text.contains("taken") && !text.contains("--help"), "{command}: {text}");
+    }
+}
+
 #[test]
 fn pages_are_not_written_to_a_foreign_folder() {
     let folder = folder("docs");

@@ -20,13 +20,13 @@ pub(super) fn run(arguments: &Decode) -> Result<bool, Failure> {
     };
     let mut interpreter = Interpreter::new(descriptions.iter().map(|(node, description)| (*node, description)));
     let unreadable =
-        |error: std::io::Error| Failure::Device(format!("cannot read {}: {error}", arguments.trace.display()));
+        |error: std::io::Error| Failure::Failed(format!("cannot read {}: {error}", arguments.trace.display()));
     let file = std::fs::File::open(&arguments.trace).map_err(unreadable)?;
     let mut trace = std::io::BufReader::new(file);
     if trace.fill_buf().map_err(unreadable)?.starts_with(BLF) {
         let name = arguments.trace.display();
         let help = format!("convert it with python-can: `python -m can.logconvert {name} trace.asc`");
-        return Err(Failure::Device(format!("{name} is a BLF file, which Lexibus cannot read: {help}")));
+        return Err(Failure::Failed(format!("{name} is a BLF file, which Lexibus cannot read: {help}")));
     }
     let mut output = Output::new(std::io::BufWriter::new(std::io::stdout()), arguments.format)?;
     let mut reader = Reader::new();

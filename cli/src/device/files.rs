@@ -27,12 +27,12 @@ pub(super) fn plain(path: &Path, network: Network) -> Result<Description, Failur
 
 fn compiled(path: &Path, network: Network, options: &Options) -> Result<Description, Failure> {
     let found = Description::compile(source(path)?, network, options);
-    found.map_err(|error| Failure::Device(format!("{}: {error}", path.display())))
+    found.map_err(|error| Failure::Failed(format!("{}: {error}", path.display())))
 }
 
 /// Reads a file.
 pub(super) fn source(path: &Path) -> Result<Source, Failure> {
-    Source::read(path).map_err(|error| Failure::Device(format!("cannot read {}: {error}", path.display())))
+    Source::read(path).map_err(|error| Failure::Failed(format!("cannot read {}: {error}", path.display())))
 }
 
 /// Reads a backup: a TOML file, or a description file with configured values. The vendor ID and product code of a
@@ -41,7 +41,7 @@ pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, F
     let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     if is_toml {
         let found = Backup::from_toml(source(path)?.text(), description);
-        return found.map_err(|error| Failure::Device(format!("{}: {error}", path.display())));
+        return found.map_err(|error| Failure::Failed(format!("{}: {error}", path.display())));
     }
     let configured = plain(path, description.network())?;
     let differs = |number: &IdentityNumber| {
@@ -51,11 +51,11 @@ pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, F
     if let Some(number) = [IdentityNumber::VendorId, IdentityNumber::ProductCode].into_iter().find(differs) {
         let (path, name) = (path.display(), number.name());
         let text = format!("{path} is for another product: its {name} differs from that of the description");
-        return Err(Failure::Device(text));
+        return Err(Failure::Failed(text));
     }
     let backup = Backup::of_description(&configured);
     match backup.entries.is_empty() {
-        true => Err(Failure::Device(format!("{} is not a backup: it contains no configured values", path.display()))),
+        true => Err(Failure::Failed(format!("{} is not a backup: it contains no configured values", path.display()))),
         false => Ok(backup),
     }
 }

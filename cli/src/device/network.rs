@@ -42,7 +42,7 @@ impl NetworkFile {
         let mut errors = reported.diagnostics.list().iter().filter(|found| found.severity == Severity::Error);
         let first =
             errors.next().map_or_else(|| "the file is not a network file".to_owned(), |one| reported.one_line(one));
-        Err(Failure::Device(first))
+        Err(Failure::Failed(first))
     }
 
     fn network(&self) -> &model::Network {
@@ -67,7 +67,7 @@ impl NetworkFile {
             Values::Configured => node_catalog(self.network(), node),
         };
         let description = Description::new(catalog, Network::CanOpen);
-        Ok((node.id, description.map_err(|error| Failure::Device(format!("{name}: {error}")))?))
+        Ok((node.id, description.map_err(|error| Failure::Failed(format!("{name}: {error}")))?))
     }
 
     fn unknown(&self, name: &str) -> Failure {
@@ -85,7 +85,7 @@ impl NetworkFile {
             (Some(bus), _) => bus.clone(),
             (None, Some(bus)) => {
                 let at = self.compilation.source.position(bus.span.start);
-                let wrong = |error| Failure::Device(format!("{}:{}:{}: {error}", self.name(), at.line, at.column));
+                let wrong = |error| Failure::Failed(format!("{}:{}:{}: {error}", self.name(), at.line, at.column));
                 bus.value.parse().map_err(wrong)?
             }
             (None, None) => {

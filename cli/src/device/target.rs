@@ -117,6 +117,6 @@ impl Watched {
 
 impl From<lexibus_device::Failure> for Failure {
     fn from(failure: lexibus_device::Failure) -> Self {
-        Failure::Device(failure.to_string())
+        Failure::Failed(failure.to_string())
     }
 }

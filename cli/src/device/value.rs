@@ -37,7 +37,7 @@ pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
     let parameter = device.description.find(&arguments.name).map_err(|error| Failure::Usage(error.to_string()))?;
     let text = arguments.value.join(" ");
     let write = Write::parse(parameter, &text, Some(device.node));
-    let write = write.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
+    let write = write.map_err(|error| Failure::Failed(format!("{parameter}: {error}")))?;
     let mut connection = device.connect()?;
     let old = match parameter.read_refusal() {
         Some(refusal) => format!("not read: {refusal}"),
@@ -58,7 +58,7 @@ pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
     let deferred = Deferred::new();
     let result = write.execute(&mut connection);
     drop(deferred);
-    result.map_err(|error| Failure::Device(format!("{parameter}: {error}")))?;
+    result.map_err(|error| Failure::Failed(format!("{parameter}: {error}")))?;
     say("written");
     Ok(true)
 }

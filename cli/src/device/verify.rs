@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
 pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     match path {
         Some(path) => write_if_changed(path, text)
-            .map_err(|error| Failure::Device(format!("cannot write {}: {error}", path.display()))),
+            .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", path.display()))),
         None => Ok(std::io::stdout().lock().write_all(text.as_bytes())?),
     }
 }

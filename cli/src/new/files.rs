@@ -75,7 +75,7 @@ impl Files {
     /// Creates `folder` with all files. Changes nothing if `folder` exists or an error occurs. If Ctrl-C ends the
     /// program, `folder` is complete or absent.
     pub(super) fn create(&self, folder: &Path) -> Result<(), Failure> {
-        let failed = |error| Failure::Usage(format!("cannot create the folder {}: {error}", folder.display()));
+        let failed = |error| Failure::Failed(format!("cannot create the folder {}: {error}", folder.display()));
         let _writing = writing();
         let temporary = temporary_path(folder).map_err(failed)?;
         std::fs::create_dir(&temporary).map_err(failed)?;
@@ -97,7 +97,7 @@ impl Files {
             let parent = place.parent().map_or(Ok(()), std::fs::create_dir_all);
             parent
                 .and_then(|()| std::fs::write(&place, content))
-                .map_err(|error| Failure::Usage(format!("cannot write {path} of the crate: {error}")))?;
+                .map_err(|error| Failure::Failed(format!("cannot write {path} of the crate: {error}")))?;
         }
         Ok(())
     }
@@ -124,7 +124,7 @@ mod tests {
 
     fn message(result: Result<(), Failure>) -> String {
         match result {
-            Err(Failure::Usage(message)) => message,
+            Err(Failure::Usage(message) | Failure::Failed(message)) => message,
             _ => "no message".to_owned(),
         }
     }

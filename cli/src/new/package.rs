@@ -124,7 +124,7 @@ pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Fai
 
 /// Returns the text of a file from its template.
 pub(super) fn render(template: &impl Template) -> Result<String, Failure> {
-    template.render().map_err(|error| Failure::Usage(format!("cannot write a file of the crate: {error}")))
+    template.render().map_err(|error| Failure::Failed(format!("cannot write a file of the crate: {error}")))
 }
 
 /// Returns an error if the crate name is invalid. A valid name begins with an ASCII letter, and consists of ASCII
