@@ -6,7 +6,7 @@ use super::context::Context;
 use super::limits::beyond;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
-use crate::ir::{BitMeaning, Item, Message, MessageField, MessageValue, Shape, Type};
+use crate::ir::{BitMeaning, FieldId, FieldRef, Item, Message, MessageField, MessageValue, Shape, Type};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
@@ -84,7 +84,7 @@ impl<'a> Frame<'a> {
             MessageField::Value(value) => self.owner.basic(value.item.ty).bits().map(|bits| bits as usize),
             MessageField::Echo { field, bytes: None } => {
                 let (fields, _) = self.request?;
-                fields.iter().find(|other| name(other) == Some(field)).and_then(|other| self.bits(other))
+                self.bits(fields.get(field.id?.0 as usize)?)
             }
             MessageField::Echo { bytes: Some((first, last)), .. } => Some((usize::from(last - first) + 1) * 8),
             MessageField::ItemCode { bits, .. } => Some(usize::from(*bits)),
@@ -140,7 +140,7 @@ impl<'a> Frame<'a> {
         } else if let Some(limit) = signed.and_then(|signed| beyond(item, signed)) {
             problems.push(format!("has {number:#X} in the field `{name}`, whose {limit}"));
         }
-        if let Some(counted) = value.counts.as_ref().and_then(|from| self.counted(from)) {
+        if let Some(counted) = value.counts.as_ref().and_then(|first| self.counted(first.id?)) {
             if number != counted as u64 {
                 problems.push(format!("has the value {number} in the length field `{name}` instead of {counted}"));
             }
@@ -186,40 +186,25 @@ impl<'a> Frame<'a> {
     }
 
     /// Returns the number of bytes from a field to the end of the frame.
-    fn counted(&self, from: &str) -> Option<usize> {
-        let mut at = 0usize;
-        for field in self.fields {
-            if name(field) == Some(from) {
-                return Some(self.bytes.len().saturating_sub(at / 8));
-            }
-            at += self.bits(field)?;
-        }
-        None
+    fn counted(&self, first: FieldId) -> Option<usize> {
+        Some(self.bytes.len().saturating_sub(self.offset(first)? / 8))
     }
 
-    fn echo(&self, field: &str, part: Option<(u8, u8)>, range: Range<usize>) -> Option<String> {
+    /// Returns the bit offset of a field, or `None` if the field comes after a field with a variable length.
+    fn offset(&self, id: FieldId) -> Option<usize> {
+        self.fields.get(..id.0 as usize)?.iter().map(|field| self.bits(field)).sum()
+    }
+
+    fn echo(&self, field: &FieldRef, part: Option<(u8, u8)>, range: Range<usize>) -> Option<String> {
         let (fields, bytes) = self.request?;
         let request = Frame::new(self.owner, fields, bytes);
-        let mut start = part.map_or(0, |(first, _)| usize::from(first) * 8);
-        for before in fields.iter().take_while(|other| name(other) != Some(field)) {
-            start += request.bits(before)?;
-        }
+        let start = request.offset(field.id?)? + part.map_or(0, |(first, _)| usize::from(first) * 8);
         let is_whole = [range.start, range.len(), start].iter().all(|bits| bits.is_multiple_of(8));
         let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + range.len()) / 8);
         let (found, sent) = (part(self.bytes, range.start)?, part(bytes, start).filter(|_| is_whole)?);
         (found != sent).then(|| {
             format!("has {} as the copy of the field `{}`, but the request has {}", hex(found), brief(field), hex(sent))
         })
-    }
-}
-
-/// Returns the name of a field in a message. An echo has the name of the copied field. Returns `None` for a field without a name,
-/// such as constant bytes.
-fn name(field: &MessageField) -> Option<&str> {
-    match field {
-        MessageField::Value(value) => Some(&value.item.name),
-        MessageField::Echo { field, .. } => Some(field),
-        _ => None,
     }
 }
 

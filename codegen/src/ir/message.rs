@@ -1,8 +1,8 @@
 //! Command protocols and code tables.
 
 use super::{
-    Availability, Buses, CompactString, Condition, DeviceStateRef, Documentation, Doubts, FactOrigin, Item, ItemRef,
-    MessageRef, SharedList, SpaceRef, Texts, Value,
+    Availability, Buses, CompactString, Condition, DeviceStateRef, Documentation, Doubts, FactOrigin, FieldId,
+    FieldRef, Item, ItemRef, MessageId, MessageRef, SharedList, SpaceRef, Texts, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -16,6 +16,12 @@ pub struct Message {
     pub request: Vec<MessageField>,
     /// Fields of the reply, in order; empty if the device sends no reply.
     pub reply: Vec<MessageField>,
+    /// Request field with the name in [`Framing::address`]. Set by the stage `resolve`.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub address: Option<FieldId>,
+    /// Request field with the name in [`Framing::check_from`]. Set by the stage `resolve`.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub check_from: Option<FieldId>,
     /// The event that completes the command.
     pub completion: Completion,
     /// Approximate reply time in milliseconds, if the source states that the reply is delayed.
@@ -95,8 +101,8 @@ pub enum Completion {
     Reply,
     /// The command is complete when an item, or a field of a reply, has a certain value.
     Polled {
-        /// Name of the item or field, optionally followed by a dot and the name of a bit. A reference to an item has an id, and a
-        /// reference to a field has none.
+        /// Name of the item or field, optionally followed by a dot and the name of a bit. Only a reference to an item has an id.
+        /// Replies can have several fields with the same name. Each of them refers to the command in [`MessageValue::completes`].
         item: ItemRef,
         /// Mask of the bits to compare; `None` = all bits.
         mask: Option<u64>,
@@ -129,8 +135,8 @@ pub enum MessageField {
     Value(Box<MessageValue>),
     /// A copy of a request field, or of some of its bytes.
     Echo {
-        /// Name of the copied field.
-        field: CompactString,
+        /// The copied field of the request.
+        field: FieldRef,
         /// First and last copied byte of the field, counted from 0 in the order on the wire; `None` = all bytes.
         bytes: Option<(u8, u8)>,
     },
@@ -164,8 +170,8 @@ pub enum MessageField {
     Padding(u8),
     /// Fields that are repeated.
     Repeat {
-        /// Name of the field with the number of repetitions; `None` = the fields are repeated up to the end of the data.
-        count: Option<CompactString>,
+        /// Field of the same list with the number of repetitions; `None` = the fields are repeated up to the end of the data.
+        count: Option<FieldRef>,
         /// Maximum number of repetitions.
         max: Option<u16>,
         /// Fields of a single repetition.
@@ -183,9 +189,22 @@ pub struct MessageValue {
     pub item: Item,
     /// Byte order on the wire as a list of byte numbers, in which 0 is the most significant byte; empty = big-endian.
     pub byte_order: Vec<u8>,
-    /// First counted field of the frame, if the value is the number of bytes from this field to the end of the data.
+    /// First counted field of the same list, if the value is the number of bytes from this field to the end of the data.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub counts: Option<CompactString>,
+    pub counts: Option<FieldRef>,
+    /// The command whose completion the value indicates, if the value is in a reply. If several commands poll a value with this
+    /// name, this is the first of them. Set by the stage `resolve`.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub completes: Option<PolledCommand>,
+}
+
+/// A command whose completion a value in a reply indicates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PolledCommand {
+    /// The message of the command. Its completion contains the mask and the expected value.
+    pub message: MessageId,
+    /// Position of the compared bits in the bit field that is the type of the value; `None` = the whole value is compared.
+    pub bits: Option<u32>,
 }
 
 /// A parameter space of a command protocol: numbers that address items, and messages that transfer the values of these items.
@@ -224,7 +243,8 @@ pub struct Framing {
     pub escaped: Vec<u8>,
     /// Name of the checksum algorithm: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
-    /// First field that the checksum covers; `None` = the checksum starts at the first byte after `start`.
+    /// Name of the first field that the checksum covers; `None` = the checksum starts at the first byte after `start`. Each request
+    /// with this field has its id in [`Message::check_from`].
     pub check_from: Option<CompactString>,
     /// True if bytes of the checksum are escaped.
     pub check_escaped: bool,
@@ -232,7 +252,8 @@ pub struct Framing {
     pub check_seed: u32,
     /// Maximum number of data bytes, without start, end, escape bytes and checksum.
     pub max_data: Option<u16>,
-    /// Request field with the address of the device; `None` = the protocol has no device addresses.
+    /// Name of the request field with the address of the device; `None` = the protocol has no device addresses. Each request with
+    /// this field has its id in [`Message::address`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub address: Option<CompactString>,
     /// Description of the framing from the source.

@@ -37,6 +37,10 @@ impl Group {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MessageId(pub u32);
 
+/// Position of a [`MessageField`](super::MessageField) in its list: a request, a reply, or the fields of a repetition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FieldId(pub u32);
+
 /// Position of a [`Procedure`] in [`Device::procedures`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ProcedureId(pub u32);
@@ -176,6 +180,9 @@ pub type TypeRef = Reference<TypeId>;
 
 /// A reference to a message.
 pub type MessageRef = Reference<MessageId>;
+
+/// A reference to a field of a message. A copied field has the name of the field that it copies.
+pub type FieldRef = Reference<FieldId>;
 
 /// A reference to an item, or to a message if there is no such item.
 pub type ElementRef = Reference<ElementId>;

@@ -7,6 +7,7 @@
 //! | `conditions` | signs of the values in conditions |
 //! | `profiles` | facts of standards about the objects of all devices that follow them |
 //! | `references`, `mentions` | ids for the names in references |
+//! | `message_fields` | ids of the fields of messages |
 //! | `removal` | removes selected objects, and updates ids |
 //! | `identity` | identity numbers of object 0x1018 |
 //! | `implicit_pdos` | objects of PDOs that an EDS or DCF counts but does not describe |
@@ -19,6 +20,7 @@ mod identity;
 mod implicit_pdos;
 mod mapped_objects;
 mod mentions;
+mod message_fields;
 #[cfg(feature = "messages")]
 pub(crate) mod messages;
 mod pdo_entries;

@@ -1,6 +1,8 @@
 //! Runs the steps that complete a description.
 
-use super::{conditions, identity, implicit_pdos, mapped_objects, pdo_entries, pdo_mapping, profiles, references};
+use super::{
+    conditions, identity, implicit_pdos, mapped_objects, message_fields, pdo_entries, pdo_mapping, profiles, references,
+};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Module};
 
@@ -27,6 +29,7 @@ pub fn resolve(catalog: &mut Catalog, profiles: Profiles, diagnostics: &mut Diag
         profiles::apply(catalog);
     }
     for device in &mut catalog.devices {
+        message_fields::run(device);
         if references::device(device) {
             conditions::run(device);
         }

@@ -321,7 +321,7 @@ fn fields(out: &mut String, list: &[MessageField], types: &[TypeDef], indent: &s
             MessageField::ItemValue { space } => format!("value of {space}"),
             MessageField::ItemPadding { space } => format!("padding of {space}"),
             MessageField::Padding(bits) => format!("padding {bits}"),
-            MessageField::Repeat { count, max, .. } => format!("repeat {count:?} {max:?}"),
+            MessageField::Repeat { count, max, .. } => format!("repeat {:?} {max:?}", count.as_deref()),
             MessageField::Rest => "rest".to_owned(),
         };
         line(out, &[format!("{indent}{text}")]);

@@ -197,8 +197,10 @@ impl<'d> Layout<'d> {
                 MessageField::Value(value) if self.bits(&value.item) == 4 => data.push(Byte::Status),
                 MessageField::Value(value) => data.extend(self.value(value)),
                 MessageField::Echo { field, bytes } => {
-                    let actual: Vec<&Byte> =
-                        request.iter().filter(|byte| matches!(byte, Byte::Of(name, ..) if name == field)).collect();
+                    let actual: Vec<&Byte> = request
+                        .iter()
+                        .filter(|byte| matches!(byte, Byte::Of(name, ..) if name.as_str() == field.as_str()))
+                        .collect();
                     let (first, last) =
                         bytes.map_or((0, actual.len() - 1), |(first, last)| (first.into(), last.into()));
                     data.extend(actual[first..=last].iter().copied().cloned());

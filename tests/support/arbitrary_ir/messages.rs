@@ -41,6 +41,8 @@ fn message(b: &mut Bytes<'_>, around: &Around<'_>, known: &[CompactString]) -> M
         name: names::name(b),
         request,
         reply,
+        address: None,
+        check_from: None,
         completion,
         reply_time: b.maybe(6, Bytes::any),
         after: b.maybe(5, |b| names::of(b, known).into()),
@@ -84,7 +86,7 @@ fn frame(b: &mut Bytes<'_>, around: &Around<'_>, request: Option<&[MessageField]
             4..=8 => frame.push(value(b, around, &names_of_fields)),
             9 if request.is_some() => {
                 let bytes = b.maybe(4, |b| (0, b.within(0..=1)));
-                frame.push(MessageField::Echo { field: names::of(b, &asked), bytes });
+                frame.push(MessageField::Echo { field: names::of(b, &asked).into(), bytes });
             }
             10 if request.is_some() => frame.push(MessageField::Copy { first: b.within(0..=2), last: b.within(0..=4) }),
             11 => frame.extend(parameter(b, around)),
@@ -108,8 +110,8 @@ fn value(b: &mut Bytes<'_>, around: &Around<'_>, before: &[CompactString]) -> Me
     let item = unbound(b, around);
     let bytes = super::types::base(around.types, item.ty).bits().unwrap_or(0) / 8;
     let byte_order = if b.one_in(4) { (0..bytes.min(8) as u8).rev().collect() } else { Vec::new() };
-    let counts = if before.is_empty() { None } else { b.maybe(6, |b| names::of(b, before)) };
-    MessageField::Value(Box::new(MessageValue { item, byte_order, counts }))
+    let counts = if before.is_empty() { None } else { b.maybe(6, |b| names::of(b, before).into()) };
+    MessageField::Value(Box::new(MessageValue { item, byte_order, counts, completes: None }))
 }
 
 /// Returns fields with a parameter number, a parameter value, or both. The fields may be repeated.
@@ -138,8 +140,9 @@ fn repeat(b: &mut Bytes<'_>, around: &Around<'_>) -> Vec<MessageField> {
         return vec![MessageField::Repeat { count: None, max, fields }];
     }
     let name = count.name.clone();
-    let count = MessageField::Value(Box::new(MessageValue { item: count, byte_order: Vec::new(), counts: None }));
-    vec![count, MessageField::Repeat { count: Some(name), max, fields }]
+    let count = MessageValue { item: count, byte_order: Vec::new(), counts: None, completes: None };
+    let count = MessageField::Value(Box::new(count));
+    vec![count, MessageField::Repeat { count: Some(name.into()), max, fields }]
 }
 
 /// Returns a parameter space to which these messages give access.

@@ -38,7 +38,7 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
         accepted_in: restricted("accepted in"),
         examples: positioned("examples", Judgment::NONE, |list: &Vec<MessageExample>| examples(list)),
         documentation, doubts,
-    }, POSITION => [origin]);
+    }, "follows from the framing" => [address, check_from], POSITION => [origin]);
 }
 
 /// Formats the example frames of a message without their source positions.
@@ -93,7 +93,7 @@ fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>
         item: item::compare,
         byte_order: fact("order of the bytes", Judgment::WIRE),
         counts: fact("byte count starts at", Judgment::WIRE),
-    });
+    }, "follows from the completion of messages" => [completes]);
 }
 
 /// Returns the effects of a changed layout. The fields become fields of a Rust struct with the same names. The types of the
@@ -127,7 +127,11 @@ fn field(field: &MessageField, with_names: bool) -> String {
         MessageField::Padding(bytes) => format!("{bytes} bytes without meaning"),
         MessageField::Repeat { count, max, fields } => {
             let max = max.map(|max| format!(", at most {max}")).unwrap_or_default();
-            format!("{} times{max} ({})", count.as_deref().unwrap_or("any"), layout(fields, with_names))
+            format!(
+                "{} times{max} ({})",
+                count.as_ref().map_or("any", |count| count.as_str()),
+                layout(fields, with_names)
+            )
         }
         MessageField::Rest => "the rest".to_owned(),
     }

@@ -114,6 +114,8 @@ fn message(
         name: text(name),
         request,
         reply,
+        address: None,
+        check_from: None,
         completion,
         reply_time: given.reply_time,
         after: given.after.as_ref().map(|name| reader.reference(name)),
@@ -145,7 +147,7 @@ fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
 /// Reports a `counts` key that names a field which the frame does not have.
 fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<FieldTable>]) {
     let echoes = fields.iter().filter_map(|field| match field {
-        MessageField::Echo { field, .. } => Some(field),
+        MessageField::Echo { field, .. } => Some(&field.name),
         _ => None,
     });
     let known: Vec<&CompactString> = field_names(fields).chain(echoes).collect();
@@ -320,7 +322,8 @@ impl Fields<'_, '_, '_> {
                 self.reader.unresolved("field", &count.value, self.reader.span(count), known.into_iter());
             }
             let fields = self.list(&repeat.fields, depth + 1);
-            return Some(MessageField::Repeat { count: repeat.count.as_ref().map(text), max: repeat.max, fields });
+            let count = repeat.count.as_ref().map(|count| self.reader.reference(count));
+            return Some(MessageField::Repeat { count, max: repeat.max, fields });
         }
         let fixed = given.bytes.clone().map(MessageField::Constant).or(given.pad.map(MessageField::Padding));
         Some(fixed.unwrap_or(MessageField::Rest))
@@ -373,7 +376,7 @@ impl Fields<'_, '_, '_> {
             self.reader.unresolved("field of the request", &echo.value, self.reader.span(echo), known);
         }
         let bytes = field.value.part.as_ref().and_then(|part| self.bytes(part));
-        MessageField::Echo { field: text(echo), bytes }
+        MessageField::Echo { field: self.reader.reference(echo), bytes }
     }
 
     /// Reads a range of bytes. Returns the numbers of the first and the last byte. Returns `None` and reports the range if it is
@@ -443,8 +446,8 @@ impl Fields<'_, '_, '_> {
             let message = format!("the byte order has {} bytes, but the type has {bytes}", byte_order.len());
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(order), message);
         }
-        let counts = given.counts.as_ref().map(text);
-        Some(MessageField::Value(Box::new(MessageValue { item, byte_order, counts })))
+        let counts = given.counts.as_ref().map(|field| self.reader.reference(field));
+        Some(MessageField::Value(Box::new(MessageValue { item, byte_order, counts, completes: None })))
     }
 }
 

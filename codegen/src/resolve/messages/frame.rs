@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ir::owner::Owner;
-use crate::ir::{Binding, Device, MessageField, SpaceRef};
+use crate::ir::{Binding, Device, FieldId, MessageField, SpaceRef};
 
 /// Facts about the data of a frame: constant bytes, lengths and misalignment. The data do not include start, checksum and end.
 #[derive(Clone, Debug, Default)]
@@ -91,7 +91,7 @@ impl Reader<'_, '_> {
             MessageField::Copy { first, last } => {
                 self.known((usize::from(*last) - usize::from(*first.min(last)) + 1) * 8);
             }
-            MessageField::Echo { bytes: None, field } => match self.echoed(field) {
+            MessageField::Echo { bytes: None, field } => match field.id.and_then(|id| self.echoed(id)) {
                 Some(bits) => self.known(bits as usize),
                 None => self.open(0),
             },
@@ -131,12 +131,11 @@ impl Reader<'_, '_> {
     }
 
     /// Returns the length in bits of a value in the request, or `None` if the value is missing or has a variable length.
-    fn echoed(&self, name: &str) -> Option<u32> {
-        let bits_of = |field: &MessageField| match field {
-            MessageField::Value(value) if value.item.name == name => Some(self.owner.basic(value.item.ty).bits()),
+    fn echoed(&self, id: FieldId) -> Option<u32> {
+        match self.request.get(id.0 as usize)? {
+            MessageField::Value(value) => self.owner.basic(value.item.ty).bits(),
             _ => None,
-        };
-        self.request.iter().find_map(bits_of).flatten()
+        }
     }
 
     /// Returns the length in bits of the shortest value with a fixed length in a parameter space, or 0 if there is none.

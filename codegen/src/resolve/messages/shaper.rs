@@ -3,7 +3,7 @@
 use super::shape::Problem;
 use super::step::{are_aligned, push, tail, Step};
 use crate::ir::owner::{fixed, Owner};
-use crate::ir::{Device, Message, MessageField, MessageValue, SpaceRef, Type};
+use crate::ir::{Device, FieldId, FieldRef, Message, MessageField, MessageValue, SpaceRef, Type};
 
 pub(super) const UNRESOLVED: Problem = "a field refers to a field that does not exist";
 pub(super) const UNALIGNED: Problem = "a field of whole bytes starts within a byte, or the data ends within a byte";
@@ -22,23 +22,27 @@ const LENGTH: Problem =
     "a length is not an unsigned integer of whole bytes, or counts from a field after a field of variable length";
 const COUNT: Problem = "the number of repetitions is not a separate unsigned integer before the repeated fields";
 
-/// The steps of a request or reply, with the offsets of its values.
+/// The steps of a request or reply, with the offsets of its fields.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,
-    /// Name, bit offset and length in bits of each value and completely copied field before the first step with a variable length.
-    offsets: Vec<(&'a str, u32, u32)>,
-    /// Names of the values and completely copied fields that are not repeated.
-    names: Vec<&'a str>,
+    /// Bit offset and length in bits of each field before the first step with a variable length.
+    offsets: Vec<(FieldId, u32, u32)>,
     /// Bit offset and length in bits of the first parameter number.
     code: Option<(u32, u32)>,
 }
 
 impl Side<'_> {
-    /// Returns the byte offset of a value, if the value comes before the first step with a variable length.
-    pub(crate) fn byte_offset(&self, name: &str) -> Option<u32> {
-        let (_, at, _) = self.offsets.iter().find(|(other, ..)| *other == name)?;
+    /// Returns the byte offset of a field, if the field comes before the first step with a variable length.
+    pub(crate) fn byte_offset(&self, id: FieldId) -> Option<u32> {
+        let (at, _) = self.range(id)?;
         Some(at / 8)
+    }
+
+    /// Returns the bit offset and the length in bits of a field, if the field comes before the first step with a variable length.
+    fn range(&self, id: FieldId) -> Option<(u32, u32)> {
+        let position = self.offsets.binary_search_by_key(&id, |(other, ..)| *other).ok()?;
+        self.offsets.get(position).map(|(_, at, bits)| (*at, *bits))
     }
 
     /// Returns whether decoded values borrow from the data.
@@ -49,9 +53,8 @@ impl Side<'_> {
 
 /// Returns the steps of a request.
 pub(super) fn request<'a>(device: &'a Device, message: &'a Message) -> Result<Side<'a>, Problem> {
-    let station = device.framing.as_ref().and_then(|framing| framing.address.as_deref());
-    let shaper = Shaper { owner: Owner::of_types(&device.types), station, request: None };
-    shaper.side(&message.request)
+    let owner = Owner::of_types(&device.types);
+    Shaper { owner, station: message.address, request: None }.side(&message.request)
 }
 
 /// Returns the steps of a reply.
@@ -63,35 +66,34 @@ pub(super) fn reply<'a>(device: &'a Device, message: &'a Message, request: &Side
 /// Context for determining the steps of a request or reply.
 struct Shaper<'a, 'q> {
     owner: Owner<'a>,
-    /// Name of the request field with the device address.
-    station: Option<&'a str>,
+    /// Request field with the device address.
+    station: Option<FieldId>,
     /// The request, if the steps are those of its reply.
     request: Option<&'q Side<'q>>,
 }
 
 impl<'a> Shaper<'a, '_> {
     fn side(&self, fields: &'a [MessageField]) -> Result<Side<'a>, Problem> {
-        let mut side = Side { names: names(fields).collect(), ..Side::default() };
+        let mut side = Side::default();
         let mut offset = Some(0);
-        let mut left = fields;
-        while let Some((field, rest)) = left.split_first() {
-            let (step, used) = self.step(field, rest, fields)?;
-            left = rest.get(used..).unwrap_or_default();
-            offset = self.append(&mut side, field, step, offset)?;
+        let mut next = 0;
+        while let Some((field, rest)) = fields.get(next..).and_then(<[MessageField]>::split_first) {
+            let id = FieldId(next as u32);
+            let (step, used) = self.step(id, field, rest, fields)?;
+            next += 1 + used;
+            offset = self.append(&mut side, id, step, offset)?;
         }
         orders(&side.steps)?;
         if !are_aligned(&side.steps) {
             return Err(UNALIGNED);
         }
-        let Side { steps, offsets, .. } = &mut side;
-        for step in steps {
+        let mut steps = std::mem::take(&mut side.steps);
+        for step in &mut steps {
             if let Step::Length { from, counts, .. } = step {
-                let missing = if named(fields, counts) { LENGTH } else { UNRESOLVED };
-                let (_, at, _) = offsets.iter().find(|(name, ..)| name == counts).ok_or(missing)?;
-                *from = at / 8;
+                *from = side.byte_offset(counts.ok_or(UNRESOLVED)?).ok_or(LENGTH)?;
             }
         }
-        Ok(side)
+        Ok(Side { steps, ..side })
     }
 
     /// Adds a step at the bit offset `offset`, and returns the bit offset of the next step. Both offsets are `None` after a step
@@ -99,12 +101,12 @@ impl<'a> Shaper<'a, '_> {
     fn append(
         &self,
         side: &mut Side<'a>,
-        field: &'a MessageField,
+        id: FieldId,
         step: Step<'a>,
         offset: Option<u32>,
     ) -> Result<Option<u32>, Problem> {
-        if let (Some(name), Some(at), Some(bits)) = (name(field), offset, step.bits()) {
-            side.offsets.push((name, at, bits));
+        if let (Some(at), Some(bits)) = (offset, step.bits()) {
+            side.offsets.push((id, at, bits));
         }
         if let (Some(at), None, Some(bits)) = (offset, side.code, step.code_bits()) {
             side.code = Some((at, bits));
@@ -127,6 +129,7 @@ impl<'a> Shaper<'a, '_> {
     /// Returns the step for `field`, and the number of following fields that it includes.
     fn step(
         &self,
+        id: FieldId,
         field: &'a MessageField,
         rest: &'a [MessageField],
         all: &'a [MessageField],
@@ -135,7 +138,7 @@ impl<'a> Shaper<'a, '_> {
             MessageField::Constant(bytes) => Step::Bytes(bytes.clone()),
             MessageField::FixedBits { bits, value } => Step::Bits { bits: (*bits).into(), value: *value },
             MessageField::Padding(count) => Step::Padding((*count).into()),
-            MessageField::Value(value) => self.value(value, all)?,
+            MessageField::Value(value) => self.value(id, value, all)?,
             MessageField::Echo { field, bytes } => self.echo(field, *bytes)?,
             MessageField::Copy { first, last } => {
                 self.request.ok_or(COPY)?;
@@ -154,7 +157,7 @@ impl<'a> Shaper<'a, '_> {
         Ok((step, 0))
     }
 
-    fn value(&self, value: &'a MessageValue, all: &'a [MessageField]) -> Result<Step<'a>, Problem> {
+    fn value(&self, id: FieldId, value: &'a MessageValue, all: &'a [MessageField]) -> Result<Step<'a>, Problem> {
         let basic = self.owner.basic(value.item.ty);
         let bits = match basic {
             Type::VisibleString(Some(length)) | Type::OctetString(Some(length)) => length.checked_mul(8),
@@ -166,16 +169,16 @@ impl<'a> Shaper<'a, '_> {
             return Err(UNKNOWN_LENGTH);
         }
         let is_number = matches!(value.item.ty, Type::Unsigned(_));
-        if let Some(max) = all.iter().find_map(|field| counts(field, &value.item.name)) {
+        if let Some(max) = all.iter().find_map(|field| counts(field, id)) {
             return if is_number && order.is_empty() { Ok(Step::Count { bits, max }) } else { Err(COUNT) };
         }
-        if self.station == Some(value.item.name.as_str()) {
+        if self.station == Some(id) {
             let fits = matches!(basic, Type::Unsigned(1..=32));
             return if fits { Ok(Step::Station { bits, value }) } else { Err(STATION) };
         }
         if let Some(counts) = &value.counts {
             let fits = is_number && bits.is_multiple_of(8);
-            return if fits { Ok(Step::Length { bits, order, from: 0, counts }) } else { Err(LENGTH) };
+            return if fits { Ok(Step::Length { bits, order, from: 0, counts: counts.id }) } else { Err(LENGTH) };
         }
         match fixed(&value.item).filter(|_| bits <= 64) {
             // The frame contains the low bits of the two's complement of a fixed value.
@@ -184,10 +187,9 @@ impl<'a> Shaper<'a, '_> {
         }
     }
 
-    fn echo(&self, field: &str, bytes: Option<(u8, u8)>) -> Result<Step<'a>, Problem> {
+    fn echo(&self, field: &FieldRef, bytes: Option<(u8, u8)>) -> Result<Step<'a>, Problem> {
         let request = self.request.ok_or(ECHO)?;
-        let missing = if request.names.contains(&field) { ECHO } else { UNRESOLVED };
-        let (_, at, bits) = request.offsets.iter().find(|(name, ..)| *name == field).ok_or(missing)?;
+        let (at, bits) = request.range(field.id.ok_or(UNRESOLVED)?).ok_or(ECHO)?;
         let is_whole = at.is_multiple_of(8) && bits.is_multiple_of(8);
         let (first, last) = match bytes {
             Some((first, last)) => (first.into(), last.into()),
@@ -220,9 +222,10 @@ impl<'a> Shaper<'a, '_> {
             let is_alone = space == other && !is_counted && *bits <= 32;
             return if is_alone { Ok(Step::Settings { bits: (*bits).into(), space, max }) } else { Err(REPEATED) };
         }
+        let entry = Shaper { station: None, ..*self };
         let mut steps = Vec::new();
-        for field in fields {
-            let (step, _) = self.step(field, &[], fields)?;
+        for (id, field) in (0..).map(FieldId).zip(fields) {
+            let (step, _) = entry.step(id, field, &[], fields)?;
             let is_simple = matches!(step, Step::Bytes(_) | Step::Bits { .. } | Step::Padding(_) | Step::Value { .. });
             if !is_simple {
                 return Err(REPEATED);
@@ -259,31 +262,13 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
     }
 }
 
-/// Returns the declared maximum number of repetitions if `field` is a list whose count is in the field `name`. Returns `Some(None)`
+/// Returns the declared maximum number of repetitions if `field` is a list whose count is in the field `id`. Returns `Some(None)`
 /// for such a list without a maximum, and `None` for any other field.
-fn counts(field: &MessageField, name: &str) -> Option<Option<u16>> {
+fn counts(field: &MessageField, id: FieldId) -> Option<Option<u16>> {
     match field {
-        MessageField::Repeat { count: Some(count), max, .. } if count == name => Some(*max),
+        MessageField::Repeat { count: Some(count), max, .. } if count.id == Some(id) => Some(*max),
         _ => None,
     }
-}
-
-/// Returns the name of a value, or of a field that is copied completely.
-fn name(field: &MessageField) -> Option<&str> {
-    match field {
-        MessageField::Value(value) => Some(value.item.name.as_str()),
-        MessageField::Echo { field, bytes: None } => Some(field.as_str()),
-        _ => None,
-    }
-}
-
-/// Returns the names of the values and completely copied fields that are not repeated.
-fn names(fields: &[MessageField]) -> impl Iterator<Item = &str> {
-    fields.iter().filter_map(name)
-}
-
-fn named(fields: &[MessageField], wanted: &str) -> bool {
-    names(fields).any(|name| name == wanted)
 }
 
 fn has_code(fields: &[MessageField]) -> bool {

@@ -1,6 +1,6 @@
 //! Steps: the parts of a frame's data.
 
-use crate::ir::{MessageValue, SpaceRef};
+use crate::ir::{FieldId, MessageValue, SpaceRef};
 
 /// A part of the data of a frame.
 #[derive(Clone, Debug)]
@@ -15,8 +15,8 @@ pub(crate) enum Step<'a> {
     Station { bits: u32, value: &'a MessageValue },
     /// A field whose value is always the same.
     Fixed { bits: u32, order: &'a [u8], value: u64 },
-    /// A length field: the number of bytes from byte `from` to the end of the data.
-    Length { bits: u32, order: &'a [u8], from: u32, counts: &'a str },
+    /// A length field: the number of bytes from byte `from`, at which the field `counts` starts, to the end of the data.
+    Length { bits: u32, order: &'a [u8], from: u32, counts: Option<FieldId> },
     /// A typed value.
     Value { bits: u32, value: &'a MessageValue },
     /// The number of repetitions in a counted list.

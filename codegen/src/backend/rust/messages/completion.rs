@@ -1,13 +1,11 @@
 //! Completion of commands: when a command is completed, and which field of a reply indicates the completion.
 
-use crate::facts::number::hex;
-use std::collections::HashMap;
-
 use super::field::{self, Field};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
-use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
+use crate::facts::number::hex;
+use crate::ir::{Completion, Message, MessageValue, Shape, Type, Value};
 use crate::resolve::messages::Step;
 
 /// Returns a sentence that states when the command of a message is completed, or `None` if the command is completed
@@ -31,10 +29,10 @@ pub(super) fn sentence(context: &Context<'_>, message: &Message, doc_module: Doc
 
 /// Returns the body of the method `is_complete` of a reply. The expression uses the first polling condition that can be
 /// evaluated from fields of the reply. Returns `None` if there is no such condition, or if the completion must be
-/// polled with another message.
+/// polled with another message. `messages` contains all messages of the device.
 pub(super) fn expression(
     context: &Context<'_>,
-    conditions: &Conditions<'_>,
+    messages: &[Message],
     message: &Message,
     steps: &[Step<'_>],
     fields: &[Field],
@@ -45,35 +43,20 @@ pub(super) fn expression(
     let named = steps.iter().filter(|step| field::name(step).is_some());
     named.zip(fields).find_map(|(step, field)| {
         let Step::Value { value, .. } = step else { return None };
-        let &(bit, mask, expected) = conditions.get(value.item.name.as_str())?;
-        compare(context, value, &field.name, bit, mask, expected)
-    })
-}
-
-/// A polling condition: the name of the polled bit, the mask, and the expected value.
-type Polled<'c> = (Option<&'c str>, Option<u64>, Option<&'c Value>);
-
-/// The first polling condition for each item, keyed by the name of the item.
-pub(super) type Conditions<'c> = HashMap<&'c str, Polled<'c>>;
-
-pub(super) fn conditions(device: &Device) -> Conditions<'_> {
-    let mut all = HashMap::new();
-    for message in &device.messages {
-        let Completion::Polled { item, mask, value, .. } = &message.completion else { continue };
-        let (field, bit) = match item.split_once('.') {
-            Some((field, bit)) => (field, Some(bit)),
-            None => (item.as_str(), None),
+        let command = value.completes?;
+        let Completion::Polled { mask, value: expected, .. } = &messages.get(command.message.0 as usize)?.completion
+        else {
+            return None;
         };
-        all.entry(field).or_insert((bit, *mask, value.as_ref()));
-    }
-    all
+        compare(context, value, &field.name, command.bits, *mask, expected.as_ref())
+    })
 }
 
 fn compare(
     context: &Context<'_>,
     value: &MessageValue,
     field: &str,
-    bit: Option<&str>,
+    position: Option<u32>,
     mask: Option<u64>,
     expected: Option<&Value>,
 ) -> Option<String> {
@@ -91,8 +74,8 @@ fn compare(
     // The maximum number that the field's type can represent.
     let (_, maximum) = base.integer_range()?;
     let number = |number: u64| (i128::from(number) <= maximum).then(|| hex(number));
-    let (offset, mask) = match bit {
-        Some(bit) => bits(context, value.item.ty, bit)?,
+    let (offset, mask) = match position {
+        Some(position) => bits(context, value.item.ty, position)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
     // The polling condition is never true if the mask is 0 or excludes a bit of the expected value.
@@ -110,10 +93,10 @@ fn compare(
     })
 }
 
-/// Returns the offset of the bits named `name` in a bit field, and a mask with as many bits that starts at bit 0.
-fn bits(context: &Context<'_>, ty: Type, name: &str) -> Option<(u32, u64)> {
+/// Returns the offset of the bits at `position` in the list of a bit field, and a mask with as many bits that starts at bit 0.
+fn bits(context: &Context<'_>, ty: Type, position: u32) -> Option<(u32, u64)> {
     let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
-    let field = fields.iter().find(|field| field.name == name)?;
+    let field = fields.get(position as usize)?;
     let mask = u64::MAX.checked_shr(64_u32.checked_sub(field.bits.into())?)?;
     Some((field.offset.into(), mask))
 }

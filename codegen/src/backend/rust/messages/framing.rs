@@ -15,7 +15,7 @@ const UNBOUNDED_LENGTH: u32 = 256;
 pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
     let byte = |byte: u8| Doc::from(hex8(byte));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
-    let from = framing.check_from.as_deref().and_then(|field| check_start(field, shaped)).unwrap_or(0);
+    let from = check_start(shaped).unwrap_or(0);
     let escape = |escape: u8| {
         let escaped = framing.escaped.iter().copied().map(byte);
         let fields = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::slice(escaped))];
@@ -52,9 +52,9 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// Returns the byte position at which a field starts in the first request that contains the field.
-fn check_start(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
-    shaped.iter().find_map(|shape| shape.request.byte_offset(field))
+/// Returns the byte position at which the checksum starts, from the first request that contains the first checked field.
+fn check_start(shaped: &[Shaped<'_>]) -> Option<u32> {
+    shaped.iter().find_map(|shape| shape.request.byte_offset(shape.message.check_from?))
 }
 
 /// Returns the maximum length of message data in bytes. If the description does not state it, the result is calculated

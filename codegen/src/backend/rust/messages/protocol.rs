@@ -100,7 +100,7 @@ impl ProtocolModel {
         let make = Maker {
             context,
             options,
-            polled: completion::conditions(device),
+            all: &device.messages,
             selectors: shapes.iter().filter_map(|shape| shape.message.after.as_ref()?.id).collect(),
             rules: &rules,
             shapes,
@@ -163,8 +163,8 @@ impl ProtocolModel {
 struct Maker<'m, 'a> {
     context: &'m Context<'a>,
     options: &'m RustOptions,
-    /// Polling conditions that indicate that a command is completed.
-    polled: completion::Conditions<'m>,
+    /// All messages of the device.
+    all: &'m [Message],
     /// Messages that determine the meaning of other messages.
     selectors: HashSet<MessageId>,
     rules: &'m Rules,
@@ -197,8 +197,7 @@ impl Maker<'_, '_> {
                 true => vec![format!("Reply to {}.", links::sibling(request_name))],
                 false => self.documentation(message, DocModule::MESSAGES),
             };
-            let polled =
-                || completion::expression(self.context, &self.polled, message, &shape.reply.steps, &data.fields);
+            let polled = || completion::expression(self.context, self.all, message, &shape.reply.steps, &data.fields);
             let is_complete = has_request.then(polled).flatten();
             DataModel { docs, is_complete, ..data }
         });
