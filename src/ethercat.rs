@@ -14,6 +14,7 @@ mod mailbox;
 mod module;
 mod pdo;
 mod plan;
+mod settings;
 mod startup;
 mod sync_manager;
 mod wire_macro;
@@ -25,6 +26,7 @@ pub use mailbox::{Coe, InitCommand, Mailbox, Transition, Transitions};
 pub use module::{Fit, Increments, Module, PdoGroup, Slot, SlotGroup, SlotObjects, Slots};
 pub use pdo::{Direction, PdoInfo};
 pub use plan::{PlanError, SlotPdo, SlotPlan};
+pub use settings::{ClockSettings, ClockSignal, FmmuSettings, SyncManagerSettings};
 pub use startup::{configure, configure_async, StartupCommand, StartupData};
 pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
 

@@ -1,14 +1,21 @@
 //! Tests EEPROM images of EtherCAT slaves with `ethercrab`, which reads the images from simulated SubDevices. The
-//! SubDevices refuse sync managers that differ from their description.
+//! SubDevices refuse sync managers that differ from their description. The registers that `ethercrab` writes are compared with
+//! the output of the network compiler.
+
+use std::path::Path;
 
 use ethercrab::subdevice_group::{Op, PreOp};
 use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup};
 use lexibus::clients::ethercat::Sdo;
-use lexibus::ethercat::Device;
+use lexibus::ethercat::{Direction, FmmuSettings, SyncManagerSettings};
 use lexibus::AbortCode;
 use lexibus_codegen::compile::{read, Options as Reading};
+use lexibus_codegen::diagnostics::Levels;
+use lexibus_codegen::ir;
 use lexibus_codegen::source::Source;
 use lexibus_export::sii;
+use lexibus_network::compile::compile;
+use lexibus_network::ethercat::{Fmmu, SyncManager};
 
 #[path = "../examples/support/ethercat/mod.rs"]
 mod ethercat;
@@ -29,6 +36,8 @@ lexibus::dictionary! {
     pub mod terminal = "tests/data/terminal.esi.xml" { strict: true }
 }
 
+const SERVO_FILE: &str = "examples/support/servo.esi.xml";
+const TERMINAL_FILE: &str = "tests/data/terminal.esi.xml";
 const SERVO: &str = include_str!("../examples/support/servo.esi.xml");
 const TERMINAL: &str = include_str!("data/terminal.esi.xml");
 
@@ -50,17 +59,41 @@ async fn op(maindevice: &'static MainDevice<'static>) -> Group<Op> {
     pre_op(maindevice).await.into_op(maindevice).await.expect("all SubDevices in Operational")
 }
 
-/// Checks that the master activated each sync manager of a description, and wrote its start address, length and control byte.
+/// Compiles a network file with a segment that contains only this device.
+fn compiled(path: &str) -> lexibus_network::ethercat::SubDevice {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = format!("[segment]\ncycle = 1000\n[segment.subdevices.one]\ndevice = \"{path}\"\n");
+    let name = root.join("network.toml").to_string_lossy().into_owned();
+    let compilation = compile(Source::new(name, text.into()), Levels::lenient());
+    assert!(compilation.diagnostics.list().is_empty(), "{:?}", compilation.diagnostics.list());
+    compilation.network.and_then(|network| network.segment).expect("a segment").subdevices.swap_remove(0)
+}
+
+/// Checks that the master wrote the settings that the network compiler states for the device: to the registers of each sync
+/// manager and of each FMMU. The logical addresses are not compared, because the master places inputs before outputs.
 /// `lengths` contains the lengths of the sync managers.
-async fn check_sync_managers(maindevice: &MainDevice<'_>, group: &Group<Op>, device: &Device, lengths: &[u16]) {
+async fn check_registers(maindevice: &MainDevice<'_>, group: &Group<Op>, path: &str, lengths: &[u16]) {
     let subdevice = group.subdevice(maindevice, 0).expect("a SubDevice");
-    assert_eq!(device.sync_managers.len(), lengths.len());
-    for (manager, length) in device.sync_managers.iter().zip(lengths) {
-        let registers = 0x0800 + 8 * u16::from(manager.number);
-        let set: [u8; 8] = subdevice.register_read(registers).await.expect("the registers");
-        let expected = [manager.start_address.to_le_bytes(), length.to_le_bytes()].concat();
-        assert_eq!(set[..4], expected, "sync manager {}", manager.number);
-        assert_eq!((set[4], set[6] & 1), (manager.control, 1), "sync manager {}", manager.number);
+    let compiled = compiled(path);
+    assert_eq!(compiled.sync_managers.iter().map(|manager| manager.length).collect::<Vec<_>>(), lengths);
+    for manager in &compiled.sync_managers {
+        let &SyncManager { number, start_address, length, control, enable, op_only, .. } = manager;
+        let settings = SyncManagerSettings { number, start_address, length, control, enable, op_only };
+        let set: [u8; 8] = subdevice.register_read(settings.register()).await.expect("the registers");
+        assert_eq!((&set[..5], set[6] & 1), (&settings.bytes()[..5], 1), "sync manager {number}");
+    }
+    assert_eq!(compiled.fmmus.len(), 2);
+    for fmmu in &compiled.fmmus {
+        let &Fmmu { number, sync_manager, length, physical_address, op_only, .. } = fmmu;
+        let direction = match fmmu.direction {
+            ir::Direction::Receive => Direction::Output,
+            ir::Direction::Transmit => Direction::Input,
+        };
+        let logical_address = 0;
+        let settings =
+            FmmuSettings { number, sync_manager, direction, logical_address, length, physical_address, op_only };
+        let set: [u8; 16] = subdevice.register_read(settings.register()).await.expect("the registers");
+        assert_eq!(set[4..], settings.bytes()[4..], "FMMU {number}");
     }
 }
 
@@ -86,7 +119,7 @@ fn a_drive_starts_with_its_image() {
         let mut drive = servo::DemoServo::new(Sdo::new(maindevice, &subdevice));
         assert_eq!(drive.target_position().read_async().await, Ok(0));
         let group = group.into_op(maindevice).await.expect("Operational");
-        check_sync_managers(maindevice, &group, &servo::DEVICE, &[128, 128, 6, 7]).await;
+        check_registers(maindevice, &group, SERVO_FILE, &[128, 128, 6, 7]).await;
     });
 }
 
@@ -119,7 +152,7 @@ fn a_terminal_without_a_mailbox_exchanges_data_with_its_image() {
         let description = subdevice.description().await.expect("a text");
         assert_eq!(description.as_deref(), Some("TM-4 terminal, 4 ?s"));
         assert_eq!((subdevice.outputs_raw().len(), subdevice.inputs_raw().len()), (3, 34));
-        check_sync_managers(maindevice, &group, &terminal::DEVICE, &[3, 34]).await;
+        check_registers(maindevice, &group, TERMINAL_FILE, &[3, 34]).await;
         group.tx_rx(maindevice).await.expect("an exchange");
         let expected: Vec<u8> = [1, 2, 3, 4].into_iter().chain(0..30).collect();
         let subdevice = group.subdevice(maindevice, 0).expect("a SubDevice");

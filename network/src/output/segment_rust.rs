@@ -7,12 +7,13 @@ use lexibus_codegen::ir::Direction;
 use lexibus_codegen::names::{unique, Case, NameRequest};
 
 use super::rust_text::{one_line, HEADER};
-use crate::ethercat::{Identity, Segment, StartupCommand, SubDevice};
+use crate::ethercat::{Clock, ClockSignal, Fmmu, Identity, Segment, StartupCommand, SubDevice, SyncManager};
 
 /// Names in the module of the segment that no SubDevice can have.
 const RESERVED: [&str; 1] = ["command"];
 
-/// Returns a Rust module with the constants of each SubDevice: position, alias, identity, start-up commands, and logical addresses.
+/// Returns a Rust module with the constants of each SubDevice: position, alias, identity, logical addresses, sync managers, FMMUs,
+/// distributed clocks, and start-up commands.
 pub fn segment_rust(segment: &Segment) -> String {
     let requests: Vec<NameRequest<'_>> =
         segment.subdevices.iter().map(|one| NameRequest::new(&one.name, "subdevice", one.position)).collect();
@@ -66,10 +67,70 @@ fn constants(text: &mut String, subdevice: &SubDevice) {
         let about = format!("Logical addresses of the {}.", name.to_lowercase());
         constant(&about, name, "::core::ops::Range<u32>", &addresses(subdevice, direction));
     }
-    let commands: String = subdevice.startup.iter().map(command).collect();
-    let list = if commands.is_empty() { "&[]".to_owned() } else { format!("&[\n{commands}    ]") };
+    let list = list(subdevice.sync_managers.iter().map(sync_manager));
+    let about = "Sync managers, sorted by number.";
+    constant(about, "SYNC_MANAGERS", "&[::lexibus::ethercat::SyncManagerSettings]", &list);
+    let list = self::list(subdevice.fmmus.iter().map(fmmu));
+    constant("FMMUs of the process data.", "FMMUS", "&[::lexibus::ethercat::FmmuSettings]", &list);
+    let settings = subdevice.dc.as_ref().map_or("None".to_owned(), |settings| format!("Some({})", clock(settings)));
+    let about = match &subdevice.dc {
+        Some(settings) => format!("Distributed clocks in the mode `{}`.", one_line(&settings.mode)),
+        None => "Distributed clocks; the description has no modes.".to_owned(),
+    };
+    constant(&about, "CLOCK", "Option<::lexibus::ethercat::ClockSettings>", &settings);
+    let list = self::list(subdevice.startup.iter().map(command));
     let about = "SDO downloads in their order, each with its state transition.";
     constant(about, "STARTUP", "&[::lexibus::ethercat::StartupCommand]", &list);
+}
+
+/// Returns a slice with one line for each element.
+fn list(elements: impl Iterator<Item = String>) -> String {
+    let lines: String = elements.map(|element| format!("        {element},\n")).collect();
+    if lines.is_empty() {
+        "&[]".to_owned()
+    } else {
+        format!("&[\n{lines}    ]")
+    }
+}
+
+fn sync_manager(manager: &SyncManager) -> String {
+    let SyncManager { number, start_address, length, control, enable, op_only, .. } = manager;
+    format!(
+        "::lexibus::ethercat::SyncManagerSettings {{ number: {number}, start_address: {}, length: {length}, control: {}, \
+         enable: {enable}, op_only: {op_only} }}",
+        hex16(*start_address),
+        hex8(*control)
+    )
+}
+
+fn fmmu(fmmu: &Fmmu) -> String {
+    let Fmmu { number, sync_manager, direction, logical_address, length, physical_address, op_only } = fmmu;
+    let direction = match direction {
+        Direction::Receive => "Output",
+        Direction::Transmit => "Input",
+    };
+    format!(
+        "::lexibus::ethercat::FmmuSettings {{ number: {number}, sync_manager: {sync_manager}, \
+         direction: ::lexibus::ethercat::Direction::{direction}, logical_address: {logical_address}, length: {length}, \
+         physical_address: {}, op_only: {op_only} }}",
+        hex16(*physical_address)
+    )
+}
+
+fn clock(clock: &Clock) -> String {
+    let signal = |signal: ClockSignal| {
+        let ClockSignal { cycle_time, shift_time, relative_to_inputs } = signal;
+        format!(
+            "::lexibus::ethercat::ClockSignal {{ cycle_time: {cycle_time}, shift_time: {shift_time}, \
+             relative_to_inputs: {relative_to_inputs} }}"
+        )
+    };
+    format!(
+        "::lexibus::ethercat::ClockSettings {{ assign_activate: {}, sync0: {}, sync1: {} }}",
+        hex32(clock.assign_activate),
+        signal(clock.sync0),
+        signal(clock.sync1)
+    )
 }
 
 /// Returns the range of logical addresses of one direction, which is contiguous.
@@ -84,7 +145,7 @@ fn command(command: &StartupCommand) -> String {
     let StartupCommand { transition, index, sub_index, complete_access, data } = command;
     let bytes: Vec<String> = data.iter().map(|byte| hex8(*byte)).collect();
     format!(
-        "        super::command(::lexibus::ethercat::Transition::{transition}, ({}, {sub_index}), {complete_access}, &[{}]),\n",
+        "super::command(::lexibus::ethercat::Transition::{transition}, ({}, {sub_index}), {complete_access}, &[{}])",
         hex16(*index),
         bytes.join(", ")
     )

@@ -32,6 +32,20 @@ pub mod terminals {
     pub const OUTPUTS: ::core::ops::Range<u32> = 0..1;
     /// Logical addresses of the inputs.
     pub const INPUTS: ::core::ops::Range<u32> = 7..13;
+    /// Sync managers, sorted by number.
+    pub const SYNC_MANAGERS: &[::lexibus::ethercat::SyncManagerSettings] = &[
+        ::lexibus::ethercat::SyncManagerSettings { number: 0, start_address: 0x1000, length: 128, control: 0x26, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 1, start_address: 0x1080, length: 128, control: 0x22, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 2, start_address: 0x1100, length: 1, control: 0x64, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 3, start_address: 0x1400, length: 6, control: 0x20, enable: true, op_only: false },
+    ];
+    /// FMMUs of the process data.
+    pub const FMMUS: &[::lexibus::ethercat::FmmuSettings] = &[
+        ::lexibus::ethercat::FmmuSettings { number: 0, sync_manager: 2, direction: ::lexibus::ethercat::Direction::Output, logical_address: 0, length: 1, physical_address: 0x1100, op_only: false },
+        ::lexibus::ethercat::FmmuSettings { number: 1, sync_manager: 3, direction: ::lexibus::ethercat::Direction::Input, logical_address: 7, length: 6, physical_address: 0x1400, op_only: false },
+    ];
+    /// Distributed clocks; the description has no modes.
+    pub const CLOCK: Option<::lexibus::ethercat::ClockSettings> = None;
     /// SDO downloads in their order, each with its state transition.
     pub const STARTUP: &[::lexibus::ethercat::StartupCommand] = &[
         super::command(::lexibus::ethercat::Transition::PS, (0xF030, 0), false, &[0x00]),
@@ -66,6 +80,20 @@ pub mod axis_1 {
     pub const OUTPUTS: ::core::ops::Range<u32> = 1..7;
     /// Logical addresses of the inputs.
     pub const INPUTS: ::core::ops::Range<u32> = 13..20;
+    /// Sync managers, sorted by number.
+    pub const SYNC_MANAGERS: &[::lexibus::ethercat::SyncManagerSettings] = &[
+        ::lexibus::ethercat::SyncManagerSettings { number: 0, start_address: 0x1000, length: 128, control: 0x26, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 1, start_address: 0x1080, length: 128, control: 0x22, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 2, start_address: 0x1100, length: 6, control: 0x64, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 3, start_address: 0x1400, length: 7, control: 0x20, enable: true, op_only: false },
+    ];
+    /// FMMUs of the process data.
+    pub const FMMUS: &[::lexibus::ethercat::FmmuSettings] = &[
+        ::lexibus::ethercat::FmmuSettings { number: 0, sync_manager: 2, direction: ::lexibus::ethercat::Direction::Output, logical_address: 1, length: 6, physical_address: 0x1100, op_only: false },
+        ::lexibus::ethercat::FmmuSettings { number: 1, sync_manager: 3, direction: ::lexibus::ethercat::Direction::Input, logical_address: 13, length: 7, physical_address: 0x1400, op_only: false },
+    ];
+    /// Distributed clocks in the mode `DC`.
+    pub const CLOCK: Option<::lexibus::ethercat::ClockSettings> = Some(::lexibus::ethercat::ClockSettings { assign_activate: 0x00000300, sync0: ::lexibus::ethercat::ClockSignal { cycle_time: 1000000, shift_time: 250000, relative_to_inputs: false }, sync1: ::lexibus::ethercat::ClockSignal { cycle_time: 0, shift_time: 0, relative_to_inputs: false } });
     /// SDO downloads in their order, each with its state transition.
     pub const STARTUP: &[::lexibus::ethercat::StartupCommand] = &[
         super::command(::lexibus::ethercat::Transition::PS, (0x6060, 0), false, &[0x08]),
@@ -99,6 +127,19 @@ pub mod command_2 {
     pub const OUTPUTS: ::core::ops::Range<u32> = 0..0;
     /// Logical addresses of the inputs.
     pub const INPUTS: ::core::ops::Range<u32> = 20..27;
+    /// Sync managers, sorted by number.
+    pub const SYNC_MANAGERS: &[::lexibus::ethercat::SyncManagerSettings] = &[
+        ::lexibus::ethercat::SyncManagerSettings { number: 0, start_address: 0x1000, length: 128, control: 0x26, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 1, start_address: 0x1080, length: 128, control: 0x22, enable: true, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 2, start_address: 0x1100, length: 0, control: 0x64, enable: false, op_only: false },
+        ::lexibus::ethercat::SyncManagerSettings { number: 3, start_address: 0x1400, length: 7, control: 0x20, enable: true, op_only: false },
+    ];
+    /// FMMUs of the process data.
+    pub const FMMUS: &[::lexibus::ethercat::FmmuSettings] = &[
+        ::lexibus::ethercat::FmmuSettings { number: 1, sync_manager: 3, direction: ::lexibus::ethercat::Direction::Input, logical_address: 20, length: 7, physical_address: 0x1400, op_only: false },
+    ];
+    /// Distributed clocks in the mode `DC`.
+    pub const CLOCK: Option<::lexibus::ethercat::ClockSettings> = Some(::lexibus::ethercat::ClockSettings { assign_activate: 0x00000300, sync0: ::lexibus::ethercat::ClockSignal { cycle_time: 1000000, shift_time: 250000, relative_to_inputs: false }, sync1: ::lexibus::ethercat::ClockSignal { cycle_time: 0, shift_time: 0, relative_to_inputs: false } });
     /// SDO downloads in their order, each with its state transition.
     pub const STARTUP: &[::lexibus::ethercat::StartupCommand] = &[
         super::command(::lexibus::ethercat::Transition::PS, (0x6060, 0), false, &[0x08]),

@@ -8,13 +8,17 @@ mod generated;
 #[path = "../support/mod.rs"]
 mod support;
 
-use lexibus::ethercat::{Assignment, Device, Module, SlotPlan, StartupCommand as Command, Transition};
+use lexibus::ethercat::{
+    Assignment, ClockSettings, ClockSignal, Device, Direction, FmmuSettings, Module, SlotPlan,
+    StartupCommand as Command, SyncManagerSettings, Transition,
+};
 use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::ir::Direction::Receive;
 use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
 use lexibus_export::sii;
 use lexibus_network::compile::Compilation;
-use lexibus_network::ethercat::{Segment, StartupCommand, SubDevice};
+use lexibus_network::ethercat::{Clock, Fmmu, Segment, StartupCommand, SubDevice, SyncManager};
 use lexibus_network::output::{files, segment_rust};
 use support::{compiled, messages, root, valid};
 
@@ -311,4 +315,37 @@ fn the_rust_module_has_the_data_of_the_segment() {
     assert_eq!((generated::terminals::OUTPUTS, generated::axis_1::OUTPUTS), (0..1, 1..7));
     assert_eq!((generated::terminals::INPUTS, generated::axis_1::INPUTS), (7..13, 13..20));
     assert!(generated::command_2::OUTPUTS.is_empty());
+    use generated::{axis_1, command_2, terminals as io};
+    let modules = [
+        (io::SYNC_MANAGERS, io::FMMUS, io::CLOCK, terminals),
+        (axis_1::SYNC_MANAGERS, axis_1::FMMUS, axis_1::CLOCK, axis),
+        (command_2::SYNC_MANAGERS, command_2::FMMUS, command_2::CLOCK, last),
+    ];
+    for (managers, fmmus, clock, subdevice) in modules {
+        assert_eq!(managers, subdevice.sync_managers.iter().map(manager_settings).collect::<Vec<_>>());
+        assert_eq!(fmmus, subdevice.fmmus.iter().map(fmmu_settings).collect::<Vec<_>>());
+        assert_eq!(clock, subdevice.dc.as_ref().map(clock_settings));
+    }
+    assert_eq!(axis_1::CLOCK.map(|clock| (clock.assign_activate, clock.sync0.cycle_time)), Some((0x0300, 1_000_000)));
+    assert_eq!(axis_1::FMMUS[0].bytes()[..6], [1, 0, 0, 0, 6, 0]);
+}
+
+fn manager_settings(manager: &SyncManager) -> SyncManagerSettings {
+    let &SyncManager { number, start_address, length, control, enable, op_only, .. } = manager;
+    SyncManagerSettings { number, start_address, length, control, enable, op_only }
+}
+
+fn fmmu_settings(fmmu: &Fmmu) -> FmmuSettings {
+    let &Fmmu { number, sync_manager, direction, logical_address, length, physical_address, op_only } = fmmu;
+    let direction = if direction == Receive { Direction::Output } else { Direction::Input };
+    FmmuSettings { number, sync_manager, direction, logical_address, length, physical_address, op_only }
+}
+
+fn clock_settings(clock: &Clock) -> ClockSettings {
+    let signal = |signal: lexibus_network::ethercat::ClockSignal| ClockSignal {
+        cycle_time: signal.cycle_time,
+        shift_time: signal.shift_time,
+        relative_to_inputs: signal.relative_to_inputs,
+    };
+    ClockSettings { assign_activate: clock.assign_activate, sync0: signal(clock.sync0), sync1: signal(clock.sync1) }
 }

@@ -1,0 +1,131 @@
+//! Settings of sync managers, FMMUs and distributed clocks, as a master writes them to the registers of a slave.
+
+use super::Direction;
+
+/// Settings of a sync manager (ETG.1000.4, 6.7.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SyncManagerSettings {
+    /// Number of the sync manager.
+    pub number: u8,
+    /// Start address in the memory of the slave controller.
+    pub start_address: u16,
+    /// Length in bytes. For process data, this is the length of the assigned PDOs.
+    pub length: u16,
+    /// Value of the control register.
+    pub control: u8,
+    /// True if the sync manager is enabled. A sync manager without data is disabled.
+    pub enable: bool,
+    /// True if the sync manager is enabled only in Operational.
+    pub op_only: bool,
+}
+
+impl SyncManagerSettings {
+    /// Returns the address of the first register of the sync manager: 0x0800 for sync manager 0.
+    #[must_use]
+    pub const fn register(&self) -> u16 {
+        0x0800 + 8 * self.number as u16
+    }
+
+    /// Returns the values of the 8 registers: start address, length, control, status, activation and PDI control. The slave
+    /// ignores the bytes for the status and the PDI control, which are 0.
+    #[must_use]
+    pub const fn bytes(&self) -> [u8; 8] {
+        let ([start, start_high], [length, length_high]) =
+            (self.start_address.to_le_bytes(), self.length.to_le_bytes());
+        [start, start_high, length, length_high, self.control, 0, self.enable as u8, 0]
+    }
+}
+
+/// Settings of a fieldbus memory management unit (FMMU), which maps the process data of a sync manager bytewise to logical
+/// addresses (ETG.1000.4, 6.6.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FmmuSettings {
+    /// Number of the FMMU.
+    pub number: u8,
+    /// Number of the sync manager.
+    pub sync_manager: u8,
+    /// Direction of the data.
+    pub direction: Direction,
+    /// Logical start address.
+    pub logical_address: u32,
+    /// Length in bytes.
+    pub length: u16,
+    /// Physical start address.
+    pub physical_address: u16,
+    /// True if the FMMU is enabled only in Operational.
+    pub op_only: bool,
+}
+
+impl FmmuSettings {
+    /// Returns the address of the first register of the FMMU: 0x0600 for FMMU 0.
+    #[must_use]
+    pub const fn register(&self) -> u16 {
+        0x0600 + 16 * self.number as u16
+    }
+
+    /// Returns the values of the 16 registers of the enabled FMMU. The mapping starts at bit 0 of the first byte and ends at bit 7
+    /// of the last byte. The FMMU writes outputs to the slave, and reads inputs.
+    #[must_use]
+    pub const fn bytes(&self) -> [u8; 16] {
+        let [a, b, c, d] = self.logical_address.to_le_bytes();
+        let ([length, length_high], [start, start_high]) =
+            (self.length.to_le_bytes(), self.physical_address.to_le_bytes());
+        let access = match self.direction {
+            Direction::Input => 0x01,
+            Direction::Output => 0x02,
+        };
+        [a, b, c, d, length, length_high, 0, 7, start, start_high, 0, access, 1, 0, 0, 0]
+    }
+}
+
+/// Settings of the distributed clocks of a slave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ClockSettings {
+    /// Value of register 0x0980 (`AssignActivate`). The value 0 disables SYNC0 and SYNC1.
+    pub assign_activate: u32,
+    /// Times of SYNC0.
+    pub sync0: ClockSignal,
+    /// Times of SYNC1.
+    pub sync1: ClockSignal,
+}
+
+/// Times of a SYNC signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ClockSignal {
+    /// Cycle time in ns.
+    pub cycle_time: i64,
+    /// Shift time in ns.
+    pub shift_time: i64,
+    /// True if the shift is relative to the inputs.
+    pub relative_to_inputs: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn registers_of_a_sync_manager_and_an_fmmu() {
+        let manager = SyncManagerSettings {
+            number: 2,
+            start_address: 0x1100,
+            length: 0x0206,
+            control: 0x64,
+            enable: true,
+            op_only: false,
+        };
+        assert_eq!((manager.register(), manager.bytes()), (0x0810, [0x00, 0x11, 0x06, 0x02, 0x64, 0, 1, 0]));
+        let fmmu = FmmuSettings {
+            number: 1,
+            sync_manager: 2,
+            direction: Direction::Output,
+            logical_address: 0x0001_0003,
+            length: 0x0206,
+            physical_address: 0x1100,
+            op_only: false,
+        };
+        let bytes = [0x03, 0, 1, 0, 0x06, 0x02, 0, 7, 0x00, 0x11, 0, 2, 1, 0, 0, 0];
+        assert_eq!((fmmu.register(), fmmu.bytes()), (0x0610, bytes));
+        assert_eq!(FmmuSettings { direction: Direction::Input, ..fmmu }.bytes()[11], 1);
+    }
+}
