@@ -28,10 +28,6 @@ impl Networks {
             };
             let compilation = compile(source, levels.clone());
             super::network::report(reporter, &compilation)?;
-            if compilation.network.as_ref().is_some_and(Network::is_only_segment) {
-                reporter.error(&format!("{}: an EtherCAT segment has no pages", path.display()));
-                continue;
-            }
             let title = title(&path, &compilation);
             if !titles.insert(title.clone()) {
                 reporter.error(&format!("{}: another network also has the name `{title}`", path.display()));

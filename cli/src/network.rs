@@ -3,12 +3,12 @@
 use lexibus_codegen::compile::Compilation as Reported;
 use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
+use lexibus_codegen::text::count_of;
 use lexibus_network::check::bus_load;
 use lexibus_network::compile::{compile, Compilation};
-use lexibus_network::ethercat::Segment;
 use lexibus_network::frontend::schema;
 use lexibus_network::model::Network;
-use lexibus_network::output::{files, OutputFile};
+use lexibus_network::output::{files, segment_summary, OutputFile};
 
 use super::args::{self, NetworkBuild, NetworkCheck, NetworkCommand, NetworkInput};
 use super::report::Reporter;
@@ -38,7 +38,7 @@ fn build(arguments: &NetworkBuild) -> Result<bool, Failure> {
         let files = files(network);
         files.iter().try_for_each(|file| write(file, arguments, &mut reporter))?;
         if !arguments.check && !reporter.has_errors() {
-            let files = counted(files.len(), "file");
+            let files = count_of(files.len(), "file");
             reporter.progress(&format!("wrote {files} to {}", arguments.out.display()));
             reporter.progress(&summary(network));
         }
@@ -69,18 +69,7 @@ fn summary(network: &Network) -> String {
 /// the bus load leaves out, because they have neither an inhibit time nor an event timer.
 fn canopen_summary(network: &Network) -> String {
     let nodes = network.nodes.len() + usize::from(network.master.is_some());
-    format!("{}; {}", counted(nodes, "node"), bus_load(network).summary())
-}
-
-fn segment_summary(segment: &Segment) -> String {
-    let subdevices = counted(segment.subdevices.len(), "SubDevice");
-    let bytes = |count: u32| counted(count as usize, "byte");
-    format!("{subdevices}; {} of outputs, {} of inputs", bytes(segment.output_bytes), bytes(segment.input_bytes))
-}
-
-/// Formats a number with its noun: `1 file`, `2 files`.
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+    format!("{}; {}", count_of(nodes, "node"), bus_load(network).summary())
 }
 
 /// Writes a file, or compares it with the existing file.

@@ -59,7 +59,7 @@ pub fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&
 }
 
 /// Returns a count with its noun, in the plural unless the count is 1: `1 byte`, `2 bytes`.
-pub(crate) fn count_of<N: Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
+pub fn count_of<N: Display + PartialEq + From<u8>>(count: N, noun: &str) -> String {
     let ending = if count == N::from(1) { "" } else { "s" };
     format!("{count} {noun}{ending}")
 }

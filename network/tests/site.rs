@@ -15,13 +15,56 @@ use lexibus_site::{Format, Page, Site};
 /// Returns the pages of a site with the example network.
 fn site(format: Format) -> Vec<Page> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/network/network.toml");
-    let compilation = compile(Source::read(&path).expect("the example"), Levels::lenient());
+    site_of(Source::read(&path).expect("the example"), "Packaging line", format)
+}
+
+/// Returns the pages of a site with the network of a file.
+fn site_of(source: Source, title: &str, format: Format) -> Vec<Page> {
+    let compilation = compile(source, Levels::lenient());
     let network = compilation.usable().expect("a network");
     let mut site = Site::new(format);
-    announce(network, &network.name, &mut site);
-    let mut all = pages(network, &network.name, &mut site);
+    announce(network, title, &mut site);
+    let mut all = pages(network, title, &mut site);
     all.extend(site.finish());
     all
+}
+
+/// Returns the pages of a site with an EtherCAT segment.
+fn segment(format: Format) -> Vec<Page> {
+    let text =
+        "[segment]\ncycle = 1000\n[segment.subdevices.terminals]\ndevice = \"coupler.esi.xml\"\nmodel = \"CP-32\"\n\
+                alias = 5\nmodules = { 0 = \"DO-8\", 2 = \"AI-2\" }\n\
+                [segment.subdevices.\"axis|1\"]\ndevice = \"coupler.esi.xml\"\nmodel = \"SV-1\"\n";
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data");
+    site_of(Source::new("line.toml", text.into()).in_folder(folder), "line", format)
+}
+
+#[test]
+fn links_of_a_segment_lead_to_pages() {
+    assert!(html_links(&segment(Format::Html)) > 50);
+    assert!(markdown_links(&segment(Format::Markdown)) > 50);
+}
+
+#[test]
+fn the_page_of_a_segment_shows_its_settings() {
+    let pages = segment(Format::Markdown);
+    let segment = page(&pages, "_segments/line.md");
+    for line in [
+        "# EtherCAT segment line",
+        "2 SubDevices; 7 bytes of outputs, 13 bytes of inputs.",
+        "Vendor-ID 0x00000ABC. Product code 0x00A10001. Revision number 0x00010000. Station alias 5. |",
+        "Clock mode DC: AssignActivate 0x0300, SYNC0 every 1000000 ns, shifted by 250000 ns. |",
+        "| 2 | 0x00003001 | 2 analogue inputs |",
+        "| 2 | Outputs | 0x1100 | 6 | 0x64 | yes |",
+        "| 0 | 2 | outputs | 1 | 6 | 0x1100 |",
+        "## axis\\|1",
+        "| PS | 0x1C12:00 | PDO assignment of sync manager 2 | 00 |",
+        "| PS | 0xF030:01 | Configured module idents | 01 20 00 00 |",
+    ] {
+        assert!(segment.contains(line), "{line}\n{segment}");
+    }
+    let (html, path) = (self::segment(Format::Html), "_segments/line.html");
+    assert!(page(&html, path).contains("id=\"subdevice-1\"") && page(&html, "index.html").contains(path));
 }
 
 fn page<'p>(pages: &'p [Page], path: &str) -> &'p str {

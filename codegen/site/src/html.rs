@@ -19,6 +19,7 @@ use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
 use super::search::Index;
+use super::segment;
 use super::Page;
 
 /// The style sheet of the pages.
@@ -64,6 +65,7 @@ templates! {
     DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "changes.html" { comparison: &'p Comparison }
     NetworkPage = "network.html" { network: &'p Shown }
+    SegmentPage = "segment.html" { segment: &'p segment::Shown }
     ListPage = "list.html" { devices: &'p [Listed], is_part: bool }
 }
 
@@ -191,6 +193,7 @@ impl Pages for Html {
             Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
             Content::Changes(comparison) => written(&ChangesPage { frame, file, comparison }),
             Content::Network(network) => written(&NetworkPage { frame, file, network }),
+            Content::Segment(segment) => written(&SegmentPage { frame, file, segment }),
             Content::List { devices, is_part } => written(&ListPage { frame, file, devices, is_part }),
         }
     }

@@ -58,6 +58,8 @@ mod references;
 mod requests;
 mod revisions;
 mod search;
+pub mod segment;
+mod segment_page;
 mod shared;
 mod slots;
 mod split;
@@ -123,7 +125,7 @@ pub struct Site {
     revisions: Revisions,
     index: Index,
     catalogs: Vec<ListedCatalog>,
-    /// Paths and titles of comparisons and networks.
+    /// Paths and titles of comparisons, networks and segments.
     further: Vec<(String, String)>,
 }
 
@@ -203,7 +205,7 @@ impl Site {
         let is_part = lists.len() > 1;
         let parts = lists.iter().filter(|_| is_part).map(|list| (list.file.clone(), list.title.clone()));
         let shared = Rc::new(Links::new(parts.chain(self.further.iter().cloned()).collect(), 0..0));
-        // The pages of comparisons and networks always use the index of the site.
+        // The pages of comparisons, networks and segments always use the index of the site.
         let index_of_site = (index.is_empty() || !self.further.is_empty()).then_some(&self.index);
         let page = |list: &ListPage| {
             let (title, index, shared) = (list.title.clone(), index.clone(), shared.clone());

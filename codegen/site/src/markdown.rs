@@ -21,6 +21,7 @@ use super::process::{Frame, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
 use super::search::Index;
+use super::segment;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
@@ -68,6 +69,7 @@ templates! {
     DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
     ChangesPage = "markdown/changes.md" { comparison: &'p Comparison }
     NetworkPage = "markdown/network.md" { network: &'p Shown }
+    SegmentPage = "markdown/segment.md" { segment: &'p segment::Shown }
     ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], columns: &'p [Column], links: PageLinks<'p> }
     SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog], further: &'p [(String, String)] }
 }
@@ -129,6 +131,7 @@ impl Pages for Markdown {
             Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),
             Content::Changes(comparison) => written(&ChangesPage { comparison }),
             Content::Network(network) => written(&NetworkPage { network }),
+            Content::Segment(segment) => written(&SegmentPage { segment }),
             Content::List { devices, .. } => {
                 written(&ListPage { title, root: frame.root, devices, columns: &list::columns(devices), links: &links })
             }

@@ -154,7 +154,7 @@ impl Site {
     }
 
     /// Returns the first device of a catalog.
-    fn device_of(&self, catalog: &str) -> Option<&Listed> {
+    pub(super) fn device_of(&self, catalog: &str) -> Option<&Listed> {
         self.catalogs.iter().flat_map(|listed| &listed.devices).find(|device| device.file == catalog)
     }
 }

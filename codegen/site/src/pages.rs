@@ -17,6 +17,7 @@ use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
 use super::search::Index;
+use super::segment;
 use super::Page;
 use lexibus_codegen::facts;
 use lexibus_codegen::facts::number::hex32;
@@ -220,6 +221,8 @@ pub(super) enum Content<'p> {
     Diagnostics(&'p [DiagnosticGroup<'p>]),
     Changes(&'p Comparison),
     Network(&'p network::Shown),
+    /// The page of an EtherCAT segment.
+    Segment(&'p segment::Shown),
     /// A list of devices, in a catalog or in the site. `is_part` is set if the list has several pages.
     List {
         devices: &'p [Listed],

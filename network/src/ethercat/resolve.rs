@@ -1,6 +1,7 @@
 //! Resolves a segment: reads the descriptions, and computes the configuration of each SubDevice.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::{Bus, Direction};
@@ -29,7 +30,7 @@ pub(crate) fn resolve(source: &Source, declared: &DeclaredSegment, diagnostics: 
     let mut subdevices = Vec::new();
     for (declared, position) in declared.subdevices.iter().zip(0..=u16::MAX) {
         if let Some(description) = descriptions.of(&reference(declared), diagnostics) {
-            subdevices.push(subdevice(declared, position, &description, cycle_time, diagnostics));
+            subdevices.push(subdevice(declared, position, description, cycle_time, diagnostics));
         }
     }
     let output_bytes = place(&mut subdevices, Direction::Receive, 0);
@@ -64,7 +65,7 @@ fn check_aliases(subdevices: &[DeclaredSubDevice], diagnostics: &mut Diagnostics
 fn subdevice(
     declared: &DeclaredSubDevice,
     position: u16,
-    description: &Description,
+    description: Rc<Description>,
     cycle_time: Option<u64>,
     diagnostics: &mut Diagnostics,
 ) -> SubDevice {
@@ -75,6 +76,8 @@ fn subdevice(
     process_data::check(device, &placed, assignment_at(declared), diagnostics);
     let parameters = parameters::resolve(device, &plugged, declared, diagnostics);
     let sync_managers = sync_managers::sync_managers(device, &placed);
+    let startup = Startup { device, plugged: &plugged, placed: &placed, parameters: &parameters };
+    let (startup, fmmus) = (startup.commands(), sync_managers::fmmus(device, &sync_managers));
     SubDevice {
         name: declared.name.value.clone(),
         position,
@@ -85,11 +88,12 @@ fn subdevice(
             revision_number: declared.revision_number.or(device.identity.revision_number),
         },
         modules: plugged.iter().map(shown_module).collect(),
-        startup: Startup { device, plugged: &plugged, placed: &placed, parameters: &parameters }.commands(),
-        fmmus: sync_managers::fmmus(device, &sync_managers),
+        startup,
+        fmmus,
         sync_managers,
         pdos: process_data::assigned_pdos(&placed),
         dc: clock::resolve(device, declared, cycle_time, diagnostics),
+        description: Rc::clone(&description),
     }
 }
 

@@ -1,8 +1,12 @@
 //! The resolved segment: the configuration of each SubDevice as data.
 
+use std::rc::Rc;
+
 use lexibus_codegen::facts::number;
 use lexibus_codegen::ir::Direction;
 use serde::{Serialize, Serializer};
+
+use crate::description::Description;
 
 /// An EtherCAT segment.
 #[derive(Debug, Default, Serialize)]
@@ -26,6 +30,9 @@ pub struct SubDevice {
     pub position: u16,
     /// Station alias; 0 = none.
     pub alias: u16,
+    /// Description of the device.
+    #[serde(skip)]
+    pub description: Rc<Description>,
     /// Expected identity.
     pub identity: Identity,
     /// Modules in the slots, sorted by slot.

@@ -14,6 +14,7 @@ mod rust;
 mod rust_text;
 mod segment;
 mod segment_rust;
+mod segment_site;
 mod site;
 
 pub use concise::concise;
@@ -25,4 +26,5 @@ pub use master::{master_dcf, master_writes};
 pub use rust::rust;
 pub use segment::segment_json;
 pub use segment_rust::segment_rust;
+pub use segment_site::summary as segment_summary;
 pub use site::{announce, pages};

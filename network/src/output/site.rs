@@ -1,4 +1,5 @@
-//! Documentation of a network: the pages of each node's device with the values and PDOs of the network, and the page of the network.
+//! Documentation of a network: the pages of each node's device with the values and PDOs of the network, the page of the network, and
+//! the pages of the EtherCAT segment.
 
 use std::collections::BTreeSet;
 
@@ -10,6 +11,7 @@ use lexibus_site::network::{Frame, Node, Parameter, Party};
 use lexibus_site::{network, Page, Site};
 
 use super::configured::node_catalog;
+use super::segment_site;
 use crate::check::{bus_load, frame_bits, Traffic};
 use crate::model::{
     MappedObject, Network, NetworkNode, NetworkPdo, BOOT, EXTENDED, KEEP_RUNNING, MANDATORY, UPDATE_SOFTWARE,
@@ -26,11 +28,20 @@ pub fn announce(network: &Network, title: &str, site: &mut Site) {
         // The configuration of a node does not change the folders of its device.
         site.announce(&catalog_name(title, node), node.description.catalog());
     }
+    if let Some(segment) = &network.segment {
+        segment_site::announce(segment, title, site);
+    }
 }
 
-/// Returns the pages of a network: those of the nodes' devices, and the page of the network. `title` is the name of the network or of
-/// its file.
+/// Returns the pages of a network: those of the devices, the page of the CANopen network, and the page of the EtherCAT segment. `title`
+/// is the name of the network or of its file.
 pub fn pages(network: &Network, title: &str, site: &mut Site) -> Vec<Page> {
+    let mut pages = if network.is_only_segment() { Vec::new() } else { canopen_pages(network, title, site) };
+    pages.extend(network.segment.iter().flat_map(|segment| segment_site::pages(segment, title, site)));
+    pages
+}
+
+fn canopen_pages(network: &Network, title: &str, site: &mut Site) -> Vec<Page> {
     let add = |node| site.add(&catalog_name(title, node), &node_catalog(network, node));
     let mut pages: Vec<Page> = network.nodes.iter().flat_map(add).collect();
     let load = bus_load(network);

@@ -1,0 +1,171 @@
+//! Documentation of an EtherCAT segment: the pages of each SubDevice's device, and the page of the segment.
+
+use lexibus_codegen::facts::number::{bytes, hex16, hex32, hex8};
+use lexibus_codegen::facts::{address, words};
+use lexibus_codegen::ir::{Device, Direction};
+use lexibus_codegen::text::count_of;
+use lexibus_site::segment::{self, Table};
+use lexibus_site::{Page, Site};
+
+use crate::ethercat::{AssignedPdo, Clock, Fmmu, PluggedModule, Segment, StartupCommand, SubDevice, SyncManager};
+
+/// Announces the devices of all SubDevices.
+pub(super) fn announce(segment: &Segment, title: &str, site: &mut Site) {
+    for subdevice in &segment.subdevices {
+        site.announce(&catalog_name(title, subdevice), subdevice.description.catalog());
+    }
+}
+
+/// Returns the pages of a segment: those of the devices, and the page of the segment.
+pub(super) fn pages(segment: &Segment, title: &str, site: &mut Site) -> Vec<Page> {
+    let add = |one: &SubDevice| site.add(&catalog_name(title, one), one.description.catalog());
+    let mut pages: Vec<Page> = segment.subdevices.iter().flat_map(add).collect();
+    let page = segment::Segment {
+        name: title.to_owned(),
+        summary: words::sentence(&summary(segment)),
+        subdevices: segment.subdevices.iter().map(|one| shown(title, one)).collect(),
+    };
+    pages.push(site.segment(&page));
+    pages
+}
+
+/// Returns the number of SubDevices and the length of the process data: `1 SubDevice; 6 bytes of outputs, 7 bytes of inputs`.
+pub fn summary(segment: &Segment) -> String {
+    let bytes = |count: u32| count_of(count, "byte");
+    let subdevices = count_of(segment.subdevices.len(), "SubDevice");
+    format!("{subdevices}; {} of outputs, {} of inputs", bytes(segment.output_bytes), bytes(segment.input_bytes))
+}
+
+/// Returns the name of a SubDevice's catalog in a site. A CANopen node of the same file can have the same name.
+fn catalog_name(title: &str, subdevice: &SubDevice) -> String {
+    format!("{title} EtherCAT {}", subdevice.name)
+}
+
+fn shown(title: &str, subdevice: &SubDevice) -> segment::SubDevice {
+    let device = subdevice.description.device();
+    segment::SubDevice {
+        name: subdevice.name.clone(),
+        position: subdevice.position,
+        catalog: catalog_name(title, subdevice),
+        facts: facts(subdevice),
+        tables: vec![
+            modules(&subdevice.modules),
+            pdos(&subdevice.pdos),
+            sync_managers(&subdevice.sync_managers),
+            fmmus(&subdevice.fmmus),
+            startup(device, &subdevice.startup),
+        ],
+    }
+}
+
+fn facts(subdevice: &SubDevice) -> Vec<String> {
+    let identity = subdevice.identity;
+    let numbers = [
+        ("Vendor-ID", identity.vendor_id),
+        ("Product code", identity.product_code),
+        ("Revision number", identity.revision_number),
+    ];
+    let numbers = numbers.into_iter().filter_map(|(name, number)| Some(format!("{name} {}.", hex32(number?))));
+    let alias = (subdevice.alias != 0).then(|| format!("Station alias {}.", subdevice.alias));
+    numbers.chain(alias).chain(subdevice.dc.as_ref().map(clock)).collect()
+}
+
+fn clock(clock: &Clock) -> String {
+    let Clock { mode, assign_activate, sync0, sync1, .. } = clock;
+    let mut text = format!("Clock mode {mode}: AssignActivate {}", hex16(*assign_activate));
+    for (name, signal) in [("SYNC0", sync0), ("SYNC1", sync1)] {
+        if signal.cycle_time != 0 {
+            text += &format!(", {name} every {} ns, shifted by {} ns", signal.cycle_time, signal.shift_time);
+        }
+    }
+    text + "."
+}
+
+fn modules(modules: &[PluggedModule]) -> Table {
+    let row = |module: &PluggedModule| vec![module.slot.to_string(), hex32(module.ident), module.name.clone()];
+    Table { title: "Modules", columns: &["Slot", "Ident", "Module"], rows: modules.iter().map(row).collect() }
+}
+
+fn pdos(pdos: &[AssignedPdo]) -> Table {
+    let row = |pdo: &AssignedPdo| {
+        let (index, name) = match pdo.index {
+            0 => (String::new(), "Padding".to_owned()),
+            index => (hex16(index), pdo.name.clone()),
+        };
+        let slot = pdo.slot.map_or_else(String::new, |slot| slot.to_string());
+        let (manager, offset) =
+            (pdo.sync_manager.to_string(), format!("{}.{}", pdo.bit_offset / 8, pdo.bit_offset % 8));
+        vec![manager, offset, pdo.bits.to_string(), index, name, slot]
+    };
+    let columns = &["Sync manager", "Offset (byte.bit)", "Bits", "PDO", "Name", "Slot"];
+    Table { title: "Process data", columns, rows: pdos.iter().map(row).collect() }
+}
+
+fn sync_managers(managers: &[SyncManager]) -> Table {
+    let row = |manager: &SyncManager| {
+        let enabled = match (manager.enable, manager.op_only) {
+            (false, _) => "no",
+            (true, false) => "yes",
+            (true, true) => "only in Operational",
+        };
+        let SyncManager { number, purpose, start_address, length, control, .. } = manager;
+        vec![
+            number.to_string(),
+            (*purpose).to_owned(),
+            hex16(*start_address),
+            length.to_string(),
+            hex8(*control),
+            enabled.to_owned(),
+        ]
+    };
+    let columns = &["Sync manager", "Purpose", "Start address", "Bytes", "Control register", "Enabled"];
+    Table { title: "Sync managers", columns, rows: managers.iter().map(row).collect() }
+}
+
+fn fmmus(fmmus: &[Fmmu]) -> Table {
+    let row = |fmmu: &Fmmu| {
+        let direction = match fmmu.direction {
+            Direction::Receive => "outputs",
+            Direction::Transmit => "inputs",
+        };
+        vec![
+            fmmu.number.to_string(),
+            fmmu.sync_manager.to_string(),
+            direction.to_owned(),
+            fmmu.logical_address.to_string(),
+            fmmu.length.to_string(),
+            hex16(fmmu.physical_address),
+        ]
+    };
+    let columns = &["FMMU", "Sync manager", "Direction", "Logical address", "Bytes", "Physical address"];
+    Table { title: "FMMUs", columns, rows: fmmus.iter().map(row).collect() }
+}
+
+fn startup(device: &Device, commands: &[StartupCommand]) -> Table {
+    let row = |command: &StartupCommand| {
+        let StartupCommand { transition, index, sub_index, complete_access, data } = command;
+        let object = address::object(*index, *sub_index);
+        let object = if *complete_access { format!("{object} (complete access)") } else { object };
+        vec![(*transition).to_owned(), object, object_name(device, *index, *sub_index), bytes(data)]
+    };
+    let columns = &["Transition", "Object", "Name", "Bytes"];
+    Table { title: "Start-up commands", columns, rows: commands.iter().map(row).collect() }
+}
+
+/// Returns the name of an object with the name of its entry. Objects that the description does not contain have the name of their
+/// purpose (ETG.1000.6, ETG.5001). Returns an empty text for other objects, such as those of modules.
+fn object_name(device: &Device, index: u16, sub_index: u8) -> String {
+    let Some(group) = device.object(index) else {
+        return match index {
+            0x1600..=0x17FF => "RxPDO mapping".to_owned(),
+            0x1A00..=0x1BFF => "TxPDO mapping".to_owned(),
+            0x1C10..=0x1C2F => format!("PDO assignment of sync manager {}", index - 0x1C10),
+            0xF030 => "Configured module idents".to_owned(),
+            _ => String::new(),
+        };
+    };
+    match device.entry(index, sub_index).filter(|_| group.items.len() > 1) {
+        Some(entry) => format!("{} / {}", group.name, entry.name),
+        None => group.name.to_string(),
+    }
+}
