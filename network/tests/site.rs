@@ -58,6 +58,7 @@ fn the_page_of_a_segment_shows_its_settings() {
         "| 2 | Outputs | 0x1100 | 6 | 0x64 | yes |",
         "| 0 | 2 | outputs | 1 | 6 | 0x1100 |",
         "## axis\\|1",
+        "| PS | 0x8020:01 | Settings / Filter |",
         "| PS | 0x1C12:00 | PDO assignment of sync manager 2 | 00 |",
         "| PS | 0xF030:01 | Configured module idents | 01 20 00 00 |",
     ] {

@@ -2,7 +2,7 @@
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::facts::number::hex32;
-use lexibus_codegen::ir::{Catalog, Device, Fit, Module, Slot};
+use lexibus_codegen::ir::{Binding, Catalog, Device, Fit, Group, GroupKind, Module, Slot};
 use lexibus_codegen::source::Span;
 use lexibus_codegen::text::similar;
 
@@ -38,6 +38,13 @@ impl Offsets {
 }
 
 impl Plugged<'_> {
+    /// Returns a device with the objects of the module. Their indices are those in the slot.
+    pub fn objects_in_slot(self) -> Device {
+        let Module { name, types, groups, .. } = self.module;
+        let groups = groups.iter().filter_map(|group| in_slot(group, self.objects())).collect();
+        Device { name: name.clone(), types: types.clone(), groups, ..Device::default() }
+    }
+
     /// Returns the offsets of object indices.
     pub fn objects(self) -> Offsets {
         self.offsets(self.slot.index_increment, self.slot.group_index_increment)
@@ -54,6 +61,19 @@ impl Plugged<'_> {
             group: self.slot.group.map_or(0, |number| per_group.wrapping_mul(number)),
         }
     }
+}
+
+/// Returns an object of a module with its index in the slot.
+fn in_slot(group: &Group, offsets: Offsets) -> Option<Group> {
+    let GroupKind::Object { index, code, category } = group.kind else { return None };
+    let index = offsets.apply(index, group.depends_on_slot, group.depends_on_slot_group);
+    let mut group = Group { kind: GroupKind::Object { index, code, category }, ..group.clone() };
+    for binding in group.items.iter_mut().flat_map(|item| item.bindings.iter_mut()) {
+        if let Binding::Object { index: of_item, .. } = binding {
+            *of_item = index;
+        }
+    }
+    Some(group)
 }
 
 /// A modular device with the modules that it accepts.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::ir::{Bus, Direction};
+use lexibus_codegen::ir::{Bus, Device, Direction};
 use lexibus_codegen::source::{Source, Span};
 
 use super::assignment::assign;
@@ -74,7 +74,8 @@ fn subdevice(
     let plugged = plug(description.catalog(), device, declared, diagnostics);
     let placed = process_data::place(device, &assigned, &plugged);
     process_data::check(device, &placed, assignment_at(declared), diagnostics);
-    let parameters = parameters::resolve(device, &plugged, declared, diagnostics);
+    let module_objects: Vec<Device> = plugged.iter().map(|plugged| plugged.objects_in_slot()).collect();
+    let parameters = parameters::resolve(device, &module_objects, declared, diagnostics);
     let sync_managers = sync_managers::sync_managers(device, &placed);
     let startup = Startup { device, plugged: &plugged, placed: &placed, parameters: &parameters };
     let (startup, fmmus) = (startup.commands(), sync_managers::fmmus(device, &sync_managers));
@@ -88,6 +89,7 @@ fn subdevice(
             revision_number: declared.revision_number.or(device.identity.revision_number),
         },
         modules: plugged.iter().map(shown_module).collect(),
+        module_objects,
         startup,
         fmmus,
         sync_managers,

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lexibus_codegen::facts::number;
-use lexibus_codegen::ir::Direction;
+use lexibus_codegen::ir::{Device, Direction};
 use serde::{Serialize, Serializer};
 
 use crate::description::Description;
@@ -38,6 +38,9 @@ pub struct SubDevice {
     /// Modules in the slots, sorted by slot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub modules: Vec<PluggedModule>,
+    /// Objects of the modules in their slots, in the order of `modules`.
+    #[serde(skip)]
+    pub module_objects: Vec<Device>,
     /// Commands in the order in which a MainDevice sends them.
     pub startup: Vec<StartupCommand>,
     /// Sync managers, sorted by number.

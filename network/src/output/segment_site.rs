@@ -2,7 +2,7 @@
 
 use lexibus_codegen::facts::number::{bytes, hex16, hex32, hex8};
 use lexibus_codegen::facts::{address, words};
-use lexibus_codegen::ir::{Device, Direction};
+use lexibus_codegen::ir::Direction;
 use lexibus_codegen::text::count_of;
 use lexibus_site::segment::{self, Table};
 use lexibus_site::{Page, Site};
@@ -42,7 +42,6 @@ fn catalog_name(title: &str, subdevice: &SubDevice) -> String {
 }
 
 fn shown(title: &str, subdevice: &SubDevice) -> segment::SubDevice {
-    let device = subdevice.description.device();
     segment::SubDevice {
         name: subdevice.name.clone(),
         position: subdevice.position,
@@ -53,7 +52,7 @@ fn shown(title: &str, subdevice: &SubDevice) -> segment::SubDevice {
             pdos(&subdevice.pdos),
             sync_managers(&subdevice.sync_managers),
             fmmus(&subdevice.fmmus),
-            startup(device, &subdevice.startup),
+            startup(subdevice),
         ],
     }
 }
@@ -141,31 +140,35 @@ fn fmmus(fmmus: &[Fmmu]) -> Table {
     Table { title: "FMMUs", columns, rows: fmmus.iter().map(row).collect() }
 }
 
-fn startup(device: &Device, commands: &[StartupCommand]) -> Table {
+fn startup(subdevice: &SubDevice) -> Table {
     let row = |command: &StartupCommand| {
         let StartupCommand { transition, index, sub_index, complete_access, data } = command;
         let object = address::object(*index, *sub_index);
         let object = if *complete_access { format!("{object} (complete access)") } else { object };
-        vec![(*transition).to_owned(), object, object_name(device, *index, *sub_index), bytes(data)]
+        vec![(*transition).to_owned(), object, object_name(subdevice, *index, *sub_index), bytes(data)]
     };
     let columns = &["Transition", "Object", "Name", "Bytes"];
-    Table { title: "Start-up commands", columns, rows: commands.iter().map(row).collect() }
+    Table { title: "Start-up commands", columns, rows: subdevice.startup.iter().map(row).collect() }
 }
 
-/// Returns the name of an object with the name of its entry. Objects that the description does not contain have the name of their
-/// purpose (ETG.1000.6, ETG.5001). Returns an empty text for other objects, such as those of modules.
-fn object_name(device: &Device, index: u16, sub_index: u8) -> String {
-    let Some(group) = device.object(index) else {
-        return match index {
-            0x1600..=0x17FF => "RxPDO mapping".to_owned(),
-            0x1A00..=0x1BFF => "TxPDO mapping".to_owned(),
-            0x1C10..=0x1C2F => format!("PDO assignment of sync manager {}", index - 0x1C10),
-            0xF030 => "Configured module idents".to_owned(),
-            _ => String::new(),
-        };
-    };
-    match device.entry(index, sub_index).filter(|_| group.items.len() > 1) {
-        Some(entry) => format!("{} / {}", group.name, entry.name),
-        None => group.name.to_string(),
+/// Returns the name of an object of the device or of a module, with the name of its entry. Objects that the descriptions do not
+/// contain have the name of their purpose (ETG.1000.6, ETG.5001), or no name.
+fn object_name(subdevice: &SubDevice, index: u16, sub_index: u8) -> String {
+    let mut devices = std::iter::once(subdevice.description.device()).chain(&subdevice.module_objects);
+    let named = devices.find_map(|device| Some((device.object(index)?, device.entry(index, sub_index))));
+    match named {
+        Some((group, Some(entry))) if group.items.len() > 1 => format!("{} / {}", group.name, entry.name),
+        Some((group, _)) => group.name.to_string(),
+        None => purpose(index),
+    }
+}
+
+fn purpose(index: u16) -> String {
+    match index {
+        0x1600..=0x17FF => "RxPDO mapping".to_owned(),
+        0x1A00..=0x1BFF => "TxPDO mapping".to_owned(),
+        0x1C10..=0x1C2F => format!("PDO assignment of sync manager {}", index - 0x1C10),
+        0xF030 => "Configured module idents".to_owned(),
+        _ => String::new(),
     }
 }
