@@ -41,7 +41,9 @@ impl Plugged<'_> {
     /// Returns a device with the objects of the module. Their indices are those in the slot.
     pub fn objects_in_slot(self) -> Device {
         let Module { name, types, groups, .. } = self.module;
-        let groups = groups.iter().filter_map(|group| in_slot(group, self.objects())).collect();
+        let mut groups: Vec<Group> = groups.iter().filter_map(|group| in_slot(group, self.objects())).collect();
+        // The objects of a device are sorted by index. Indices that do not depend on the slot keep their value.
+        groups.sort_by_key(Group::index);
         Device { name: name.clone(), types: types.clone(), groups, ..Device::default() }
     }
 
@@ -230,5 +232,30 @@ fn given(name: &Scalar) -> String {
         Scalar::Text(text) => format!("`{text}`"),
         Scalar::Integer(ident) => u32::try_from(*ident).map_or_else(|_| ident.to_string(), hex32),
         other => other.described(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lexibus_codegen::ir::{Item, ObjectCode};
+
+    /// An object that depends on the slot comes after an object that does not, although its index in the description is smaller.
+    #[test]
+    fn objects_in_a_slot_are_found_by_their_index() {
+        let object = |index: u16, depends_on_slot: bool| Group {
+            items: vec![Item::new(Binding::canopen(index, 0))],
+            depends_on_slot,
+            ..Group::object(index, ObjectCode::Var)
+        };
+        let groups = vec![object(0x6000, true), object(0x6001, false), object(0x6002, true)];
+        let module = Module { groups, ..Module::default() };
+        let slot = Slot { index_increment: 0x10, ..Slot::default() };
+        let device = Plugged { number: 1, slot: &slot, module: &module }.objects_in_slot();
+        for index in [0x6001, 0x6010, 0x6012] {
+            assert_eq!(device.object(index).and_then(Group::index), Some(index));
+            assert_eq!(device.entry(index, 0).and_then(Item::object), Some((index, 0)));
+        }
+        assert!(device.object(0x6000).is_none() && device.object(0x6002).is_none());
     }
 }
