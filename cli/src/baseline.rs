@@ -10,11 +10,11 @@ use std::path::{Component, Path, PathBuf};
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::render::marked::{quoted, MarkedSource};
 use lexibus_codegen::diagnostics::Diagnostic;
-use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::text::printable;
 use serde::{Deserialize, Serialize};
 
+use super::files::put;
 use super::report::json_line;
 use super::Failure;
 
@@ -145,8 +145,7 @@ impl Baseline {
             let entry = Entry { key: key.clone(), count: count.found };
             text += &json_line(&entry)?;
         }
-        write_if_changed(&self.path, &text)
-            .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", self.path.display())))?;
+        put(Some(&self.path), &text)?;
         let number: usize = found.map(|(_, count)| count.found).sum();
         let diagnostics = if number == 1 { "diagnostic" } else { "diagnostics" };
         Ok(format!("wrote {}: {number} {diagnostics}", self.path.display()))

@@ -1,15 +1,14 @@
 //! `lexibus diff`: reports the changes between two versions of a description.
 
-use std::io::Write;
 use std::path::Path;
 
 use askama::Template;
 use lexibus_codegen::compile::{self, Compilation, Options};
-use lexibus_codegen::output::write_if_changed;
 use lexibus_codegen::source::Source;
 use lexibus_site::compare::{compare, Change, Class, Summary};
 
 use super::args::{Diff, DiffFormat, Printing, Shown};
+use super::files::put;
 use super::report::Reporter;
 use super::Failure;
 
@@ -35,11 +34,7 @@ pub(super) fn run(diff: &Diff) -> Result<bool, Failure> {
     let last = last_class(diff.show);
     changes.retain(|change| change.judgment.class() <= last);
     let text = report(diff, &changes, summary)?;
-    match &diff.out {
-        Some(path) => write_if_changed(path, &text)
-            .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", path.display())))?,
-        None => std::io::stdout().lock().write_all(text.as_bytes())?,
-    }
+    put(diff.out.as_deref(), &text)?;
     Ok(summary.api == 0 && summary.wire == 0)
 }
 

@@ -9,7 +9,8 @@ use lexibus_site::{Format, Page, Site};
 
 use super::args::{Docs, DocsFormat};
 use super::docs_networks::Networks;
-use super::output::{create_folder, difference};
+use super::files::{cannot_write, create_folder};
+use super::output::difference;
 use super::report::Reporter;
 use super::{inputs, Failure};
 
@@ -198,7 +199,5 @@ fn write(path: &Path, page: &Page) -> Result<(), String> {
         return Err(not_overwritten(path));
     }
     let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
-    folder
-        .and_then(|()| write_if_changed(path, &page.text))
-        .map_err(|error| format!("cannot write {}: {error}", path.display()))
+    folder.and_then(|()| write_if_changed(path, &page.text)).map_err(|error| cannot_write(path, &error))
 }

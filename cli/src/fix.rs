@@ -12,6 +12,7 @@ use lexibus_codegen::output::{write_if_changed, writing};
 use lexibus_codegen::source::Source;
 
 use super::args::Fix;
+use super::files::cannot_write;
 use super::report::Reporter;
 use super::{inputs, say, unified, Failure};
 
@@ -40,7 +41,7 @@ pub(super) fn run(fix: &Fix) -> Result<bool, Failure> {
                 };
                 match written {
                     Ok(()) => totals.add(path, &fixed, &reporter, fix.dry_run),
-                    Err(error) => reporter.error(&format!("cannot write {}: {error}", path.display())),
+                    Err(error) => reporter.error(&cannot_write(path, &error)),
                 }
             }
             Err(reason) => reporter.error(&format!("{}: {reason}: the file is unchanged", path.display())),

@@ -7,7 +7,7 @@ use lexibus_codegen::source::Source;
 use lexibus_import::Options;
 
 use super::args::Import;
-use super::output::create;
+use super::files::create;
 use super::report::Reporter;
 use super::Failure;
 

@@ -27,6 +27,7 @@ mod docs;
 mod docs_networks;
 mod explain;
 mod export;
+mod files;
 mod fix;
 mod generate;
 mod import;

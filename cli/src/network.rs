@@ -11,6 +11,7 @@ use lexibus_network::model::Network;
 use lexibus_network::output::{files, segment_summary, OutputFile};
 
 use super::args::{self, NetworkBuild, NetworkCheck, NetworkCommand, NetworkInput};
+use super::files::{cannot_write, create_folder};
 use super::report::Reporter;
 use super::{output, Failure};
 
@@ -80,9 +81,9 @@ fn write(file: &OutputFile, arguments: &NetworkBuild, reporter: &mut Reporter) -
         return Ok(());
     }
     let folder = path.parent().unwrap_or(&arguments.out);
-    output::create_folder(folder)?;
+    create_folder(folder)?;
     if let Err(error) = write_if_changed(&path, &file.content) {
-        reporter.error(&format!("cannot write {}: {error}", path.display()));
+        reporter.error(&cannot_write(&path, &error));
     }
     Ok(())
 }

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::io::{BufRead, Write};
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::output::{is_no_regular_file, write_if_changed, writing};
+use lexibus_codegen::output::{is_no_regular_file, write_if_changed};
 
 use super::args::Inputs;
+use super::files::{cannot_write, create_folder};
 use super::report::Reporter;
 use super::{unified, Failure};
 
@@ -67,7 +68,7 @@ impl<'g> Target<'g> {
         if self.check {
             check_bytes(&path, content, reporter);
         } else if let Err(error) = write_if_changed(&path, content) {
-            reporter.error(&format!("cannot write {}: {error}", path.display()));
+            reporter.error(&cannot_write(&path, &error));
         } else {
             self.files += 1;
             if self.is_one_file() && self.is_reported {
@@ -101,25 +102,6 @@ impl<'g> Target<'g> {
         }
         path
     }
-}
-
-/// Creates a folder and its missing parents, if it does not exist.
-pub(super) fn create_folder(path: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(path)
-        .map_err(|error| Failure::Failed(format!("cannot create the folder {}: {error}", path.display())))
-}
-
-/// Creates a file that the user will edit. Does not overwrite an existing file.
-pub(super) fn create(path: &Path, content: &[u8]) -> Result<(), Failure> {
-    let _writing = writing();
-    let file = std::fs::File::options().write(true).create_new(true).open(path);
-    let written = file.and_then(|mut file| file.write_all(content));
-    written.map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => {
-            Failure::Usage(format!("{} exists already and is not overwritten", path.display()))
-        }
-        _ => Failure::Failed(format!("cannot write {}: {error}", path.display())),
-    })
 }
 
 fn check(path: &Path, text: &str, reporter: &mut Reporter) {

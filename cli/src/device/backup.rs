@@ -6,9 +6,10 @@ use lexibus_codegen::text::printable;
 use lexibus_device::backup::{backup, difference, Backup, Options};
 use lexibus_device::{Description, Network};
 
+use super::files;
 use super::target::Device;
-use super::{files, verify};
 use crate::args::{BackupCommand, BackupFormat, Compare, Described};
+use crate::files::put;
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &BackupCommand) -> Result<bool, Failure> {
@@ -29,7 +30,7 @@ pub(super) fn run(arguments: &BackupCommand) -> Result<bool, Failure> {
             file.text
         }
     };
-    verify::put(Some(&arguments.out), &text)?;
+    put(Some(&arguments.out), &text)?;
     for skipped in &saved.skipped {
         let kind = if skipped.is_failure { "warning: not saved" } else { "left out" };
         say(&format!("{kind}: {skipped}"));

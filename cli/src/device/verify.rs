@@ -1,14 +1,11 @@
 //! `lexibus verify`.
 
-use std::io::Write as _;
-use std::path::Path;
-
-use lexibus_codegen::output::write_if_changed;
 use lexibus_device::verify::{verify, Options};
 use lexibus_device::Network;
 
 use super::target::Device;
 use crate::args::{Verify, VerifyFormat};
+use crate::files::put;
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
@@ -32,13 +29,4 @@ pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
     }
     let has_deviations = report.deviations().next().is_some();
     Ok(!has_deviations)
-}
-
-/// Writes a text to a file or standard output.
-pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {
-    match path {
-        Some(path) => write_if_changed(path, text)
-            .map_err(|error| Failure::Failed(format!("cannot write {}: {error}", path.display()))),
-        None => Ok(std::io::stdout().lock().write_all(text.as_bytes())?),
-    }
 }

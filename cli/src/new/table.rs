@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::args::{Bus, New};
-use crate::output::create;
+use crate::files::create;
 use crate::Failure;
 
 // These templates contain the placeholders `{name}` and `{file}`.

@@ -1,0 +1,87 @@
+//! Pages that do not belong to a device: those of CANopen networks and EtherCAT segments.
+
+use super::addresses::folder_name;
+use super::indexing;
+use super::network::{self, Network};
+use super::pages::{Content, Frameset, Listed};
+use super::search::Entry;
+use super::segment::{self, Segment, ShownSubDevice, SubDevice};
+use super::{Page, Site};
+
+/// A page that does not belong to a device.
+struct Further<'p> {
+    /// Folder of all pages of this kind, relative to the site's folder.
+    folder: &'static str,
+    /// Kind of the page in the search.
+    kind: &'static str,
+    /// Name that determines the file name.
+    name: &'p str,
+    title: &'p str,
+    /// Anchor, number and name of each part of the page.
+    parts: Vec<[&'p str; 3]>,
+}
+
+impl Site {
+    /// Returns the page of a network, with links to the pages of its nodes. Before calling this function, add the catalogs of the
+    /// nodes to the site. The list of devices links to this page.
+    pub fn network(&mut self, network: &Network) -> Page {
+        let devices: Vec<Option<&Listed>> = network.nodes.iter().map(|node| self.device_of(&node.catalog)).collect();
+        let shown = network::Shown::new(network, &devices);
+        let parts = shown.nodes.iter().map(|node| [node.anchor.as_str(), &node.id, &node.name]).collect();
+        let title = &shown.title;
+        let page = Further { folder: "_networks", kind: "network", name: &network.name, title, parts };
+        self.further(&page, Content::Network(&shown))
+    }
+
+    /// Returns the page of a segment, with links to the pages of its devices. Before calling this function, add the catalogs of the
+    /// devices to the site. The list of devices links to this page.
+    pub fn segment(&mut self, segment: &Segment) -> Page {
+        let shown = |subdevice: &SubDevice| ShownSubDevice::new(subdevice, self.device_of(&subdevice.catalog));
+        let shown = segment::Shown {
+            title: format!("EtherCAT segment {}", segment.name),
+            summary: segment.summary.clone(),
+            subdevices: segment.subdevices.iter().map(shown).collect(),
+        };
+        let parts = shown.subdevices.iter().map(|one| [one.anchor.as_str(), &one.position, &one.name]).collect();
+        let title = &shown.title;
+        let page = Further { folder: "_segments", kind: "segment", name: &segment.name, title, parts };
+        self.further(&page, Content::Segment(&shown))
+    }
+
+    /// Returns a page, and adds it to the search and to the list of devices.
+    fn further(&mut self, page: &Further<'_>, content: Content<'_>) -> Page {
+        let Further { folder, kind, name, title, parts } = page;
+        let format = self.format.pages();
+        let file = format!("{}{}", folder_name(name), format.ending());
+        self.index.device(title, "", "", folder);
+        self.index.page(&file, kind);
+        let words: Vec<&str> = parts.iter().map(|[.., name]| *name).collect();
+        self.index.entry(&Entry { words: &words.join(" "), ..indexing::entry("", "", title) });
+        for [anchor, number, name] in parts {
+            self.index.entry(&indexing::entry(anchor, number, name));
+        }
+        let path = format!("{folder}/{file}");
+        self.further.push((path.clone(), (*title).to_owned()));
+        let frame = Frameset { title: (*title).to_owned(), root: "..", ..Frameset::default() };
+        Page { text: format.page(&frame, &path, content), path }
+    }
+
+    /// Returns the first device of a catalog.
+    fn device_of(&self, catalog: &str) -> Option<&Listed> {
+        self.catalogs.iter().flat_map(|listed| &listed.devices).find(|device| device.file == catalog)
+    }
+}
+
+impl ShownSubDevice {
+    fn new(subdevice: &SubDevice, device: Option<&Listed>) -> Self {
+        ShownSubDevice {
+            anchor: format!("subdevice-{}", subdevice.position),
+            name: subdevice.name.clone(),
+            position: subdevice.position.to_string(),
+            device: device.map(|device| device.title.clone()).unwrap_or_default(),
+            target: device.map(|device| device.path_from("..")).unwrap_or_default(),
+            facts: subdevice.facts.join(" "),
+            tables: subdevice.tables.iter().filter(|table| !table.rows.is_empty()).cloned().collect(),
+        }
+    }
+}
