@@ -179,11 +179,7 @@ impl NetworkNode {
 
     /// Returns the name of an object's entry. If the object has several entries, the name of the object and `separator` precede it.
     pub fn entry_name(&self, object: (u16, u8), separator: &str) -> String {
-        let entry = self.item(object).map(|item| item.name.as_str()).unwrap_or_default();
-        match self.device().object(object.0).filter(|group| group.items.len() > 1) {
-            Some(group) => format!("{}{separator}{entry}", group.name),
-            None => entry.to_owned(),
-        }
+        entry_name(self.device(), object, separator)
     }
 
     /// Returns the name of a PDO of this node: ``TPDO 1 of `axis1` ``.
@@ -199,6 +195,15 @@ impl NetworkNode {
     /// Returns the PDO with this direction and number.
     pub fn pdo(&self, direction: Direction, number: u16) -> Option<&NetworkPdo> {
         self.pdos.iter().find(|pdo| pdo.direction == direction && pdo.number == number)
+    }
+}
+
+/// Returns the name of an object's entry. If the object has several entries, the name of the object and `separator` precede it.
+pub(crate) fn entry_name(device: &Device, (index, sub_index): (u16, u8), separator: &str) -> String {
+    let entry = device.entry(index, sub_index).map(|item| item.name.as_str()).unwrap_or_default();
+    match device.object(index).filter(|group| group.items.len() > 1) {
+        Some(group) => format!("{}{separator}{entry}", group.name),
+        None => entry.to_owned(),
     }
 }
 

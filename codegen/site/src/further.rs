@@ -5,7 +5,7 @@ use super::indexing;
 use super::network::{self, Network};
 use super::pages::{Content, Frameset, Listed};
 use super::search::Entry;
-use super::segment::{self, Segment, ShownSubDevice, SubDevice};
+use super::segment::{self, Segment, SubDevice};
 use super::{Page, Site};
 
 /// A page that does not belong to a device.
@@ -36,12 +36,9 @@ impl Site {
     /// Returns the page of a segment, with links to the pages of its devices. Before calling this function, add the catalogs of the
     /// devices to the site. The list of devices links to this page.
     pub fn segment(&mut self, segment: &Segment) -> Page {
-        let shown = |subdevice: &SubDevice| ShownSubDevice::new(subdevice, self.device_of(&subdevice.catalog));
-        let shown = segment::Shown {
-            title: format!("EtherCAT segment {}", segment.name),
-            summary: segment.summary.clone(),
-            subdevices: segment.subdevices.iter().map(shown).collect(),
-        };
+        let device = |subdevice: &SubDevice| self.device_of(&subdevice.catalog);
+        let devices: Vec<Option<&Listed>> = segment.subdevices.iter().map(device).collect();
+        let shown = segment::Shown::new(segment, &devices);
         let parts = shown.subdevices.iter().map(|one| [one.anchor.as_str(), &one.position, &one.name]).collect();
         let title = &shown.title;
         let page = Further { folder: "_segments", kind: "segment", name: &segment.name, title, parts };
@@ -69,19 +66,5 @@ impl Site {
     /// Returns the first device of a catalog.
     fn device_of(&self, catalog: &str) -> Option<&Listed> {
         self.catalogs.iter().flat_map(|listed| &listed.devices).find(|device| device.file == catalog)
-    }
-}
-
-impl ShownSubDevice {
-    fn new(subdevice: &SubDevice, device: Option<&Listed>) -> Self {
-        ShownSubDevice {
-            anchor: format!("subdevice-{}", subdevice.position),
-            name: subdevice.name.clone(),
-            position: subdevice.position.to_string(),
-            device: device.map(|device| device.title.clone()).unwrap_or_default(),
-            target: device.map(|device| device.path_from("..")).unwrap_or_default(),
-            facts: subdevice.facts.join(" "),
-            tables: subdevice.tables.iter().filter(|table| !table.rows.is_empty()).cloned().collect(),
-        }
     }
 }

@@ -1,17 +1,10 @@
-//! The page of a CANopen network: its nodes, its frames with their senders and receivers, the bus load, and the
+//! A CANopen network, as its page shows it: its nodes, its frames with their senders and receivers, the bus load, and the
 //! configured values.
 
-use super::addresses::folder_name;
-use super::indexing;
-use super::pages::{Content, Frameset, Listed};
-use super::search::Entry;
-use super::{Page, Site};
+use super::pages::Listed;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{hex, hex16, hex8};
 use lexibus_codegen::facts::words::{capital, sentence};
-
-/// Folder of the pages of networks, relative to the site's folder.
-const FOLDER: &str = "_networks";
 
 /// A CANopen network.
 #[derive(Clone, Debug, Default)]
@@ -132,35 +125,8 @@ pub(super) struct ShownParty {
     pub target: String,
 }
 
-impl Site {
-    /// Returns the page of a network, with links to the pages of its nodes. Before calling this function, add the catalogs of the
-    /// nodes to the site. The list of devices links to this page.
-    pub fn network(&mut self, network: &Network) -> Page {
-        let format = self.format.pages();
-        let devices: Vec<Option<&Listed>> = network.nodes.iter().map(|node| self.device_of(&node.catalog)).collect();
-        let shown = Shown::new(network, &devices);
-        let file = format!("{}{}", folder_name(&network.name), format.ending());
-        self.index.device(&shown.title, "", "", FOLDER);
-        self.index.page(&file, "network");
-        let words: Vec<&str> = network.nodes.iter().map(|node| node.name.as_str()).collect();
-        self.index.entry(&Entry { words: &words.join(" "), ..indexing::entry("", "", &shown.title) });
-        for node in &shown.nodes {
-            self.index.entry(&indexing::entry(&node.anchor, &node.id, &node.name));
-        }
-        let path = format!("{FOLDER}/{file}");
-        self.further.push((path.clone(), shown.title.clone()));
-        let frame = Frameset { title: shown.title.clone(), root: "..", ..Frameset::default() };
-        Page { text: format.page(&frame, &path, Content::Network(&shown)), path }
-    }
-
-    /// Returns the first device of a catalog.
-    pub(super) fn device_of(&self, catalog: &str) -> Option<&Listed> {
-        self.catalogs.iter().flat_map(|listed| &listed.devices).find(|device| device.file == catalog)
-    }
-}
-
 impl Shown {
-    fn new(network: &Network, devices: &[Option<&Listed>]) -> Self {
+    pub fn new(network: &Network, devices: &[Option<&Listed>]) -> Self {
         let mut frames: Vec<&Frame> = network.frames.iter().collect();
         frames.sort_by_key(|frame| frame.can_id);
         let node = |(node, device): (&Node, &Option<&Listed>)| ShownNode::new(node, *device);

@@ -1,11 +1,13 @@
 //! An EtherCAT segment, as its page shows it: its SubDevices in the order of the bus, and the settings of each.
 
+use super::pages::Listed;
+
 /// An EtherCAT segment.
 #[derive(Clone, Debug, Default)]
 pub struct Segment {
     /// Name of the segment. Each segment of a site must have a different name.
     pub name: String,
-    /// Number of SubDevices, cycle time and length of the process data as a sentence.
+    /// Number of SubDevices and length of the process data as a sentence.
     pub summary: String,
     /// SubDevices in the order of their positions on the bus.
     pub subdevices: Vec<SubDevice>,
@@ -49,10 +51,35 @@ pub(super) struct Shown {
 pub(super) struct ShownSubDevice {
     pub anchor: String,
     pub name: String,
-    pub position: u16,
+    pub position: String,
     pub device: String,
     /// Path of the first page of the device. Empty if the site does not contain the device.
     pub target: String,
     pub facts: String,
     pub tables: Vec<Table>,
+}
+
+impl Shown {
+    pub fn new(segment: &Segment, devices: &[Option<&Listed>]) -> Self {
+        let subdevice = |(subdevice, device): (&SubDevice, &Option<&Listed>)| ShownSubDevice::new(subdevice, *device);
+        Shown {
+            title: format!("EtherCAT segment {}", segment.name),
+            summary: segment.summary.clone(),
+            subdevices: segment.subdevices.iter().zip(devices).map(subdevice).collect(),
+        }
+    }
+}
+
+impl ShownSubDevice {
+    fn new(subdevice: &SubDevice, device: Option<&Listed>) -> Self {
+        ShownSubDevice {
+            anchor: format!("subdevice-{}", subdevice.position),
+            name: subdevice.name.clone(),
+            position: subdevice.position.to_string(),
+            device: device.map(|device| device.title.clone()).unwrap_or_default(),
+            target: device.map(|device| device.path_from("..")).unwrap_or_default(),
+            facts: subdevice.facts.join(" "),
+            tables: subdevice.tables.iter().filter(|table| !table.rows.is_empty()).cloned().collect(),
+        }
+    }
 }

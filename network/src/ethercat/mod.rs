@@ -15,6 +15,7 @@ mod sync_managers;
 pub use declared::{DeclaredModule, DeclaredSegment, DeclaredSubDevice};
 pub(crate) use frontend::{read, SECTION, SUBDEVICE};
 pub(crate) use resolve::resolve;
+pub(crate) use segment::direction_name;
 pub use segment::{
     AssignedPdo, Clock, ClockSignal, ClockSyncManager, Fmmu, Identity, PluggedModule, Segment, StartupCommand,
     SubDevice, SyncManager,

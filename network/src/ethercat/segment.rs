@@ -135,10 +135,15 @@ pub struct Fmmu {
 }
 
 fn direction<S: Serializer>(direction: &Direction, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(match direction {
+    serializer.serialize_str(direction_name(*direction))
+}
+
+/// Returns the name of a direction from the MainDevice's point of view.
+pub(crate) fn direction_name(direction: Direction) -> &'static str {
+    match direction {
         Direction::Receive => "outputs",
         Direction::Transmit => "inputs",
-    })
+    }
 }
 
 /// An assigned PDO or padding, with the position of its data.

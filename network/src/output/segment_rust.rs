@@ -7,7 +7,9 @@ use lexibus_codegen::ir::Direction;
 use lexibus_codegen::names::{unique, Case, NameRequest};
 
 use super::rust_text::{one_line, HEADER};
-use crate::ethercat::{Clock, ClockSignal, Fmmu, Identity, Segment, StartupCommand, SubDevice, SyncManager};
+use crate::ethercat::{
+    direction_name, Clock, ClockSignal, Fmmu, Identity, Segment, StartupCommand, SubDevice, SyncManager,
+};
 
 /// Names in the module of the segment that no SubDevice can have.
 const RESERVED: [&str; 1] = ["command"];
@@ -63,14 +65,15 @@ fn constants(text: &mut String, subdevice: &SubDevice) {
         let value = number.map_or("None".to_owned(), |number| format!("Some({})", hex32(number)));
         constant(about, name, "Option<u32>", &value);
     }
-    for (direction, name) in [(Direction::Receive, "OUTPUTS"), (Direction::Transmit, "INPUTS")] {
-        let about = format!("Logical addresses of the {}.", name.to_lowercase());
-        constant(&about, name, "::core::ops::Range<u32>", &addresses(subdevice, direction));
+    for direction in [Direction::Receive, Direction::Transmit] {
+        let name = direction_name(direction);
+        let about = format!("Logical addresses of the {name}.");
+        constant(&about, &name.to_uppercase(), "::core::ops::Range<u32>", &addresses(subdevice, direction));
     }
-    let list = list(subdevice.sync_managers.iter().map(sync_manager));
+    let list = slice(subdevice.sync_managers.iter().map(sync_manager));
     let about = "Sync managers, sorted by number.";
     constant(about, "SYNC_MANAGERS", "&[::lexibus::ethercat::SyncManagerSettings]", &list);
-    let list = self::list(subdevice.fmmus.iter().map(fmmu));
+    let list = slice(subdevice.fmmus.iter().map(fmmu));
     constant("FMMUs of the process data.", "FMMUS", "&[::lexibus::ethercat::FmmuSettings]", &list);
     let settings = subdevice.dc.as_ref().map_or("None".to_owned(), |settings| format!("Some({})", clock(settings)));
     let about = match &subdevice.dc {
@@ -78,13 +81,13 @@ fn constants(text: &mut String, subdevice: &SubDevice) {
         None => "Distributed clocks; the description has no modes.".to_owned(),
     };
     constant(&about, "CLOCK", "Option<::lexibus::ethercat::ClockSettings>", &settings);
-    let list = self::list(subdevice.startup.iter().map(command));
+    let list = slice(subdevice.startup.iter().map(command));
     let about = "SDO downloads in their order, each with its state transition.";
     constant(about, "STARTUP", "&[::lexibus::ethercat::StartupCommand]", &list);
 }
 
 /// Returns a slice with one line for each element.
-fn list(elements: impl Iterator<Item = String>) -> String {
+fn slice(elements: impl Iterator<Item = String>) -> String {
     let lines: String = elements.map(|element| format!("        {element},\n")).collect();
     if lines.is_empty() {
         "&[]".to_owned()

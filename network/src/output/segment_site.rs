@@ -2,12 +2,15 @@
 
 use lexibus_codegen::facts::number::{bytes, hex16, hex32, hex8};
 use lexibus_codegen::facts::{address, words};
-use lexibus_codegen::ir::Direction;
 use lexibus_codegen::text::count_of;
 use lexibus_site::segment::{self, Table};
 use lexibus_site::{Page, Site};
 
-use crate::ethercat::{AssignedPdo, Clock, Fmmu, PluggedModule, Segment, StartupCommand, SubDevice, SyncManager};
+use super::site::SEPARATOR;
+use crate::ethercat::{
+    direction_name, AssignedPdo, Clock, Fmmu, PluggedModule, Segment, StartupCommand, SubDevice, SyncManager,
+};
+use crate::model::entry_name;
 
 /// Announces the devices of all SubDevices.
 pub(super) fn announce(segment: &Segment, title: &str, site: &mut Site) {
@@ -123,14 +126,10 @@ fn sync_managers(managers: &[SyncManager]) -> Table {
 
 fn fmmus(fmmus: &[Fmmu]) -> Table {
     let row = |fmmu: &Fmmu| {
-        let direction = match fmmu.direction {
-            Direction::Receive => "outputs",
-            Direction::Transmit => "inputs",
-        };
         vec![
             fmmu.number.to_string(),
             fmmu.sync_manager.to_string(),
-            direction.to_owned(),
+            direction_name(fmmu.direction).to_owned(),
             fmmu.logical_address.to_string(),
             fmmu.length.to_string(),
             hex16(fmmu.physical_address),
@@ -155,10 +154,9 @@ fn startup(subdevice: &SubDevice) -> Table {
 /// contain have the name of their purpose (ETG.1000.6, ETG.5001), or no name.
 fn object_name(subdevice: &SubDevice, index: u16, sub_index: u8) -> String {
     let mut devices = std::iter::once(subdevice.description.device()).chain(&subdevice.module_objects);
-    let named = devices.find_map(|device| Some((device.object(index)?, device.entry(index, sub_index))));
-    match named {
-        Some((group, Some(entry))) if group.items.len() > 1 => format!("{} / {}", group.name, entry.name),
-        Some((group, _)) => group.name.to_string(),
+    match devices.find_map(|device| Some((device, device.object(index)?))) {
+        Some((device, group)) if device.entry(index, sub_index).is_none() => group.name.to_string(),
+        Some((device, _)) => entry_name(device, (index, sub_index), SEPARATOR),
         None => purpose(index),
     }
 }

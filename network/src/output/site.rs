@@ -20,7 +20,7 @@ use crate::model::{
 use crate::values::Write;
 
 /// Separator between the names of an object and of its entry.
-const SEPARATOR: &str = " / ";
+pub(super) const SEPARATOR: &str = " / ";
 
 /// Announces the devices of all nodes. Announce all networks of a site before you add the pages of one of them.
 pub fn announce(network: &Network, title: &str, site: &mut Site) {
