@@ -7,24 +7,24 @@ use std::path::Path;
 use ethercrab::subdevice_group::{Op, PreOp};
 use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup};
 use lexibus::clients::ethercat::Sdo;
-use lexibus::ethercat::{Direction, FmmuSettings, SyncManagerSettings};
 use lexibus::AbortCode;
 use lexibus_codegen::compile::{read, Options as Reading};
 use lexibus_codegen::diagnostics::Levels;
-use lexibus_codegen::ir;
 use lexibus_codegen::source::Source;
 use lexibus_export::sii;
 use lexibus_network::compile::compile;
-use lexibus_network::ethercat::{Fmmu, SyncManager};
 
 #[path = "../examples/support/ethercat/mod.rs"]
 mod ethercat;
 #[path = "support/segment.rs"]
 mod segment;
+#[path = "../network/tests/support/settings.rs"]
+mod settings;
 
 use ethercat::objects::Dictionary;
 use ethercat::{Servo, SubDevice};
 use segment::with_segment;
+use settings::{fmmu_settings, manager_settings};
 
 lexibus::dictionary! {
     /// A drive with a mailbox. The master reads its PDOs from the object dictionary.
@@ -77,23 +77,16 @@ async fn check_registers(maindevice: &MainDevice<'_>, group: &Group<Op>, path: &
     let compiled = compiled(path);
     assert_eq!(compiled.sync_managers.iter().map(|manager| manager.length).collect::<Vec<_>>(), lengths);
     for manager in &compiled.sync_managers {
-        let &SyncManager { number, start_address, length, control, enable, op_only, .. } = manager;
-        let settings = SyncManagerSettings { number, start_address, length, control, enable, op_only };
+        let settings = manager_settings(manager);
         let set: [u8; 8] = subdevice.register_read(settings.register()).await.expect("the registers");
-        assert_eq!((&set[..5], set[6] & 1), (&settings.bytes()[..5], 1), "sync manager {number}");
+        let expected = settings.bytes();
+        assert_eq!((&set[..5], set[6] & 1), (&expected[..5], expected[6]), "sync manager {}", manager.number);
     }
     assert_eq!(compiled.fmmus.len(), 2);
     for fmmu in &compiled.fmmus {
-        let &Fmmu { number, sync_manager, length, physical_address, op_only, .. } = fmmu;
-        let direction = match fmmu.direction {
-            ir::Direction::Receive => Direction::Output,
-            ir::Direction::Transmit => Direction::Input,
-        };
-        let logical_address = 0;
-        let settings =
-            FmmuSettings { number, sync_manager, direction, logical_address, length, physical_address, op_only };
+        let settings = fmmu_settings(fmmu);
         let set: [u8; 16] = subdevice.register_read(settings.register()).await.expect("the registers");
-        assert_eq!(set[4..], settings.bytes()[4..], "FMMU {number}");
+        assert_eq!(set[4..], settings.bytes()[4..], "FMMU {}", fmmu.number);
     }
 }
 

@@ -25,11 +25,11 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
         reporter.error(&reason);
         return reporter.finish();
     }
+    let mut files = inputs::sorted(&docs.inputs)?;
     if !docs.check {
         create_folder(&docs.out)?;
     }
     let mut site = Site::new(format);
-    let mut files = inputs::sorted(&docs.inputs)?;
     let networks = Networks::take(&mut files, &options.levels, &mut reporter)?;
     let names = Names::new(&files);
     // A single input needs no first pass, because the names of its folders in the site do not depend on other files.

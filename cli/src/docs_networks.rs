@@ -1,6 +1,6 @@
 //! The networks in a documentation site.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use lexibus_codegen::diagnostics::Levels;
@@ -9,7 +9,7 @@ use lexibus_network::compile::{compile, Compilation};
 use lexibus_network::frontend::{is_network, Format};
 use lexibus_network::model::Network;
 use lexibus_network::output::{announce, pages};
-use lexibus_site::{Page, Site};
+use lexibus_site::{page_name, Page, Site};
 
 use super::report::Reporter;
 use super::Failure;
@@ -20,7 +20,7 @@ pub(super) struct Networks(Vec<(String, Compilation)>);
 impl Networks {
     /// Compiles the network files in a list of files, reports their diagnostics, and removes these files from the list.
     pub(super) fn take(files: &mut Vec<PathBuf>, levels: &Levels, reporter: &mut Reporter) -> Result<Self, Failure> {
-        let (mut networks, mut titles) = (Vec::new(), HashSet::new());
+        let (mut networks, mut titles) = (Vec::new(), HashMap::new());
         for path in std::mem::take(files) {
             let Some(source) = network_file(&path) else {
                 files.push(path);
@@ -29,8 +29,11 @@ impl Networks {
             let compilation = compile(source, levels.clone());
             super::network::report(reporter, &compilation)?;
             let title = title(&path, &compilation);
-            if !titles.insert(title.clone()) {
-                reporter.error(&format!("{}: another network also has the name `{title}`", path.display()));
+            if let Some(other) = titles.insert(page_name(&title), title.clone()) {
+                let path = path.display();
+                reporter.error(&format!(
+                    "{path}: the network `{title}` would have the same page as the network `{other}`; change `name`"
+                ));
                 continue;
             }
             networks.push((title, compilation));

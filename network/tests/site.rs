@@ -56,7 +56,7 @@ fn the_page_of_a_segment_shows_its_settings() {
         "Clock mode DC: AssignActivate 0x0300, SYNC0 every 1000000 ns, shifted by 250000 ns. |",
         "| 2 | 0x00003001 | 2 analogue inputs |",
         "| 2 | Outputs | 0x1100 | 6 | 0x64 | yes |",
-        "| 0 | 2 | outputs | 1 | 6 | 0x1100 |",
+        "| 0 | 2 | outputs | 1 | 6 | 0x1100 | yes |",
         "## axis\\|1",
         "| PS | 0x8020:01 | Settings / Filter |",
         "| PS | 0x1C12:00 | PDO assignment of sync manager 2 | 00 |",

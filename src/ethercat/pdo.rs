@@ -3,6 +3,9 @@
 use super::depends_on::DependsOn;
 use crate::pdo::MappedEntry;
 
+/// Maximum number of entries of a PDO mapping (ETG.1000.6, 5.6.7.4).
+pub(super) const MAX_MAPPED_ENTRIES: usize = 254;
+
 /// Direction of process data from the master's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
@@ -53,6 +56,6 @@ impl PdoInfo {
 
     /// Returns whether `mapping` can be written to the mapping object.
     pub(super) fn holds(&self, mapping: &[MappedEntry]) -> bool {
-        !self.fixed && mapping.len() <= 254 && mapping.iter().all(|entry| entry.bits <= 255)
+        !self.fixed && mapping.len() <= MAX_MAPPED_ENTRIES && mapping.iter().all(|entry| entry.bits <= 255)
     }
 }

@@ -6,7 +6,7 @@ use super::assignment::{assignment_writes, mapping_writes};
 use super::depends_on::Growth;
 use super::mailbox::Transition;
 use super::module::{Increments, Module, Slot};
-use super::pdo::PdoInfo;
+use super::pdo::{PdoInfo, MAX_MAPPED_ENTRIES};
 use super::startup::StartupCommand;
 use super::{Device, SyncManager};
 use crate::pdo::{MappedEntry, SdoWrite};
@@ -197,12 +197,12 @@ impl<const N: usize> SlotPlan<N> {
                 return Err(PlanError::TooLong { sync_manager: manager.number, bytes, max });
             }
             let assigned = || self.pdos(manager.number).filter(|placed| placed.index != 0);
-            room_for(manager.assignment(), assigned().count())?;
+            room_for(manager.assignment(), assigned().count(), MAX_LISTED)?;
             for gap in assigned().filter(|placed| placed.content == Content::Gap) {
-                room_for(gap.index, gap.bits.div_ceil(MAX_ENTRY_BITS) as usize)?;
+                room_for(gap.index, gap.bits.div_ceil(MAX_ENTRY_BITS) as usize, MAX_MAPPED_ENTRIES)?;
             }
         }
-        room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1))
+        room_for(MODULE_IDENTS, self.plugged().last().map_or(0, |(_, slot)| usize::from(slot) + 1), MAX_LISTED)
     }
 
     /// Returns the offset that a slot adds to the object index `index` of its module. `index` is the object's index in
@@ -415,7 +415,7 @@ const MAX_ENTRY_BITS: u32 = u8::MAX as u32;
 
 /// Returns the writes that map `bits` bits of padding. [`SlotPlan::check`] checks that the mapping has enough sub-indices.
 fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
-    let count = bits.div_ceil(MAX_ENTRY_BITS).min(u8::MAX.into());
+    let count = bits.div_ceil(MAX_ENTRY_BITS).min(MAX_MAPPED_ENTRIES as u32);
     let entry = move |at: u32| {
         let rest = (bits - at * MAX_ENTRY_BITS).min(MAX_ENTRY_BITS);
         SdoWrite::new_u32(index, at as u8 + 1, MappedEntry::new(0, 0, rest).word())
@@ -424,9 +424,12 @@ fn gap_writes(index: u16, bits: u32) -> impl Iterator<Item = SdoWrite> {
     count_of(0).chain((0..count).map(entry)).chain(count_of(count))
 }
 
+/// Maximum number of entries of a list of PDOs or of module idents.
+const MAX_LISTED: usize = u8::MAX as usize;
+
 /// Checks that a list object has enough sub-indices for `count` entries.
-fn room_for(index: u16, count: usize) -> Result<(), PlanError> {
-    if count > usize::from(u8::MAX) {
+fn room_for(index: u16, count: usize, max: usize) -> Result<(), PlanError> {
+    if count > max {
         return Err(PlanError::TooMany { index, count });
     }
     Ok(())

@@ -27,7 +27,8 @@ impl SyncManagerSettings {
     }
 
     /// Returns the values of the 8 registers: start address, length, control, status, activation and PDI control. The slave
-    /// ignores the bytes for the status and the PDI control, which are 0.
+    /// ignores the bytes for the status and the PDI control, which are 0. The bytes do not depend on [`op_only`](Self::op_only): if
+    /// it is set, write them only at the transition to Operational.
     #[must_use]
     pub const fn bytes(&self) -> [u8; 8] {
         let ([start, start_high], [length, length_high]) =
@@ -64,7 +65,8 @@ impl FmmuSettings {
     }
 
     /// Returns the values of the 16 registers of the enabled FMMU. The mapping starts at bit 0 of the first byte and ends at bit 7
-    /// of the last byte. The FMMU writes outputs to the slave, and reads inputs.
+    /// of the last byte. The FMMU writes outputs to the slave, and reads inputs. The bytes do not depend on
+    /// [`op_only`](Self::op_only): if it is set, write them only at the transition to Operational.
     #[must_use]
     pub const fn bytes(&self) -> [u8; 16] {
         let [a, b, c, d] = self.logical_address.to_le_bytes();
@@ -78,10 +80,10 @@ impl FmmuSettings {
     }
 }
 
-/// Settings of the distributed clocks of a slave.
+/// Settings of the distributed clocks of a slave (ETG.2000, `Dc/OpMode`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClockSettings {
-    /// Value of register 0x0980 (`AssignActivate`). The value 0 disables SYNC0 and SYNC1.
+    /// Value of the registers 0x0980 and 0x0981 (`AssignActivate`). Bit 9 activates SYNC0, and bit 10 activates SYNC1.
     pub assign_activate: u32,
     /// Times of SYNC0.
     pub sync0: ClockSignal,

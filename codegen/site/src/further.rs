@@ -21,6 +21,13 @@ struct Further<'p> {
     parts: Vec<[&'p str; 3]>,
 }
 
+/// Returns the file name of the page of a network or segment, without extension. Names that differ only in case or punctuation can
+/// have the same file name.
+#[must_use]
+pub fn page_name(name: &str) -> String {
+    folder_name(name)
+}
+
 impl Site {
     /// Returns the page of a network, with links to the pages of its nodes. Before calling this function, add the catalogs of the
     /// nodes to the site. The list of devices links to this page.
@@ -49,7 +56,7 @@ impl Site {
     fn further(&mut self, page: &Further<'_>, content: Content<'_>) -> Page {
         let Further { folder, kind, name, title, parts } = page;
         let format = self.format.pages();
-        let file = format!("{}{}", folder_name(name), format.ending());
+        let file = format!("{}{}", page_name(name), format.ending());
         self.index.device(title, "", "", folder);
         self.index.page(&file, kind);
         let words: Vec<&str> = parts.iter().map(|[.., name]| *name).collect();

@@ -73,6 +73,7 @@ use addresses::Addresses;
 use diagnostics::ShownDiagnostics;
 use folder::Folder;
 pub use format::Format;
+pub use further::page_name;
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
 use links::Links;

@@ -48,4 +48,6 @@ pub struct DeclaredModule {
     pub slot: At<u16>,
     /// Ident, type or name of the module.
     pub module: At<Scalar>,
+    /// Values of objects of the module, in the order in which they are written.
+    pub parameters: Vec<DeclaredParameter>,
 }

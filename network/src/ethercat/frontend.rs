@@ -25,10 +25,19 @@ pub(crate) static SUBDEVICE: Section = Section {
         "overlays" Form::Texts, "Paths of overlays, relative to the network file.";
         "revision_number" Form::Integer(0, 0xFFFF_FFFF), "Expected revision number, instead of that of the description.";
         "alias" Form::Integer(0, 0xFFFF), "Station alias; 0 = none.";
-        "modules" Form::Values, "Modules of a modular device: slot number, counted from 0 = module ident or name. By default, the default modules of the description.";
+        "modules" Form::ValuesOr(&MODULE), "Modules of a modular device: slot number, counted from 0 = module ident or name, or a table with the module and the values of its objects. By default, the default modules of the description.";
         "pdos" Form::Objects, "Assigned PDOs of the SubDevice itself, by index (`0x1600`) or name. By default, the PDOs that the description assigns.";
         "dc" Form::Text, "Name of the mode of the distributed clocks. By default, the first mode of the description.";
         "parameters" Form::Values, "Values of objects, which are written after the PDO assignment. Keys and values are those of a node's `parameters`.";
+    },
+};
+
+/// The table of a module in a slot.
+pub(crate) static MODULE: Section = Section {
+    name: "the table of a module",
+    keys: keys! {
+        "module" Form::IntegerOrText, "Ident, type or name of the module.";
+        "parameters" Form::Values, "Values of objects of the module, which are written after those of the SubDevice. The key is a name, or the address in the slot.";
     },
 };
 
@@ -64,11 +73,20 @@ fn subdevice(reader: &mut Reader<'_>, entry: &Entry) -> Option<DeclaredSubDevice
 fn modules(reader: &mut Reader<'_>, table: Table<'_>) -> Option<At<Vec<DeclaredModule>>> {
     let node = table.get("modules")?;
     let entries = reader.entries(node, "slot = module");
-    let module = |entry: &Entry| {
-        let number = numbered(reader, entry, "a slot", 0..=254)?;
-        Some(DeclaredModule { slot: At::new(number, entry.key.span), module: reader.scalar(&entry.value)? })
+    Some(At::new(entries.iter().filter_map(|entry| module(reader, entry)).collect(), node.span))
+}
+
+fn module(reader: &mut Reader<'_>, entry: &Entry) -> Option<DeclaredModule> {
+    let slot = At::new(numbered(reader, entry, "a slot", 0..=254)?, entry.key.span);
+    if !matches!(entry.value.content, Content::Table(_)) {
+        return Some(DeclaredModule { slot, module: reader.scalar(&entry.value)?, parameters: Vec::new() });
+    }
+    let table = reader.table(&entry.value, &MODULE);
+    let Some(module) = table.get("module") else {
+        reader.missing(table, "module");
+        return None;
     };
-    Some(At::new(entries.iter().filter_map(module).collect(), node.span))
+    Some(DeclaredModule { slot, module: reader.scalar(module)?, parameters: parameters(reader, table) })
 }
 
 fn pdos(reader: &mut Reader<'_>, table: Table<'_>) -> Option<At<Vec<At<ObjectName>>>> {

@@ -152,8 +152,12 @@ impl<'d> Modular<'d> {
     }
 
     fn declared_modules(&self, modules: &[DeclaredModule], diagnostics: &mut Diagnostics) -> Vec<Plugged<'d>> {
-        let mut plugged = Vec::new();
-        for DeclaredModule { slot, module } in modules {
+        let mut plugged: Vec<Plugged<'d>> = Vec::new();
+        for DeclaredModule { slot, module, .. } in modules {
+            if plugged.iter().any(|plugged| plugged.number == slot.value) {
+                diagnostics.push(fault(slot.span, format!("slot {} has several modules", slot.value)));
+                continue;
+            }
             match self.declared_module(slot, module) {
                 Ok(module) => plugged.push(module),
                 Err(found) => diagnostics.push(*found),

@@ -1,12 +1,17 @@
 //! The process data of a SubDevice: PDOs of the device, PDOs of its modules, and padding between groups of modules.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
+use lexibus_codegen::facts::number::hex16;
+use lexibus_codegen::facts::pdo::MAX_ENTRY;
 use lexibus_codegen::ir::{self, Device, Direction, Pdo, MAX_PDO_SUBS};
 use lexibus_codegen::source::Span;
 
 use super::assignment::{assignable, direction, sync_manager, Assigned};
 use super::modules::{Offsets, Plugged};
 use super::segment::AssignedPdo;
+
+/// Maximum length of padding in a PDO in bits: the mapping has at most 255 entries of at most 255 bits.
+const MAX_PADDING: u32 = MAX_PDO_SUBS as u32 * MAX_ENTRY;
 
 /// A PDO or padding in the process data of a sync manager.
 #[derive(Clone, Copy)]
@@ -122,8 +127,18 @@ pub(super) fn bytes(placed: &[Placed<'_>], sync_manager: u8) -> u32 {
     ends.map(|placed| placed.bit_offset.saturating_add(placed.bits)).max().unwrap_or(0).div_ceil(8)
 }
 
-/// Reports a sync manager with too many PDOs, or with more process data than its maximum length.
+/// Reports padding that does not fit into a PDO, and a sync manager with too many PDOs, or with more process data than its
+/// maximum length.
 pub(super) fn check(device: &Device, placed: &[Placed<'_>], span: Span, diagnostics: &mut Diagnostics) {
+    let is_padding = |placed: &&Placed<'_>| placed.index != 0 && matches!(placed.content, PlacedContent::Padding);
+    for padding in placed.iter().filter(is_padding).filter(|padding| padding.bits > MAX_PADDING) {
+        let message = format!(
+            "the padding of PDO {} has {} bits, but the maximum is {MAX_PADDING}",
+            hex16(padding.index),
+            padding.bits
+        );
+        diagnostics.push(Diagnostic::new(&codes::PDO_ASSIGNMENT, span, message).help("use other modules"));
+    }
     for manager in &device.process_data.sync_managers {
         let number = manager.number;
         let count = placed.iter().filter(|placed| placed.sync_manager == number && placed.index != 0).count();
@@ -154,6 +169,7 @@ pub(super) fn assigned_pdos(placed: &[Placed<'_>]) -> Vec<AssignedPdo> {
             PlacedContent::Pdo(pdo, _) => pdo.name.to_string(),
             PlacedContent::Padding => String::new(),
         },
+        is_padding: matches!(placed.content, PlacedContent::Padding),
         slot: placed.slot,
         sync_manager: placed.sync_manager,
         bit_offset: placed.bit_offset,

@@ -75,7 +75,7 @@ fn subdevice(
     let placed = process_data::place(device, &assigned, &plugged);
     process_data::check(device, &placed, assignment_at(declared), diagnostics);
     let module_objects: Vec<Device> = plugged.iter().map(|plugged| plugged.objects_in_slot()).collect();
-    let parameters = parameters::resolve(device, &module_objects, declared, diagnostics);
+    let parameters = parameters::resolve(device, &plugged, &module_objects, declared, diagnostics);
     let sync_managers = sync_managers::sync_managers(device, &placed);
     let startup = Startup { device, plugged: &plugged, placed: &placed, parameters: &parameters };
     let (startup, fmmus) = (startup.commands(), sync_managers::fmmus(device, &sync_managers));

@@ -149,10 +149,13 @@ pub(crate) fn direction_name(direction: Direction) -> &'static str {
 /// An assigned PDO or padding, with the position of its data.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct AssignedPdo {
-    /// Index of the PDO; 0 for padding without a PDO.
+    /// Index of the PDO, or of the padding. The index 0 means padding without a mapping object.
     pub index: u16,
     /// Name of the PDO; may be empty.
     pub name: String,
+    /// True for padding in front of a group of modules.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_padding: bool,
     /// Slot of the module that contains the PDO; `None` for a PDO of the SubDevice itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slot: Option<u16>,

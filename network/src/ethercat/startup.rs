@@ -150,6 +150,6 @@ fn word(entry: &PdoEntry, offsets: Offsets) -> u32 {
 
 /// Returns the entries of padding, each of at most 255 bits.
 fn padding(bits: u32) -> Vec<u32> {
-    let count = bits.div_ceil(MAX_ENTRY).min(MAX_ENTRY);
+    let count = bits.div_ceil(MAX_ENTRY);
     (0..count).map(|at| (bits - at * MAX_ENTRY).min(MAX_ENTRY)).collect()
 }

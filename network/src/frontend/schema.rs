@@ -15,11 +15,14 @@ pub fn schema() -> String {
 
 /// Writes the members of a schema for a table.
 fn object(text: &mut String, section: &Section, depth: usize) {
+    let _ = writeln!(text, "{}\"type\": \"object\",", "  ".repeat(depth));
+    properties(text, section, depth);
+}
+
+/// Writes the properties of a table.
+fn properties(text: &mut String, section: &Section, depth: usize) {
     let indent = "  ".repeat(depth);
-    let _ = writeln!(
-        text,
-        "{indent}\"type\": \"object\",\n{indent}\"additionalProperties\": false,\n{indent}\"properties\": {{"
-    );
+    let _ = writeln!(text, "{indent}\"additionalProperties\": false,\n{indent}\"properties\": {{");
     for (key, number) in section.keys.iter().zip(1..) {
         let _ = writeln!(text, "{indent}  \"{}\": {{", key.name);
         self::key(text, key, depth + 2);
@@ -42,6 +45,13 @@ fn key(text: &mut String, key: &Key, depth: usize) {
         Form::Values => {
             "\"type\": \"object\", \"additionalProperties\": { \"type\": [\"number\", \"string\", \"boolean\"] }"
                 .to_owned()
+        }
+        Form::ValuesOr(section) => {
+            let _ = writeln!(text, "{indent}\"type\": \"object\",\n{indent}\"additionalProperties\": {{");
+            let _ = writeln!(text, "{indent}  \"type\": [\"integer\", \"string\", \"object\"],");
+            properties(text, section, depth + 1);
+            let _ = writeln!(text, "{indent}}}");
+            return;
         }
         Form::IntegerOrText => "\"type\": [\"integer\", \"string\"]".to_owned(),
         Form::Ignored => "\"type\": [\"number\", \"string\", \"boolean\", \"object\", \"array\"]".to_owned(),

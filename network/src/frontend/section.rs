@@ -41,6 +41,8 @@ pub(crate) enum Form {
     Named(&'static Section),
     /// A table with arbitrary keys and single values.
     Values,
+    /// A table with arbitrary keys. Each value is a single value, or a table that is described by a section.
+    ValuesOr(&'static Section),
     /// A list of objects.
     Objects,
     /// An integer or a text.

@@ -8,9 +8,14 @@ use lexibus_site::{Page, Site};
 
 use super::site::SEPARATOR;
 use crate::ethercat::{
-    direction_name, AssignedPdo, Clock, Fmmu, PluggedModule, Segment, StartupCommand, SubDevice, SyncManager,
+    direction_name, AssignedPdo, Clock, ClockSignal, Fmmu, PluggedModule, Segment, StartupCommand, SubDevice,
+    SyncManager,
 };
 use crate::model::entry_name;
+
+/// Bits of `AssignActivate`, the value of the registers 0x0980 and 0x0981, that activate SYNC0 and SYNC1.
+const SYNC0_ACTIVE: u32 = 0x0200;
+const SYNC1_ACTIVE: u32 = 0x0400;
 
 /// Announces the devices of all SubDevices.
 pub(super) fn announce(segment: &Segment, title: &str, site: &mut Site) {
@@ -41,7 +46,7 @@ pub fn summary(segment: &Segment) -> String {
 
 /// Returns the name of a SubDevice's catalog in a site. A CANopen node of the same file can have the same name.
 fn catalog_name(title: &str, subdevice: &SubDevice) -> String {
-    format!("{title} EtherCAT {}", subdevice.name)
+    format!("{title}{SEPARATOR}EtherCAT{SEPARATOR}{}", subdevice.name)
 }
 
 fn shown(title: &str, subdevice: &SubDevice) -> segment::SubDevice {
@@ -74,13 +79,16 @@ fn facts(subdevice: &SubDevice) -> Vec<String> {
 
 fn clock(clock: &Clock) -> String {
     let Clock { mode, assign_activate, sync0, sync1, .. } = clock;
-    let mut text = format!("Clock mode {mode}: AssignActivate {}", hex16(*assign_activate));
-    for (name, signal) in [("SYNC0", sync0), ("SYNC1", sync1)] {
-        if signal.cycle_time != 0 {
-            text += &format!(", {name} every {} ns, shifted by {} ns", signal.cycle_time, signal.shift_time);
-        }
-    }
-    text + "."
+    let signals = [("SYNC0", SYNC0_ACTIVE, sync0), ("SYNC1", SYNC1_ACTIVE, sync1)];
+    let active = signals.into_iter().filter(|(_, bit, _)| assign_activate & bit != 0);
+    let active: Vec<String> = active.map(|(name, _, signal)| sync_signal(name, signal)).collect();
+    let active = if active.is_empty() { "no SYNC signal".to_owned() } else { active.join(", ") };
+    format!("Clock mode {mode}: AssignActivate {}, {active}.", hex16(*assign_activate))
+}
+
+fn sync_signal(name: &str, signal: &ClockSignal) -> String {
+    let reference = if signal.relative_to_inputs { " relative to the inputs" } else { "" };
+    format!("{name} every {} ns, shifted by {} ns{reference}", signal.cycle_time, signal.shift_time)
 }
 
 fn modules(modules: &[PluggedModule]) -> Table {
@@ -90,10 +98,8 @@ fn modules(modules: &[PluggedModule]) -> Table {
 
 fn pdos(pdos: &[AssignedPdo]) -> Table {
     let row = |pdo: &AssignedPdo| {
-        let (index, name) = match pdo.index {
-            0 => (String::new(), "Padding".to_owned()),
-            index => (hex16(index), pdo.name.clone()),
-        };
+        let index = if pdo.index == 0 { String::new() } else { hex16(pdo.index) };
+        let name = if pdo.is_padding { "Padding".to_owned() } else { pdo.name.clone() };
         let slot = pdo.slot.map_or_else(String::new, |slot| slot.to_string());
         let (manager, offset) =
             (pdo.sync_manager.to_string(), format!("{}.{}", pdo.bit_offset / 8, pdo.bit_offset % 8));
@@ -105,11 +111,6 @@ fn pdos(pdos: &[AssignedPdo]) -> Table {
 
 fn sync_managers(managers: &[SyncManager]) -> Table {
     let row = |manager: &SyncManager| {
-        let enabled = match (manager.enable, manager.op_only) {
-            (false, _) => "no",
-            (true, false) => "yes",
-            (true, true) => "only in Operational",
-        };
         let SyncManager { number, purpose, start_address, length, control, .. } = manager;
         vec![
             number.to_string(),
@@ -117,7 +118,7 @@ fn sync_managers(managers: &[SyncManager]) -> Table {
             hex16(*start_address),
             length.to_string(),
             hex8(*control),
-            enabled.to_owned(),
+            enabled(manager.enable, manager.op_only),
         ]
     };
     let columns = &["Sync manager", "Purpose", "Start address", "Bytes", "Control register", "Enabled"];
@@ -133,31 +134,47 @@ fn fmmus(fmmus: &[Fmmu]) -> Table {
             fmmu.logical_address.to_string(),
             fmmu.length.to_string(),
             hex16(fmmu.physical_address),
+            enabled(true, fmmu.op_only),
         ]
     };
-    let columns = &["FMMU", "Sync manager", "Direction", "Logical address", "Bytes", "Physical address"];
+    let columns = &["FMMU", "Sync manager", "Direction", "Logical address", "Bytes", "Physical address", "Enabled"];
     Table { title: "FMMUs", columns, rows: fmmus.iter().map(row).collect() }
+}
+
+fn enabled(enable: bool, op_only: bool) -> String {
+    let text = match (enable, op_only) {
+        (false, _) => "no",
+        (true, false) => "yes",
+        (true, true) => "only in Operational",
+    };
+    text.to_owned()
 }
 
 fn startup(subdevice: &SubDevice) -> Table {
     let row = |command: &StartupCommand| {
         let StartupCommand { transition, index, sub_index, complete_access, data } = command;
         let object = address::object(*index, *sub_index);
-        let object = if *complete_access { format!("{object} (complete access)") } else { object };
-        vec![(*transition).to_owned(), object, object_name(subdevice, *index, *sub_index), bytes(data)]
+        let (object, entry) = match complete_access {
+            true => (format!("{object} (complete access)"), None),
+            false => (object, Some(*sub_index)),
+        };
+        vec![(*transition).to_owned(), object, object_name(subdevice, *index, entry), bytes(data)]
     };
     let columns = &["Transition", "Object", "Name", "Bytes"];
     Table { title: "Start-up commands", columns, rows: subdevice.startup.iter().map(row).collect() }
 }
 
-/// Returns the name of an object of the device or of a module, with the name of its entry. Objects that the descriptions do not
-/// contain have the name of their purpose (ETG.1000.6, ETG.5001), or no name.
-fn object_name(subdevice: &SubDevice, index: u16, sub_index: u8) -> String {
+/// Returns the name of an object of the device or of a module, with the name of its entry: the object with this sub-index, or
+/// `None` for the complete object. Objects that the descriptions do not contain have the name of their purpose (ETG.1000.6,
+/// ETG.5001), or no name.
+fn object_name(subdevice: &SubDevice, index: u16, sub_index: Option<u8>) -> String {
     let mut devices = std::iter::once(subdevice.description.device()).chain(&subdevice.module_objects);
-    match devices.find_map(|device| Some((device, device.object(index)?))) {
-        Some((device, group)) if device.entry(index, sub_index).is_none() => group.name.to_string(),
-        Some((device, _)) => entry_name(device, (index, sub_index), SEPARATOR),
-        None => purpose(index),
+    let Some((device, group)) = devices.find_map(|device| Some((device, device.object(index)?))) else {
+        return purpose(index);
+    };
+    match sub_index.filter(|sub_index| device.entry(index, *sub_index).is_some()) {
+        Some(sub_index) => entry_name(device, (index, sub_index), SEPARATOR),
+        None => group.name.to_string(),
     }
 }
 

@@ -19,7 +19,7 @@ use crate::model::{
 };
 use crate::values::Write;
 
-/// Separator between the names of an object and of its entry.
+/// Separator between the names of an object and of its entry, or of a network and of its device.
 pub(super) const SEPARATOR: &str = " / ";
 
 /// Announces the devices of all nodes. Announce all networks of a site before you add the pages of one of them.
@@ -58,7 +58,7 @@ fn canopen_pages(network: &Network, title: &str, site: &mut Site) -> Vec<Page> {
 
 /// Returns the name of a node's catalog in a site.
 fn catalog_name(title: &str, node: &NetworkNode) -> String {
-    format!("{title} {}", node.name.value)
+    format!("{title}{SEPARATOR}{}", node.name.value)
 }
 
 fn shown_node(title: &str, node: &NetworkNode) -> Node {

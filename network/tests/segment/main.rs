@@ -5,21 +5,22 @@
 #[allow(dead_code)]
 #[deny(missing_docs, clippy::all)]
 mod generated;
+#[path = "../support/settings.rs"]
+mod settings;
 #[path = "../support/mod.rs"]
 mod support;
 
 use lexibus::ethercat::{
-    Assignment, ClockSettings, ClockSignal, Device, Direction, FmmuSettings, Module, SlotPlan,
-    StartupCommand as Command, SyncManagerSettings, Transition,
+    Assignment, ClockSettings, ClockSignal, Device, Module, SlotPlan, StartupCommand as Command, Transition,
 };
 use lexibus_codegen::compile::{check, Options};
-use lexibus_codegen::ir::Direction::Receive;
 use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
 use lexibus_export::sii;
 use lexibus_network::compile::Compilation;
-use lexibus_network::ethercat::{Clock, Fmmu, Segment, StartupCommand, SubDevice, SyncManager};
+use lexibus_network::ethercat::{Clock, Segment, StartupCommand, SubDevice};
 use lexibus_network::output::{files, segment_rust};
+use settings::{fmmu_settings, manager_settings};
 use support::{compiled, messages, root, valid};
 
 lexibus::dictionary! {
@@ -134,6 +135,27 @@ fn parameters_follow_the_assignment() {
     let last: Vec<_> =
         commands.iter().rev().take(2).map(|one| (one.transition, one.sub_index, one.data.clone())).collect();
     assert_eq!(last, [("PS", 2, vec![250, 0]), ("PS", 1, vec![1])]);
+}
+
+/// Two modules of one type have objects with equal names. The table of a module determines which of them is meant.
+#[test]
+fn objects_of_modules_have_names() {
+    let module = |slot: u8, object: &str, value: &str| {
+        format!("{slot} = {{ module = \"AI-2\", parameters = {{ \"{object}\" = \"{value}\" }} }}")
+    };
+    let keys = |object: &str| {
+        let modules = [module(2, object, "60 Hz"), module(1, "0x8010:1", "50 Hz")].join(", ");
+        format!("{COUPLER}modules = {{ {modules} }}\n")
+    };
+    let compilation = network("names", &format!("[segment.subdevices.coupler]\n{}", keys("Settings/Filter")));
+    let commands = &segment(&compilation).subdevices[0].startup;
+    let last = commands[commands.len() - 2..].iter();
+    let last: Vec<_> = last.map(|command| (command.index, command.sub_index, command.data.as_slice())).collect();
+    assert_eq!(last, [(0x8010, 1, &[1][..]), (0x8020, 1, &[2][..])]);
+    assert_eq!(
+        faults("names", &keys("Settings/Fitler")),
+        ["NET010 `2 analogue inputs` has no object `Settings/Fitler`"]
+    );
 }
 
 #[test]
@@ -270,6 +292,24 @@ fn invalid_modules_are_reported() {
     assert_eq!(of(long), ["NET027 sync manager 3 has 16 bytes of process data, but its maximum length is 12 bytes"]);
     let drive = faults("modules", &format!("{DRIVE}modules = {{ 0 = 1 }}\n"));
     assert_eq!(drive, ["NET025 `SV-1 servo drive` has no slot 0"]);
+    assert_eq!(of("{ 1 = \"AI-2\", 01 = \"DO-8\" }"), ["NET025 slot 1 has several modules"]);
+    assert_eq!(of("{ 0 = \"DI-16\", 1 = { parameters = {} } }"), ["NET004 the table of a module has no key `module`"]);
+}
+
+/// The padding in front of a group of modules has a mapping object, which has at most 254 entries of at most 255 bits.
+#[test]
+fn padding_that_does_not_fit_into_a_pdo_is_reported() {
+    let text = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("a description");
+    let of = |alignment: u32| {
+        let group = format!("</Slot><ModulePdoGroup Alignment=\"{alignment}\" RxPdo=\"#x1700\" TxPdo=\"#x1B00\"/>");
+        let text = text.replacen("</Slot>", &group, 1);
+        let network = format!("[segment.subdevices.one]\n{COUPLER}modules = {{ 0 = \"DI-16\" }}\n");
+        messages(&compiled("segment-padding", &[("coupler.esi.xml", text), ("network.toml", network)]))
+    };
+    assert_eq!(of(4), Vec::<String>::new());
+    let [padding, length] = &of(9000)[..] else { panic!("two messages") };
+    assert_eq!(padding, "NET026 the padding of PDO 0x1B00 has 71992 bits, but the maximum is 64770");
+    assert!(length.starts_with("NET027"), "{length}");
 }
 
 #[test]
@@ -328,17 +368,6 @@ fn the_rust_module_has_the_data_of_the_segment() {
     }
     assert_eq!(axis_1::CLOCK.map(|clock| (clock.assign_activate, clock.sync0.cycle_time)), Some((0x0300, 1_000_000)));
     assert_eq!(axis_1::FMMUS[0].bytes()[..6], [1, 0, 0, 0, 6, 0]);
-}
-
-fn manager_settings(manager: &SyncManager) -> SyncManagerSettings {
-    let &SyncManager { number, start_address, length, control, enable, op_only, .. } = manager;
-    SyncManagerSettings { number, start_address, length, control, enable, op_only }
-}
-
-fn fmmu_settings(fmmu: &Fmmu) -> FmmuSettings {
-    let &Fmmu { number, sync_manager, direction, logical_address, length, physical_address, op_only } = fmmu;
-    let direction = if direction == Receive { Direction::Output } else { Direction::Input };
-    FmmuSettings { number, sync_manager, direction, logical_address, length, physical_address, op_only }
 }
 
 fn clock_settings(clock: &Clock) -> ClockSettings {

@@ -45,8 +45,8 @@ fn lists_of_the_device_have_room_for_255() {
         let mapped = writes[1..=entries].iter().map(|(_, word)| u32::from(word[0])).sum::<u32>();
         assert_eq!(mapped, bits);
     }
-    assert_eq!(room_for(0xF030, 255), Ok(()));
-    let many = room_for(0xF030, 256).unwrap_err();
+    assert_eq!(room_for(0xF030, 255, MAX_LISTED), Ok(()));
+    let many = room_for(0xF030, 256, MAX_LISTED).unwrap_err();
     assert_eq!(std::format!("{many}"), "object 0xF030 cannot hold 256 entries");
 }
 
