@@ -137,3 +137,16 @@ fn pages_are_not_written_to_a_foreign_folder() {
     let output = shell(&folder, script);
     assert!(output.status.success(), "{}", error(&output));
 }
+
+/// Networks whose names differ only in case or punctuation would have the same file.
+#[test]
+fn the_page_of_a_network_does_not_replace_another() {
+    let folder = folder("networks");
+    let network = |name: &str| format!("[network]\nname = \"{name}\"\n[master]\nid = 1\n[nodes]\n");
+    std::fs::write(folder.join("a.toml"), network("Line 1")).expect("a file");
+    std::fs::write(folder.join("b.toml"), network("line-1")).expect("a file");
+    let output = shell(&folder, "$LEXIBUS docs a.toml b.toml --out site");
+    assert_eq!(output.status.code(), Some(1));
+    let expected = "b.toml: the network `line-1` would have the same page as the network `Line 1`; change `name`";
+    assert!(error(&output).contains(expected), "{}", error(&output));
+}
