@@ -2,8 +2,9 @@
 
 use super::addresses::folder_name;
 use super::indexing;
+use super::listed::Listed;
 use super::network::{self, Network};
-use super::pages::{Content, Frameset, Listed};
+use super::pages::{Content, Frameset};
 use super::search::Entry;
 use super::segment::{self, Segment, SubDevice};
 use super::{Page, Site};

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::pages::{Listed, Pages, FIRST, ROOT};
+use super::listed::Listed;
+use super::pages::{Pages, FIRST, ROOT};
 use super::Page;
 
 /// Returns a page for the folder `latest` of each product folder. The page redirects to the first page of the newest

@@ -45,6 +45,7 @@ mod latest;
 mod link;
 mod links;
 mod list;
+mod listed;
 mod machines;
 mod markdown;
 mod modules;
@@ -78,7 +79,8 @@ use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::ir::Catalog;
 use links::Links;
 use list::ListPage;
-use pages::{Content, Frameset, Listed, ListedCatalog};
+use listed::{Listed, ListedCatalog};
+use pages::{Content, Frameset};
 use revisions::{Comparison, Revisions};
 use search::Index;
 
@@ -195,7 +197,7 @@ impl Site {
         let file = self.format.first_page();
         let mut devices: Vec<Listed> =
             self.catalogs.iter().flat_map(|catalog| catalog.devices.iter().cloned()).collect();
-        pages::sort(&mut devices);
+        listed::sort(&mut devices);
         // If there is only one catalog, its index already contains all entries.
         let index = match self.catalogs.as_slice() {
             [only] => format!("{}/", only.folder),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::pages::Listed;
+use super::listed::Listed;
 use super::split;
 
 /// Maximum size of the rows on a page in bytes of HTML. The limit is higher than the limit of other pages, because rows are short

@@ -1,7 +1,7 @@
 //! A CANopen network, as its page shows it: its nodes, its frames with their senders and receivers, the bus load, and the
 //! configured values.
 
-use super::pages::Listed;
+use super::listed::Listed;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::{hex, hex16, hex8};
 use lexibus_codegen::facts::words::{capital, sentence};

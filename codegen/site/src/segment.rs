@@ -1,6 +1,6 @@
 //! An EtherCAT segment, as its page shows it: its SubDevices in the order of the bus, and the settings of each.
 
-use super::pages::Listed;
+use super::listed::Listed;
 
 /// An EtherCAT segment.
 #[derive(Clone, Debug, Default)]
