@@ -81,7 +81,7 @@ fn delimited(framing: &Framing) -> Vec<(&'static str, String)> {
         facts.push(("Mask of escaped bytes", format!("{} (XOR)", hex8(framing.escape_xor))));
     }
     if !framing.check.is_empty() {
-        facts.push(("Check byte", format!("{}, beginning with 0x{:02X}", framing.check, framing.check_seed)));
+        facts.push(("Check byte", format!("{}, beginning with {}", framing.check, hex8(framing.check_seed))));
     }
     facts.extend(framing.check_from.as_ref().map(|field| ("First checked field", field.to_string())));
     facts.extend(framing.max_data.map(|max| ("Maximum number of data bytes", max.to_string())));

@@ -1,5 +1,6 @@
 //! Arguments that select a single device or module of a file.
 
+use crate::facts::number::hex32;
 use std::collections::HashMap;
 
 use super::{device_names, module_names, number, DeviceFilter};
@@ -12,14 +13,14 @@ pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
     let revision = |at: &usize| devices[*at].identity.revision_number;
     let argument = |(at, device): (usize, &Device)| {
         let names = [&device.identity.order_code, &device.name, &device.id].map(|name| name.as_str().to_owned());
-        let code = device.identity.product_code.map(|code| format!("0x{code:08X}"));
+        let code = device.identity.product_code.map(|code| hex32(code));
         let candidates: Vec<String> = names.into_iter().chain(code).filter(|text| is_plain(text)).collect();
         let alone = candidates.iter().find(|text| index.matching(text) == [at]).cloned();
         alone.or_else(|| {
             let number = revision(&at)?;
             let is_only =
                 |text: &&String| index.matching(text).iter().filter(|at| revision(at) == Some(number)).count() == 1;
-            Some(format!("{}@0x{number:08X}", candidates.iter().find(is_only)?))
+            Some(format!("{}@{}", candidates.iter().find(is_only)?, hex32(number)))
         })
     };
     devices.iter().enumerate().map(argument).collect()
@@ -31,7 +32,7 @@ pub fn of_modules(modules: &[Module]) -> Vec<Option<String>> {
     let index = Index::new(modules.iter().map(|module| (Some(module.number), module_names(module).to_vec())));
     let argument = |(at, module): (usize, &Module)| {
         let names = [&module.id, &module.name, &module.identity.order_code].map(|name| name.as_str().to_owned());
-        let candidates = names.into_iter().chain([format!("0x{:08X}", module.number)]);
+        let candidates = names.into_iter().chain([hex32(module.number)]);
         candidates.filter(|text| is_plain(text)).find(|text| index.matching(text) == [at])
     };
     modules.iter().enumerate().map(argument).collect()

@@ -1,5 +1,6 @@
 //! CAN-IDs that two senders use, and CAN-IDs that a sender cannot use.
 
+use lexibus_codegen::facts::number::hex;
 use std::collections::{BTreeMap, HashSet};
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -52,7 +53,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
 
 fn conflict(sender: &Sender, other: &Sender) -> Diagnostic {
     let can_id = can_id(sender.cob_id);
-    let message = format!("{} and {} use the same CAN-ID 0x{can_id:X}", sender.name, other.name);
+    let message = format!("{} and {} use the same CAN-ID {}", sender.name, other.name, hex(can_id));
     let found = Diagnostic::new(&codes::COB_ID_CONFLICT, sender.span, message);
     let found = if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
     found.help("choose another `cob_id`, or use `auto`")

@@ -1,5 +1,6 @@
 //! CAN-IDs that no configurable COB-ID can have.
 
+use lexibus_codegen::facts::number::hex;
 use std::ops::RangeInclusive;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
@@ -27,7 +28,7 @@ pub(super) fn fault(cob_id: u32, name: &str, span: Span) -> Option<Diagnostic> {
     }
     let can_id = cob_id & 0x1FFF_FFFF;
     let found = |help| {
-        let message = format!("{name} cannot use the CAN-ID 0x{can_id:X}");
+        let message = format!("{name} cannot use the CAN-ID {}", hex(can_id));
         Diagnostic::new(&codes::RESTRICTED_CAN_ID, span, message).help(help)
     };
     if can_id > 0x7FF {

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 
 use lexibus_codegen::facts::physical::shown_unit;
-use lexibus_codegen::facts::types;
+use lexibus_codegen::facts::{address, types};
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Direction, Item, Scale, Type, Value};
 
@@ -167,7 +167,7 @@ fn mapped_type(ty: Type, bits: u8) -> Type {
 }
 
 fn comment(item: &Item, entry: &MappedObject) -> String {
-    let address = format!("0x{:04X}:{:02X}", entry.index, entry.sub_index);
+    let address = address::object(entry.index, entry.sub_index);
     match item.documentation.as_ref().map(|documentation| documentation.text.as_str()) {
         Some(text) if !text.is_empty() => format!("{address} {}: {text}", item.name),
         _ => format!("{address} {}", item.name),

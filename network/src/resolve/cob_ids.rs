@@ -1,6 +1,7 @@
 //! COB-IDs of the PDOs that a file declares. An RPDO can receive a PDO of any other node, so the COB-IDs of all nodes are computed
 //! first.
 
+use lexibus_codegen::facts::number::hex;
 use std::collections::{HashMap, HashSet};
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -159,6 +160,6 @@ fn is_of_other(declared: &DeclaredPdo) -> bool {
 }
 
 fn exhausted(declared: &DeclaredPdo) -> Diagnostic {
-    let message = format!("no CAN-ID from 0x{:X} to 0x{:X} is free", FREE.start, FREE.end - 1);
+    let message = format!("no CAN-ID from {} to {} is free", hex(FREE.start), hex(FREE.end - 1));
     Diagnostic::new(&codes::COB_ID_CONFLICT, declared.number.span, message).help("declare `cob_id`")
 }

@@ -12,6 +12,7 @@ use super::show::{index, Show};
 use super::texts::{documentation, doubts, extensions, manual, renamed};
 use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
 use lexibus_codegen::facts;
+use lexibus_codegen::facts::number::hex;
 use lexibus_codegen::ir::{
     AxisRange, AxisRule, CanOpenSettings, Commissioning, Composite, Device, DynamicChannel, GivenNumber, Group, Header,
     MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
@@ -138,7 +139,7 @@ fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Compar
 fn dynamic_channel(channel: &DynamicChannel) -> String {
     let DynamicChannel { data_type, direction, range, offset, difference, max_number } = channel;
     let further = [difference.show(), max_number.show()].join(" ");
-    format!("type {data_type:#X} {direction} {range} at {offset} {further}").trim_end().to_owned()
+    format!("type {} {direction} {range} at {offset} {further}", hex(*data_type)).trim_end().to_owned()
 }
 
 /// Compares the requests that the Modbus tables accept.

@@ -4,7 +4,7 @@ use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
 use super::show::{index, Show};
 use lexibus_codegen::facts::address;
-use lexibus_codegen::facts::number::{bytes, hex16, hex32};
+use lexibus_codegen::facts::number::{bytes, hex, hex16, hex32};
 use lexibus_codegen::ir::{
     ClockMode, ClockSyncManager, ClockTime, Coe, CompactString, DistributedClocks, Eeprom, EtherCatSettings, Fmmu,
     InitCommand, Mailbox, ModulePdoGroup, Protocol, SlotRules, SyncUnit,
@@ -24,7 +24,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
         clocks: optional("distributed clocks", Judgment::ADDITION, Judgment::API_AND_WIRE, clocks),
         slots: optional("slots", Judgment::ADDITION, Judgment::API_AND_WIRE, slots),
         registers: fact_as("registers of the slave controller", Judgment::WIRE, |list: &Vec<(u16, u32)>| {
-            joined(list, |(address, value)| format!("{} = 0x{value:X}", hex16(*address)))
+            joined(list, |(address, value)| format!("{} = {}", hex16(*address), hex(*value)))
         }),
         eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
         timeouts: fact("timeouts in ms", Judgment::BEHAVIOR),
@@ -139,7 +139,7 @@ fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Com
 fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>) {
     compare_fields!(ClockMode, old, new, comparison, {
         description: text("description"),
-        assign_activate: fact_as("AssignActivate", Judgment::WIRE, |value| format!("0x{value:X}")),
+        assign_activate: fact_as("AssignActivate", Judgment::WIRE, |value| hex(*value)),
         cycle_sync0: fact_as("cycle of Sync0", Judgment::WIRE, clock_time),
         shift_sync0: fact_as("shift of Sync0", Judgment::WIRE, clock_time),
         cycle_sync1: fact_as("cycle of Sync1", Judgment::WIRE, clock_time),

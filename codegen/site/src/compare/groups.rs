@@ -10,7 +10,7 @@ use super::pairing::{Key, Matching};
 use super::show::index;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::item::entry_name;
-use lexibus_codegen::facts::number::{bytes, hex16};
+use lexibus_codegen::facts::number::{bytes, hex, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
 
 /// Compares groups and their items. An item that moved to another group is still compared with its old version.
@@ -177,7 +177,7 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         links: fact_as("linked objects", Judgment::NONE, |links: &Vec<u16>| {
             links.iter().map(index).collect::<Vec<_>>().join(", ")
         }),
-        flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| format!("0x{flags:X}")),
+        flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| hex(*flags)),
         depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
         described: fact("number of described entries", Judgment::NONE),

@@ -10,6 +10,7 @@ use super::show::Show;
 use super::texts::{described, renamed};
 use super::types;
 use lexibus_codegen::facts;
+use lexibus_codegen::facts::number::hex;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, Behavior, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
@@ -51,7 +52,7 @@ pub(super) fn compare_named(
         is_reserved: fact("reserved", Judgment::NONE),
         is_optional: fact("optional", Judgment::BEHAVIOR),
         shared_by_axes: fact("shared by all axes", Judgment::API),
-        flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| format!("0x{flags:X}")),
+        flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| hex(*flags)),
         documentation, doubts, extensions, origins,
     }, POSITION => [origin, at]);
 }

@@ -2,6 +2,7 @@
 
 use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, list, text, Comparison, Elements, COMPARED, KEY, POSITION};
+use lexibus_codegen::facts::number::hex;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
 
@@ -36,7 +37,7 @@ fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
 }
 
 fn bits(pattern: &Pattern) -> String {
-    format!("0x{:X} (mask 0x{:X})", pattern.value, pattern.mask)
+    format!("{} (mask {})", hex(pattern.value), hex(pattern.mask))
 }
 
 fn pattern(old: &Pattern, new: &Pattern, comparison: &mut Comparison<'_>) {

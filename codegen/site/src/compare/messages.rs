@@ -6,7 +6,7 @@ use super::conditions::{conditions, restricted};
 use super::item;
 use super::names::identifier;
 use super::texts::described;
-use lexibus_codegen::facts::number::{bytes, hex8};
+use lexibus_codegen::facts::number::{bytes, hex, hex8};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace,
@@ -55,7 +55,7 @@ fn completion(completion: &Completion) -> String {
         Completion::Immediate => "before the reply".to_owned(),
         Completion::Reply => "when the reply comes".to_owned(),
         Completion::Polled { item, mask, value, in_reply } => {
-            let mask = mask.map(|mask| format!(" & 0x{mask:X}")).unwrap_or_default();
+            let mask = mask.map(|mask| format!(" & {}", hex(mask))).unwrap_or_default();
             let value = value.as_ref().map_or_else(|| "not 0".to_owned(), |value| PLAIN.value(value));
             let reply = if *in_reply { ", from the reply on" } else { "" };
             format!("when {item}{mask} is {value}{reply}")
@@ -165,7 +165,7 @@ pub(super) fn framing(old: &Framing, new: &Framing, comparison: &mut Comparison<
         check: fact("check", Judgment::WIRE),
         check_from: fact("check counts from", Judgment::WIRE),
         check_escaped: fact("check is escaped", Judgment::WIRE),
-        check_seed: fact_as("start value of the check", Judgment::WIRE, |value| format!("0x{value:X}")),
+        check_seed: fact_as("start value of the check", Judgment::WIRE, |value| hex(*value)),
         max_data: fact("maximum number of data bytes", Judgment::BEHAVIOR),
         address: fact("device address field", Judgment::API_AND_WIRE),
         documentation,

@@ -1,7 +1,7 @@
 //! Formats values for reports.
 
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::facts::number::{hex, hex16, hex32};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, AxisStep, Bus, Buses, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses,
@@ -65,7 +65,7 @@ show_as_name! {
     LocalText { text => format!("{}: {}", text.language, text.text) }
     Fit { fit => facts::device::fit(fit) }
     AxisStep {
-        AxisStep::Index(step) => format!("index + 0x{step:X}"),
+        AxisStep::Index(step) => format!("index + {}", hex(*step)),
         AxisStep::SubIndex => "sub-index = axis",
         AxisStep::SubIndexStride(stride) => format!("sub-index + {stride}"),
     }
