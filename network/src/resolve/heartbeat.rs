@@ -36,9 +36,7 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
             }
         }
         let first = node.writes.iter().take_while(|write| write.value.is_none()).count();
-        for write in writer.writes {
-            node.writes.insert(first, write);
-        }
+        node.writes.splice(first..first, writer.writes);
     }
 }
 
