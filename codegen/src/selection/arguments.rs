@@ -13,7 +13,7 @@ pub fn of_devices(devices: &[Device]) -> Vec<Option<String>> {
     let revision = |at: &usize| devices[*at].identity.revision_number;
     let argument = |(at, device): (usize, &Device)| {
         let names = [&device.identity.order_code, &device.name, &device.id].map(|name| name.as_str().to_owned());
-        let code = device.identity.product_code.map(|code| hex32(code));
+        let code = device.identity.product_code.map(hex32);
         let candidates: Vec<String> = names.into_iter().chain(code).filter(|text| is_plain(text)).collect();
         let alone = candidates.iter().find(|text| index.matching(text) == [at]).cloned();
         alone.or_else(|| {

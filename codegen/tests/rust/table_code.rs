@@ -148,3 +148,24 @@ fn rust_of_a_small_table() {
     let text = bindings(Source::new("pump.toml", example.into()), RustOptions::default());
     insta::assert_snapshot!(text);
 }
+
+/// A command changes only its bits of a control item that can be read. Otherwise, the other bits are 0.
+#[test]
+fn walks_state_the_other_bits_of_the_control_item() {
+    let walk = |access: &str| {
+        let text = format!(
+            "lexibus = 1\n[device]\nname = \"Press\"\nvendor = \"Example\"\n\
+             [machines.press]\nstatus = \"status\"\ncontrol = \"control\"\n\
+             [machines.press.states]\nopen = {{ mask = 0x1, value = 0 }}\nclosed = {{ mask = 0x1, value = 0x1 }}\n\
+             [machines.press.commands]\nclose = {{ mask = 0x1, value = 0x1 }}\n\
+             [[machines.press.transitions]]\nfrom = \"open\"\nto = \"closed\"\ncommand = \"close\"\n\
+             [spaces.register]\nmodbus = {{ table = \"holding\" }}\n[[chapters]]\ntitle = \"State\"\n[chapters.registers]\n\
+             status = {{ reg = 1, type = \"u16\", access = \"ro\" }}\n\
+             control = {{ reg = 2, type = \"u16\", access = \"{access}\" }}\n"
+        );
+        let text = bindings(Source::new("press.toml", text.into()), RustOptions::default());
+        text.replace("///", "").split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    assert!(walk("rw").contains("do not change. Use") && walk("rw").contains("let control = item"));
+    assert!(walk("wo").contains("are 0. Use") && walk("wo").contains("StateWord::from_bits(0)"));
+}

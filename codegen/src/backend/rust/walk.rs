@@ -73,7 +73,9 @@ fn walk(
         constants.error_code().filter(|code| accesses.get(code.location.as_str()).is_some_and(|access| access.0));
     let bounds = accesses.iter().map(|(location, access)| bound(location, "C::Bus", *access)).collect();
     let error_code = code.as_ref().map(|code| constants.link(code)).unwrap_or_default();
-    let docs = documentation(machine, &constants.link(&status), &constants.link(&control), &error_code);
+    let (status_link, control_link) = (constants.link(&status), constants.link(&control));
+    let other_bits = if reads_control { "do not change" } else { "are 0" };
+    let docs = documentation(machine, &status_link, &control_link, other_bits, &error_code);
     Some(WalkModel {
         method,
         docs,
@@ -95,14 +97,15 @@ fn word<'c>(constants: &'c Constants<'_, '_>, reference: &ItemRef) -> Option<Con
 }
 
 /// Returns the documentation of the method. `status`, `control` and `code` are links to the status item, the control
-/// item and the item that contains the error code. If no item contains the error code, `code` is empty.
-fn documentation(machine: &StateMachine, status: &str, control: &str, code: &str) -> Vec<String> {
+/// item and the item that contains the error code. `other_bits` states the values of the control item's other bits. If no item
+/// contains the error code, `code` is empty.
+fn documentation(machine: &StateMachine, status: &str, control: &str, other_bits: &str, code: &str) -> Vec<String> {
     let mut lines = vec![
         format!("Leads the state machine \"{}\" to the state `target`.", docs::escape(&machine.name)),
         String::new(),
         format!(
             "The method reads {status}, writes the commands to {control} and waits for transitions of the device. The method \
-             first resets a fault that is already active. Other bits of {control} do not change. Use [`rt::Walker`] instead if \
+             first resets a fault that is already active. Other bits of {control} {other_bits}. Use [`rt::Walker`] instead if \
              the device receives {control} in process data."
         ),
         String::new(),
