@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{CommandOutcomes, Device, Message, Outcome};
+use crate::ir::{CommandOutcomes, Device, DeviceStateId, Message, Outcome, StateMachine};
 use crate::resolve::messages::Frame;
 use crate::text::brief;
 
@@ -173,19 +173,21 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
 
 /// Compares the state-command matrices with the states in which the device accepts each message.
 fn states(device: &Device, diagnostics: &mut Diagnostics) {
-    for machine in &device.machines {
+    for (number, machine) in (0..).zip(&device.machines) {
         for row in &machine.outcomes {
             let messages = row.commands.iter().filter_map(|command| device.messages.get(command.id?.0 as usize));
             for message in messages.filter(|message| !message.accepted_in.is_empty()) {
-                cells(&machine.name, row, message, diagnostics);
+                cells(number, machine, row, message, diagnostics);
             }
         }
     }
 }
 
-fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &mut Diagnostics) {
+/// Compares a row of the matrix of a state machine with a message. `number` is the position of the machine in the device.
+fn cells(number: u32, machine: &StateMachine, row: &CommandOutcomes, message: &Message, diagnostics: &mut Diagnostics) {
     for cell in row.cells.iter().filter(|cell| !cell.outcomes.is_empty()) {
-        let is_stated = message.accepted_in.iter().any(|state| state.name == cell.state.name);
+        let id = cell.state.id.map(|state| DeviceStateId { machine: number, state });
+        let is_stated = id.is_some() && message.accepted_in.iter().any(|state| state.id == id);
         let can = cell.outcomes.iter().any(|outcome| *outcome != Outcome::Refused);
         if is_stated == can {
             continue;
@@ -194,7 +196,7 @@ fn cells(machine: &str, row: &CommandOutcomes, message: &Message, diagnostics: &
             true => ("lists", "refuses"),
             false => ("does not list", "accepts"),
         };
-        let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(machine));
+        let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(&machine.name));
         let text = format!(
             "`accepted_in` of the message `{name}` {stated} the state `{state}`, but the matrix of `{machine}` states \
              that the device {table} the command in this state"
