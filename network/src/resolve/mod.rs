@@ -13,5 +13,6 @@ mod value;
 mod versions;
 mod writer;
 
+pub(crate) use object::{named, no_name};
 pub use run::resolve;
 pub(crate) use writer::Writer;

@@ -80,30 +80,42 @@ fn folded(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric() || *letter == '/').flat_map(char::to_lowercase).collect()
 }
 
+/// Returns all items of a device with their objects and addresses.
+fn all(device: &Device) -> impl Iterator<Item = (&Group, &Item, (u16, u8))> {
+    let items = device.groups.iter().flat_map(|group| group.items.iter().map(move |item| (group, item)));
+    items.filter_map(|(group, item)| Some((group, item, item.object()?)))
+}
+
+/// Returns the items with a name, and their addresses. If no item has exactly this name, ignores case, spaces and punctuation.
+pub(crate) fn named<'d>(device: &'d Device, name: &str) -> Vec<(&'d Item, (u16, u8))> {
+    let matching = |is_match: &dyn Fn(&str) -> bool| {
+        let found = all(device).filter(|(group, item, _)| names(group, item).iter().any(|name| is_match(name)));
+        found.map(|(_, item, address)| (item, address)).collect::<Vec<_>>()
+    };
+    let found = matching(&|other| other == name);
+    if !found.is_empty() {
+        return found;
+    }
+    let wanted = folded(name);
+    matching(&|other| folded(other) == wanted)
+}
+
+/// Returns the diagnostic for a name that no item has.
+pub(crate) fn no_name(device: &Device, object: &At<ObjectName>, name: &str) -> Diagnostic {
+    diagnostic(object, format!("{} has no object `{name}`", shown(device)))
+}
+
 fn by_name<'d>(
     device: &'d Device,
     object: &At<ObjectName>,
     name: &str,
     diagnostics: &mut Diagnostics,
 ) -> Option<(&'d Item, (u16, u8))> {
-    let all = || {
-        let items = device.groups.iter().flat_map(|group| group.items.iter().map(move |item| (group, item)));
-        items.filter_map(|(group, item)| Some((group, item, item.object()?)))
-    };
-    let matching = |is_match: &dyn Fn(&str) -> bool| {
-        let found = all().filter(|(group, item, _)| names(group, item).iter().any(|name| is_match(name)));
-        found.map(|(_, item, address)| (item, address)).collect::<Vec<_>>()
-    };
-    let mut found = matching(&|other| other == name);
-    if found.is_empty() {
-        let wanted = folded(name);
-        found = matching(&|other| folded(other) == wanted);
-    }
-    match found[..] {
+    match named(device, name)[..] {
         [one] => Some(one),
         [] => {
-            let names: Vec<String> = all().flat_map(|(group, item, _)| names(group, item)).collect();
-            let found = diagnostic(object, format!("{} has no object `{name}`", shown(device)));
+            let names: Vec<String> = all(device).flat_map(|(group, item, _)| names(group, item)).collect();
+            let found = no_name(device, object, name);
             let similar = similar(name, names.iter().map(String::as_str));
             diagnostics.push(match similar {
                 Some(similar) => found.help(format!("write `{similar}`")),

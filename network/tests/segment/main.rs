@@ -152,6 +152,12 @@ fn objects_of_modules_have_names() {
     let last = commands[commands.len() - 2..].iter();
     let last: Vec<_> = last.map(|command| (command.index, command.sub_index, command.data.as_slice())).collect();
     assert_eq!(last, [(0x8010, 1, &[1][..]), (0x8020, 1, &[2][..])]);
+    let of_subdevice =
+        format!("{COUPLER}modules = {{ 1 = \"AI-2\" }}\nparameters = {{ \"Settings/Filter\" = \"60 Hz\" }}\n");
+    let compilation = network("names", &format!("[segment.subdevices.one]\n{of_subdevice}"));
+    let helps: Vec<_> = compilation.diagnostics.list().iter().filter_map(|found| found.help.clone()).collect();
+    let table = "1 = { module = \"2 analogue inputs\", parameters = { \"Settings/Filter\" = … } }";
+    assert_eq!(helps, [format!("move the value to the table of a module: `{table}`")]);
     assert_eq!(
         faults("names", &keys("Settings/Fitler")),
         ["NET010 `2 analogue inputs` has no object `Settings/Fitler`"]
