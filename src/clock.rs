@@ -53,7 +53,9 @@ impl Clock for DefaultClock {
     #[cfg(feature = "std")]
     fn now(&mut self) -> Option<Duration> {
         static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
-        Some(START.get_or_init(std::time::Instant::now).elapsed())
+        // Times before the first use of the clock, such as the arrival of a frame, are not negative.
+        const BEFORE: Duration = Duration::from_secs(24 * 60 * 60);
+        Some(START.get_or_init(std::time::Instant::now).elapsed() + BEFORE)
     }
 
     #[cfg(not(feature = "std"))]

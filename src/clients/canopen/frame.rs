@@ -73,18 +73,21 @@ impl CanFrame {
         self.data
     }
 
-    /// Returns the frame with this time: the time at which the frame was taken from the interface, or `None` if there
-    /// is no clock. A port sets the time of each received frame.
+    /// Returns the frame with this time: the time at which the frame arrived, or `None` if there is no clock. A port sets
+    /// the time of each received frame.
     #[must_use]
     pub const fn at(self, time: Option<Duration>) -> Self {
         Self { time, ..self }
     }
 
-    /// Returns the time at which the frame was taken from the interface, measured with the clock of the port
+    /// Returns the time at which the frame arrived, measured with the clock of the port
     /// ([`CanPort::now`](super::CanPort::now)). Returns `None` if the port has no clock, and for a frame that wasn't
     /// received.
     ///
-    /// The frame arrived at this time or earlier, because it may have waited in the receive queue of the interface.
+    /// The sockets of SocketCAN use the timestamps of the kernel. A change of the system's clock between the arrival and
+    /// the read of a frame falsifies the time of this frame. Other interfaces, such as [`Polled`](super::Polled), use
+    /// the time at which the frame is taken from the interface. The frame then arrived at this time or earlier, because
+    /// it may have waited in the receive queue.
     #[must_use]
     pub const fn time(&self) -> Option<Duration> {
         self.time

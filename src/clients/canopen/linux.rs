@@ -1,9 +1,11 @@
 //! Blocking access to the CAN interfaces of Linux (SocketCAN).
 
 use std::io;
-use std::time::{Duration, Instant};
+use std::os::fd::AsFd;
+use std::time::{Duration, Instant, SystemTime};
 
-use socketcan::{CanError, CanSocket, Error, Socket};
+use nix::poll::{poll, PollFd, PollFlags, PollTimeout};
+use socketcan::{CanError, CanSocket, Error, Socket, SocketOptions};
 
 use super::frame::CanFrame;
 use super::port::{CanPort, MOST_WAITING};
@@ -38,13 +40,14 @@ impl CanPort for CanSocket {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Error> {
+        stamp(self);
         let end = Instant::now().checked_add(patience);
         let mut waiting = MOST_WAITING;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
-            match self.read_frame_timeout(left) {
-                Ok(frame) => {
-                    if let Some(found) = received(&frame)?.filter(|found| wanted(found)) {
+            match read(self, left) {
+                Ok((frame, arrival)) => {
+                    if let Some(found) = received(&frame, arrival)?.filter(|found| wanted(found)) {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());
@@ -55,6 +58,20 @@ impl CanPort for CanSocket {
             }
         }
         Ok(None)
+    }
+}
+
+/// Makes the kernel report when each frame arrived. If the kernel refuses, frames have the time at which they are read.
+pub(super) fn stamp(socket: &impl SocketOptions) {
+    let _ = socket.set_recv_timestamp(true);
+}
+
+/// Waits for a frame. Returns the frame and its arrival on the clock of the system.
+fn read(socket: &CanSocket, patience: Duration) -> io::Result<(socketcan::CanFrame, Option<SystemTime>)> {
+    let timeout = PollTimeout::try_from(patience).unwrap_or(PollTimeout::MAX);
+    match poll(&mut [PollFd::new(socket.as_fd(), PollFlags::POLLIN)], timeout)? {
+        0 => Err(io::ErrorKind::TimedOut.into()),
+        _ => socket.read_frame_with_timestamps().map(|(frame, times)| (frame, times.socket)),
     }
 }
 
@@ -81,9 +98,16 @@ fn from_socket(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError
     }
 }
 
-/// Converts a frame as [`from_socket`] does, and sets its time.
-pub(super) fn received(frame: &socketcan::CanFrame) -> Result<Option<CanFrame>, CanError> {
-    Ok(from_socket(frame)?.map(|frame| frame.at(DefaultClock.now())))
+/// Converts a frame as [`from_socket`] does, and sets the time of its arrival.
+pub(super) fn received(frame: &socketcan::CanFrame, arrival: Option<SystemTime>) -> Result<Option<CanFrame>, CanError> {
+    Ok(from_socket(frame)?.map(|frame| frame.at(monotonic(arrival))))
+}
+
+/// Converts a time of the system's clock to the time of the [`DefaultClock`]. Returns the current time if `arrival` is
+/// `None` or in the future.
+fn monotonic(arrival: Option<SystemTime>) -> Option<Duration> {
+    let age = arrival.and_then(|arrival| arrival.elapsed().ok());
+    DefaultClock.now().map(|now| now.saturating_sub(age.unwrap_or_default()))
 }
 
 /// Bit of an error frame that reports bus-off.
@@ -95,6 +119,9 @@ fn is_late(error: &io::Error) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::os::fd::OwnedFd;
+    use std::os::unix::net::UnixDatagram;
+
     use socketcan::{CanErrorFrame, CanFrame as SocketFrame, EmbeddedFrame, StandardId};
 
     use super::*;
@@ -118,7 +145,32 @@ mod tests {
             let socket: SocketFrame = frame.and_then(|frame| frame.to_frame()).expect("a frame");
             assert_eq!(from_socket(&socket).ok(), Some(frame));
         }
-        let time = received(&data).ok().flatten().and_then(|frame| frame.time());
-        assert!(time.is_some_and(|time| Some(time) <= DefaultClock.now()));
+    }
+
+    #[test]
+    fn frames_have_the_time_of_their_arrival() {
+        // Datagrams of a pair of sockets have timestamps of the kernel, as the frames of a CAN interface do.
+        let (near, far) = UnixDatagram::pair().expect("a pair of sockets");
+        let [mut near, far] = [near, far].map(|socket| CanSocket::from(OwnedFd::from(socket)));
+        let id = StandardId::new(0x185).expect("an identifier");
+        let before = DefaultClock.now().expect("a clock");
+        assert_eq!(CanPort::receive(&mut near, Duration::ZERO, &mut |_| true).ok(), Some(None));
+        far.write_frame(&SocketFrame::new(id, &[1]).expect("a frame")).expect("it is sent");
+        let sent = DefaultClock.now().expect("a clock");
+        std::thread::sleep(Duration::from_millis(100));
+        let frame = CanPort::receive(&mut near, Duration::ZERO, &mut |_| true).ok().flatten().expect("a frame");
+        let time = frame.time().expect("a time");
+        // The clock of the system can be corrected in the meantime.
+        let margin = Duration::from_millis(40);
+        assert!(before <= time + margin && time <= sent + margin, "{before:?} {time:?} {sent:?}");
+    }
+
+    #[test]
+    fn times_before_the_first_use_of_the_clock() {
+        let at = |age| monotonic(SystemTime::now().checked_sub(Duration::from_secs(age))).expect("a clock");
+        assert!(at(0) - at(3600) >= Duration::from_secs(3599));
+        let now = DefaultClock.now().expect("a clock");
+        assert!(monotonic(None) >= Some(now));
+        assert!(monotonic(Some(SystemTime::now() + Duration::from_secs(9))) >= Some(now));
     }
 }

@@ -8,7 +8,7 @@ use socketcan::{CanFrame as SocketFrame, Error};
 use tokio::time::{sleep, timeout, Instant};
 
 use super::frame::CanFrame;
-use super::linux::{is_full, received as frame_of, PAUSE};
+use super::linux::{is_full, received as frame_of, stamp, PAUSE};
 use super::port::{AsyncCanPort, MOST_WAITING};
 
 impl AsyncCanPort for CanSocket {
@@ -35,23 +35,25 @@ impl AsyncCanPort for CanSocket {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, Error> {
+        stamp(self);
         let end = Instant::now().checked_add(patience);
         let mut waiting = MOST_WAITING;
         while waiting > 0 {
             let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
-            // Read a frame that is already in the queue, even if the executor hasn't been notified yet.
-            let received = match self.try_read_frame() {
-                Err(error) if error.kind() == io::ErrorKind::WouldBlock => timeout(left, self.read_frame()).await,
-                received => Ok(received),
+            let received = match timeout(left, self.read_frame_with_timestamps()).await {
+                Ok(received) => received.map(|(frame, times)| (frame, times.socket)),
+                // A frame can be in the queue before the executor is notified. Such a frame has just arrived.
+                Err(_) => self.try_read_frame().map(|frame| (frame, None)),
             };
             match received {
-                Ok(frame) => {
-                    if let Some(found) = frame_of(&frame?)?.filter(|found| wanted(found)) {
+                Ok((frame, arrival)) => {
+                    if let Some(found) = frame_of(&frame, arrival)?.filter(|found| wanted(found)) {
                         return Ok(Some(found));
                     }
                     waiting -= usize::from(left.is_zero());
                 }
-                Err(_) => return Ok(None),
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => return Ok(None),
+                Err(error) => return Err(error.into()),
             }
         }
         Ok(None)

@@ -373,10 +373,9 @@ macro_rules! methods {
             /// Returns the newest PDO with this COB-ID that has arrived since the last call, without waiting. Discards
             /// older PDOs, including those in the receive queue of the interface. Returns `None` if no PDO has arrived.
             ///
-            /// The [time](CanFrame::time) of the frame is the time at which it was taken from the interface. A PDO that
-            /// a [`Buffered`](super::Buffered) interface kept during an SDO transfer has the time of its arrival. A PDO
-            /// in the receive queue of the interface has the time of this call. A control loop that calls this method
-            /// in each cycle therefore knows the age of its data with an error of at most one cycle:
+            /// The [time](CanFrame::time) of the frame is the time of its arrival. If the interface has no timestamps, a
+            /// PDO in the receive queue of the interface has the time of this call. A control loop that calls this
+            /// method in each cycle then knows the age of its data with an error of at most one cycle:
             ///
             /// ```
             /// # use lexibus::clients::canopen::{CanFrame, CanPort, Node};
