@@ -74,7 +74,7 @@ mod unix {
 
     fn talk(port: TTYPort) -> Result<(), Box<dyn error::Error>> {
         // The line discards bytes that arrive before a request.
-        let is_ready = |port: &mut FromStd<TTYPort>| port.inner().bytes_to_read().is_ok_and(|count| count > 0);
+        let is_ready = |port: &mut FromStd<TTYPort>| port.inner().bytes_to_read().map_or(true, |count| count > 0);
         // The buffer of the line has space for start, end, and twice the bytes of data and checksum.
         let line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> =
             SerialLine::with_ready(FromStd::new(port), FRAMING, Some(is_ready));

@@ -1,6 +1,7 @@
 //! Clocks and timers, which limit the duration of an exchange.
 
 use core::future::{poll_fn, Future};
+use core::hint::spin_loop;
 use core::pin::pin;
 use core::task::Poll;
 use core::time::Duration;
@@ -9,6 +10,12 @@ use core::time::Duration;
 pub trait Clock {
     /// Returns the time since a fixed moment, or `None` if there is no clock.
     fn now(&mut self) -> Option<Duration>;
+
+    /// Waits for a moment between two polls of an interface. The default implementation is a hint for the processor that
+    /// the program waits in a loop. Implement this method for a clock that can sleep. [`DefaultClock`] sleeps for 0.1 ms.
+    fn pause(&mut self) {
+        spin_loop();
+    }
 }
 
 impl<F: FnMut() -> Duration> Clock for F {
@@ -61,6 +68,11 @@ impl Clock for DefaultClock {
     #[cfg(not(feature = "std"))]
     fn now(&mut self) -> Option<Duration> {
         None
+    }
+
+    #[cfg(feature = "std")]
+    fn pause(&mut self) {
+        std::thread::sleep(Duration::from_micros(100));
     }
 }
 

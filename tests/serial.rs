@@ -1,7 +1,9 @@
 //! Tests messages and numbered parameters over `embedded-io` streams with a simulated drive.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::future::{pending, Pending};
 use std::io::ErrorKind;
+use std::time::Duration;
 
 use lexibus::clients::serial::{embedded_io, embedded_io_async, SerialError, SerialLine};
 use lexibus::framing::{Check, Delimited, FrameError, Framing};
@@ -191,6 +193,11 @@ impl Drive {
     }
 }
 
+/// A timer that never expires.
+const NEVER: fn(Duration) -> Pending<()> = |_| pending();
+
+const TIMEOUT: Duration = Duration::from_secs(1);
+
 type Answer = Result<Vec<u8>, Error<SerialError<Late>>>;
 
 /// Returns the result of an exchange with these replies. Checks that the asynchronous result is equal.
@@ -202,7 +209,7 @@ fn exchanged(replies: &[u8]) -> Answer {
     assert_eq!(line.into_stream().received, framed(&[1, 2]));
 
     let stream = AsyncLine(Line { slow: true, ..Line::replying(replies.iter().copied()) });
-    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(stream, FRAMING, None);
+    let mut line = SerialLine::<_, _, 64>::with_ready(stream, FRAMING, None).with_time(NEVER, TIMEOUT);
     let other = answer(now(line.exchange(&[1, 2], &mut reply)), &reply);
     assert_eq!((&other, line.stream().0.received.len()), (&blocking, framed(&[1, 2]).len()));
     other
@@ -241,10 +248,11 @@ fn the_rest_of_a_reply_that_was_cut_off_isnt_the_next_one() {
     assert_eq!(line.exchange(b"?", &mut reply), Ok(1));
     assert!(format!("{:?}", SerialLine::<_, _, 8>::with_ready((), LINES, None))
         .starts_with("SerialLine { stream: (), framing: "));
-    let mut line: SerialLine<_, _, 64> =
-        SerialLine::with_ready(AsyncLine(Line::replying(*b"ABCDEFGH\rOK\r")), LINES, None);
+    // A line with a timer discards one more frame, because the reply to the failed request can still arrive.
+    let stream = AsyncLine(Line::replying(*b"ABCDEFGH\rold\rOK\r"));
+    let mut line = SerialLine::<_, _, 64>::with_ready(stream, LINES, None).with_time(NEVER, TIMEOUT);
     assert!(now(AsyncExchange::exchange(&mut line, b"?", &mut reply)).is_err());
-    assert_eq!(now(AsyncExchange::exchange(&mut line, b"?", &mut reply)), Ok(2));
+    assert_eq!((now(AsyncExchange::exchange(&mut line, b"?", &mut reply)), &reply[..2]), (Ok(2), &b"OK"[..]));
 }
 
 #[test]
@@ -290,8 +298,8 @@ fn parameters_are_items() {
     assert_eq!(short, Err(Error::Length(LengthError::new(4, 2))));
 
     let stream = drive.into_exchange().into_stream();
-    let mut drive =
-        Parameters::<_, _, 20>::new(SerialLine::<_, _, 64>::with_ready(AsyncLine(stream), FRAMING, None), Messages);
+    let line = SerialLine::<_, _, 64>::with_ready(AsyncLine(stream), FRAMING, None).with_time(NEVER, TIMEOUT);
+    let mut drive = Parameters::<_, _, 20>::new(line, Messages);
     now(async {
         POSITION.at(&mut drive).write_async(-7).await.unwrap();
         assert_eq!(POSITION.at(&mut drive).read_async().await, Ok(-7));
@@ -317,6 +325,6 @@ fn borrowed_exchanges() {
     let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(Line::replying(framed(&[1])), FRAMING, None);
     assert!(once(&mut line) && !once(&mut line));
     let stream = AsyncLine(Line::replying(framed(&[1])));
-    let mut line: SerialLine<_, _, 64> = SerialLine::with_ready(stream, FRAMING, None);
+    let mut line = SerialLine::<_, _, 64>::with_ready(stream, FRAMING, None).with_time(NEVER, TIMEOUT);
     assert!(now(once_async(&mut line)) && !now(once_async(&mut line)));
 }

@@ -27,14 +27,17 @@
 //!
 //! # Timeouts
 //!
-//! A blocking line limits the time of an exchange in two ways. The stream has its own timeout for each read. If a read
-//! times out, the exchange returns the error of the stream. The timeout of the line, by default [`TIMEOUT`], limits the
-//! time of the whole exchange, even if noise arrives continuously. The timeout of the line needs a clock. With the
-//! feature `std`, the line has a clock. Without `std`, set a clock with [`SerialLine::with_time`]; without a clock,
-//! only the [number of received bytes](SerialLine) limits an exchange.
+//! The timeout of a blocking line, by default [`TIMEOUT`], limits the time of each exchange, whether the line is silent
+//! or noise arrives continuously. The line needs a clock, and must know whether a read returns at once (see below). It
+//! then reads only bytes that have arrived. With the feature `std`, the line has a clock, and pauses while it waits.
+//! Without `std`, set a clock with [`SerialLine::with_time`].
 //!
-//! Async streams have no timeout, so an async line needs a timer. Without a timer, an async exchange waits for the reply
-//! forever. Set the timeout of a line as follows:
+//! Without a clock or this information, a read can block. Only a timeout of the stream then ends a read, and the exchange
+//! returns the error of the stream. Without a clock, only the [number of received bytes](SerialLine) limits an exchange in
+//! which noise arrives continuously.
+//!
+//! Async streams have no timeout, so an async line needs a timer. An async exchange on a line without a timer doesn't
+//! compile. Set the timeout of a line as follows:
 //!
 //! ```
 //! use core::time::Duration;
@@ -60,12 +63,11 @@
 //!
 //! After a timeout, an invalid reply or a dropped exchange, the late reply can still be on its way. The next exchange
 //! therefore waits before its request until a frame arrives, a read of the stream times out, or the timeout of the line
-//! expires, and discards what it receives. An async line needs a timer to wait. A blocking line needs a clock and the
-//! information above, or a stream whose reads have timed out before. Without these, the exchange does not wait.
+//! expires, and discards what it receives. A blocking line needs a clock and the information above, or a stream whose
+//! reads have timed out before. Without these, the exchange does not wait.
 
 use core::error;
 use core::fmt;
-use core::hint::spin_loop;
 use core::time::Duration;
 
 use crate::clock::{Clock, DefaultClock, Timer};
@@ -101,7 +103,7 @@ pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
     timeout: Duration,
     /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
-    /// True if a read of the stream has timed out, which means that reads don't block forever.
+    /// True if a read of the stream has timed out, which means that reads without a limit don't block forever.
     times_out: bool,
 }
 
@@ -142,15 +144,17 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     where
         S: embedded_io::ReadReady,
     {
-        Self::with_ready(stream, framing, Some(|stream| stream.read_ready().unwrap_or(false)))
+        Self::with_ready(stream, framing, Some(|stream| stream.read_ready().unwrap_or(true)))
     }
 
     /// Creates a client for a stream that doesn't implement `embedded_io::ReadReady`. `ready` returns whether a read of
     /// the stream returns at once. For a port of the crate `serialport` in a `FromStd` adapter, `ready` is
-    /// `|port| port.inner().bytes_to_read().is_ok_and(|count| count > 0)`.
+    /// `|port| port.inner().bytes_to_read().map_or(true, |count| count > 0)`. Return true after an error, so that the
+    /// exchange returns the error of the read.
     ///
     /// Pass `None` only if the stream has no such information. Then a repeated reply, or a message that the device
-    /// sends without a request, is taken for the reply to the next request, unless the protocol detects it.
+    /// sends without a request, is taken for the reply to the next request, unless the protocol detects it. The stream
+    /// also needs a timeout for each read, because the timeout of the line cannot end a read.
     pub const fn with_ready(stream: S, framing: F, ready: Option<fn(&mut S) -> bool>) -> Self {
         let line = Line { stream, framing, ready, within: None };
         Self { line, time: DefaultClock, timeout: TIMEOUT, is_unsettled: false, times_out: false }
@@ -164,8 +168,7 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     }
 
     /// Returns the line with a timeout for each exchange. `time` is the [`Clock`] of a blocking line or the [`Timer`]
-    /// of an async line. After the timeout, an exchange of a blocking line ends when the next byte arrives or a read
-    /// times out.
+    /// of an async line.
     #[must_use]
     pub fn with_time<T>(self, time: T, timeout: Duration) -> SerialLine<S, F, N, T> {
         let Self { line, is_unsettled, times_out, .. } = self;
@@ -206,13 +209,14 @@ impl<S, F: Framing, const N: usize> Line<S, F, N> {
         self.ready.is_some_and(|ready| ready(&mut self.stream))
     }
 
-    /// Waits until a read returns at once. Returns false if `is_late` returns true before.
-    fn await_byte(&mut self, is_late: &mut impl FnMut() -> bool) -> bool {
-        while !self.is_ready() {
-            if is_late() {
+    /// Waits until a read returns at once, and returns false if the limit expires before. If there is no limit, or if
+    /// the line doesn't know when a read returns, returns true without waiting.
+    fn await_byte(&mut self, limit: &mut impl Limit) -> bool {
+        while limit.is_set() && self.ready.is_some() && !self.is_ready() {
+            if limit.is_over() {
                 return false;
             }
-            spin_loop();
+            limit.pause();
         }
         true
     }
@@ -288,16 +292,71 @@ fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
     matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
 }
 
+/// Limit of the time in which a line waits for bytes.
+trait Limit {
+    /// Returns whether there is a limit.
+    fn is_set(&self) -> bool;
+
+    /// Returns whether the limit has expired.
+    fn is_over(&mut self) -> bool;
+
+    /// Waits for a moment.
+    fn pause(&mut self);
+}
+
+/// Limit of a blocking line. There is no limit without a clock.
+struct Deadline<'t, T> {
+    time: &'t mut T,
+    end: Option<Duration>,
+}
+
+impl<'t, T: Clock> Deadline<'t, T> {
+    /// Creates a limit that expires after `timeout`.
+    fn after(time: &'t mut T, timeout: Duration) -> Self {
+        let end = time.now().map(|now| now.saturating_add(timeout));
+        Self { time, end }
+    }
+}
+
+impl<T: Clock> Limit for Deadline<'_, T> {
+    fn is_set(&self) -> bool {
+        self.end.is_some()
+    }
+
+    fn is_over(&mut self) -> bool {
+        self.end.zip(self.time.now()).is_some_and(|(end, now)| now >= end)
+    }
+
+    fn pause(&mut self) {
+        self.time.pause();
+    }
+}
+
+/// The limit of an async line is its timer, which drops the exchange.
+struct ByTimer;
+
+impl Limit for ByTimer {
+    fn is_set(&self) -> bool {
+        false
+    }
+
+    fn is_over(&mut self) -> bool {
+        false
+    }
+
+    fn pause(&mut self) {}
+}
+
 /// Defines the steps of an exchange, blocking and async.
 macro_rules! exchanges {
     ($io:ident $call:ident $receive:ident $discard:ident $($async:ident $await:ident)?) => {
         impl<S: $io::Read + $io::Write, F: Framing, const N: usize> Line<S, F, N> {
-            /// Discards waiting bytes, sends a frame, and reads until the reply is complete or `is_late` returns true.
+            /// Discards waiting bytes, sends a frame, and reads until the reply is complete or the limit expires.
             $($async)? fn $call(
                 &mut self,
                 frame: &[u8],
                 reply: &mut [u8],
-                mut is_late: impl FnMut() -> bool,
+                mut limit: impl Limit,
             ) -> Result<usize, Error<SerialError<S::Error>>> {
                 for _ in 0..MOST_NOISE {
                     if !self.is_ready() {
@@ -310,9 +369,12 @@ macro_rules! exchanges {
                 self.stream.flush()$(.$await)?.map_err(failed)?;
                 let mut decoder = self.decoder();
                 for _ in 0..MOST_NOISE.saturating_add(reply.len().saturating_mul(2)) {
+                    if !self.await_byte(&mut limit) {
+                        break;
+                    }
                     let byte = self.$receive()$(.$await)??;
                     match self.take(&mut decoder, byte, reply) {
-                        Ok(None) if is_late() => break,
+                        Ok(None) if limit.is_over() => break,
                         Ok(None) => {}
                         Ok(Some(length)) => return Ok(length),
                         Err(error) => return Err(self.failed(decoder, error)),
@@ -321,21 +383,16 @@ macro_rules! exchanges {
                 Err(Error::Timeout)
             }
 
-            /// Discards bytes up to the end of a frame, or until `is_late` returns true. If `blocks` is false, a read
-            /// may wait forever: the method then reads only when a read returns at once.
-            $($async)? fn $discard(
-                &mut self,
-                blocks: bool,
-                mut is_late: impl FnMut() -> bool,
-            ) -> Result<(), Error<SerialError<S::Error>>> {
+            /// Discards bytes up to the end of a frame, or until the limit expires.
+            $($async)? fn $discard(&mut self, mut limit: impl Limit) -> Result<(), Error<SerialError<S::Error>>> {
                 let (mut decoder, mut data) = (self.decoder(), [0; N]);
                 for _ in 0..MOST_NOISE {
-                    if !blocks && !self.await_byte(&mut is_late) {
+                    if !self.await_byte(&mut limit) {
                         break;
                     }
                     let byte = self.$receive()$(.$await)??;
                     let decoded = self.framing.decode(&mut decoder, byte, &mut data);
-                    if matches!(decoded, Ok(Some(_))) || is_late() {
+                    if matches!(decoded, Ok(Some(_))) || limit.is_over() {
                         break;
                     }
                 }
@@ -354,13 +411,6 @@ macro_rules! exchanges {
 exchanges! { embedded_io call receive discard }
 exchanges! { embedded_io_async call_async receive_async discard_async async await }
 
-/// Returns a function that returns whether at least `timeout` has passed since this call. Without a clock, the function
-/// returns `false`.
-fn deadline<T: Clock>(time: &mut T, timeout: Duration) -> impl FnMut() -> bool + '_ {
-    let end = time.now().map(|now| now.saturating_add(timeout));
-    move || end.is_some_and(|end| time.now().is_some_and(|now| now >= end))
-}
-
 impl<S, F, const N: usize, T> Exchange for SerialLine<S, F, N, T>
 where
     S: embedded_io::Read + embedded_io::Write,
@@ -375,13 +425,13 @@ where
         // Without one of these, the line can't wait for a limited time.
         let waits = self.times_out || (self.line.ready.is_some() && self.time.now().is_some());
         if self.is_unsettled && waits {
-            match self.line.discard(self.times_out, deadline(&mut self.time, self.timeout)) {
+            match self.line.discard(Deadline::after(&mut self.time, self.timeout)) {
                 Err(error) if !is_timeout(&error) => return Err(error),
                 _ => {}
             }
         }
         let frame = frame.get(..length).unwrap_or_default();
-        let received = self.line.call(frame, reply, deadline(&mut self.time, self.timeout));
+        let received = self.line.call(frame, reply, Deadline::after(&mut self.time, self.timeout));
         self.times_out |= received.as_ref().is_err_and(is_timeout);
         self.is_unsettled = received.is_err();
         received
@@ -401,18 +451,16 @@ where
     type Error = SerialError<S::Error>;
 
     async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        const { assert!(T::EXPIRES, "an async serial line needs a timer: call `SerialLine::with_time`") };
         let mut frame = [0; N];
         let length = self.line.framing.encode(request, &mut frame)?;
         let frame = frame.get(..length).unwrap_or_default();
-        if !T::EXPIRES {
-            return self.line.call_async(frame, reply, || false).await;
-        }
         if self.is_unsettled {
-            self.time.limit(self.timeout, self.line.discard_async(true, || false)).await.unwrap_or(Ok(()))?;
+            self.time.limit(self.timeout, self.line.discard_async(ByTimer)).await.unwrap_or(Ok(()))?;
         }
         // The line stays unsettled if the exchange is dropped.
         self.is_unsettled = true;
-        let call = self.line.call_async(frame, reply, || false);
+        let call = self.line.call_async(frame, reply, ByTimer);
         let received = self.time.limit(self.timeout, call).await.unwrap_or(Err(Error::Timeout));
         self.is_unsettled = received.is_err();
         received

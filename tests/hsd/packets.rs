@@ -103,7 +103,8 @@ impl Wake for Silent {
 /// Returns the reply that a client decodes if it arrives in two pieces.
 fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
     let pieces = Pieces { now: first, later: Some(second) };
-    let mut line = SerialLine::<_, _, 140>::with_ready(pieces, FRAMING, None);
+    let mut line = SerialLine::<_, _, 140>::with_ready(pieces, FRAMING, None)
+        .with_time(|_| std::future::pending::<()>(), std::time::Duration::from_secs(1));
     let mut reply = [0; MAX_DATA];
     let length = {
         let mut exchange = pin!(AsyncExchange::exchange(&mut line, &[NODE as u8, 8, 0], &mut reply));
