@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::subdevice_group::{Op, PreOp};
-use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
+use ethercrab::{AlStatusCode, DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
 use lexibus::clients::ethercat::{is_a, Cycle, CycleError, Memory, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
 use lexibus::sim::{EtherCatFault, FaultyFrames};
@@ -371,8 +371,15 @@ fn stale_inputs_are_an_error() {
         assert_eq!(cycle.run(maindevice, &group).await, Ok(()));
         // A write to AL control switches the first SubDevice to Safe-Operational.
         first.write(EscMemory::new(0x0120, 2), &[4, 0]).await.unwrap();
-        let state = CycleError::State { subdevice: 0, state: SubDeviceState::SafeOp };
+        let state =
+            CycleError::State { subdevice: 0, state: SubDeviceState::SafeOp, code: Some(AlStatusCode::NoError) };
         assert_eq!(cycle.run(maindevice, &group).await, Err(state));
+        // The SubDevice refuses a state that doesn't exist.
+        first.write(EscMemory::new(0x0120, 2), &[7, 0]).await.unwrap();
+        let refused = cycle.run(maindevice, &group).await.unwrap_err();
+        let code = Some(AlStatusCode::UnknownRequestedState);
+        assert!(matches!(refused, CycleError::State { subdevice: 0, code: of, .. } if of == code), "{refused:?}");
+        assert!(refused.to_string().contains("0x0012"), "{refused}");
     });
 }
 

@@ -5,7 +5,7 @@ use core::fmt;
 
 use ethercrab::error::Error as BusError;
 use ethercrab::subdevice_group::{Op, TxRxResponse};
-use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup, SubDeviceState};
+use ethercrab::{AlStatusCode, Command, DefaultLock, MainDevice, RegisterAddress, SubDeviceGroup, SubDeviceState};
 
 /// Exchanges process data and checks that all SubDevices of a group took part.
 ///
@@ -62,7 +62,7 @@ impl Cycle {
     pub fn check<const N: usize, T>(self, response: &TxRxResponse<N, T>) -> Result<(), CycleError> {
         let mut states = response.subdevice_states.iter().copied().enumerate();
         if let Some((subdevice, state)) = states.find(|(_, state)| *state != SubDeviceState::Op) {
-            return Err(CycleError::State { subdevice, state });
+            return Err(CycleError::State { subdevice, state, code: None });
         }
         let (expected, actual) = (self.working_counter, response.working_counter);
         if actual < expected {
@@ -71,7 +71,8 @@ impl Cycle {
         Ok(())
     }
 
-    /// Exchanges the process data of the group once, and checks the response.
+    /// Exchanges the process data of the group once, and checks the response. If a SubDevice has left Operational, reads
+    /// its AL status code.
     ///
     /// # Errors
     ///
@@ -82,8 +83,25 @@ impl Cycle {
         maindevice: &MainDevice<'_>,
         group: &SubDeviceGroup<N, P, DefaultLock, Op, DC>,
     ) -> Result<(), CycleError> {
-        self.check(&group.tx_rx(maindevice).await.map_err(CycleError::Bus)?)
+        match self.check(&group.tx_rx(maindevice).await.map_err(CycleError::Bus)?) {
+            Err(CycleError::State { subdevice, state, .. }) => {
+                let code = code(maindevice, group, subdevice).await.ok();
+                Err(CycleError::State { subdevice, state, code })
+            }
+            checked => checked,
+        }
     }
+}
+
+/// Reads the AL status code of a SubDevice.
+async fn code<const N: usize, const P: usize, DC>(
+    maindevice: &MainDevice<'_>,
+    group: &SubDeviceGroup<N, P, DefaultLock, Op, DC>,
+    index: usize,
+) -> Result<AlStatusCode, BusError> {
+    // `SubDeviceRef::status` fails if the error flag of the AL status is set.
+    let station = group.subdevice(maindevice, index)?.configured_address();
+    Command::fprd(station, RegisterAddress::AlStatusCode.into()).receive(maindevice).await
 }
 
 /// Reason why the inputs of a cycle are stale.
@@ -105,6 +123,9 @@ pub enum CycleError {
         subdevice: usize,
         /// State of the SubDevice.
         state: SubDeviceState,
+        /// AL status code of the SubDevice, which is the reason for the state. `None` if the code was not read:
+        /// [`Cycle::check`] doesn't read it.
+        code: Option<AlStatusCode>,
     },
 }
 
@@ -115,8 +136,9 @@ impl fmt::Display for CycleError {
             Self::WorkingCounter { expected, actual } => {
                 write!(f, "stale inputs: the working counter is {actual} instead of {expected}")
             }
-            Self::State { subdevice, state } => {
-                write!(f, "stale inputs: SubDevice {subdevice} of the group is in state {state}")
+            Self::State { subdevice, state, code } => {
+                write!(f, "stale inputs: SubDevice {subdevice} of the group is in state {state}")?;
+                code.map_or(Ok(()), |code| write!(f, ", AL status code {code}"))
             }
         }
     }
