@@ -14,6 +14,9 @@ use lexibus_drives::vector_step;
 #[path = "support/entry.rs"]
 mod entry;
 use entry::entry;
+#[cfg(feature = "canopen")]
+#[path = "support/now.rs"]
+mod now;
 
 const DEADLINE: Duration = Duration::from_secs(2);
 const NODE: NodeId = match NodeId::new(5) {
@@ -707,16 +710,16 @@ fn drivers_that_do_not_wait() {
 /// Tests a drive as a node on a CAN bus.
 #[cfg(feature = "canopen")]
 mod frames {
-    use lexibus::clients::canopen::{NmtCommand, NmtState, Node};
+    use lexibus::clients::canopen::{Buffered, CanPort, NmtCommand, NmtState, Node};
     use lexibus::sim::CanNode;
     use lexibus_drives::demo_drive::codes::DriveErrors;
 
+    use super::now::now;
     use super::*;
 
     #[test]
     fn a_drive_on_a_can_bus() {
-        let node = CanNode::new(drive().with_access_time(ms(1)));
-        let mut drive = DemoDrive::new(Node::new(node, NODE));
+        let mut drive = DemoDrive::new(Node::new(CanNode::new(drive()), NODE));
         drive.walk(State::OperationEnabled, DEADLINE).unwrap();
         drive.client().nmt(NmtCommand::Start).unwrap();
         drive.target_position().write(100).unwrap();
@@ -734,5 +737,24 @@ mod frames {
         drive.client().nmt(NmtCommand::ResetNode).unwrap();
         drive.client().wait_for(NmtState::BootUp, ms(10)).unwrap();
         assert_eq!(drive.position_actual_value().read(), Ok(0));
+    }
+
+    /// The clock of the interface measures the pauses of a walk. A walk over an async interface needs no other timer.
+    #[test]
+    fn a_walk_waits_with_the_interface() {
+        let port = |device| Buffered::<_, 16>::new(CanNode::new(device));
+        let mut enabled = DemoDrive::new(Node::new(port(drive()), NODE));
+        assert_eq!(now(enabled.walk_async(State::OperationEnabled, DEADLINE)), Ok(()));
+
+        let mut device = drive();
+        device.fail_persistently(0x8611).unwrap();
+        let mut drive = DemoDrive::new(Node::new(port(device), NODE));
+        let walked = now(drive.walk_async(State::OperationEnabled, DEADLINE));
+        assert!(walked.is_err_and(|error| error.is_fault()));
+        let waited = CanPort::now(drive.client().port()).unwrap();
+        assert!(waited >= DEADLINE && waited < DEADLINE + ms(50), "{waited:?}");
+        // The buffer keeps what arrives in the meantime.
+        let emergency = drive.client().emergency(ms(0)).unwrap().unwrap();
+        assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
     }
 }

@@ -49,10 +49,10 @@ impl Guarding {
         self.guard_time
     }
 
-    /// Returns the node life time: the guard time multiplied by the life time factor.
+    /// Returns the node life time: the guard time multiplied by the life time factor, which is at least 1.
     #[must_use]
     pub fn life_time(&self) -> Duration {
-        self.guard_time.saturating_mul(self.life_time_factor.into())
+        self.guard_time.saturating_mul(self.life_time_factor.max(1).into())
     }
 
     /// Returns the number of consecutive cycles without a valid answer. Every failed cycle counts, and so does a

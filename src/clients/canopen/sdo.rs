@@ -171,6 +171,22 @@ macro_rules! transfers {
                 self.$run(transfer)$(.$await)?.map(|_| ())
             }
 
+            /// Waits while the interface receives frames. [`Buffered`](super::Buffered) and
+            /// [`Network`](super::Network) keep these frames. An interface without a buffer loses them, as during a
+            /// transfer.
+            $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<P::Error>> {
+                let start = self.port().now();
+                let mut left = time;
+                while !left.is_zero() {
+                    self.port().receive(left, &mut |_| false)$(.$await)?.map_err(Error::Client)?;
+                    let waited = elapsed(start, self.port().now()).unwrap_or(time);
+                    // The clock of a simulated interface may not advance.
+                    let next = time.saturating_sub(waited);
+                    left = if next < left { next } else { Duration::ZERO };
+                }
+                Ok(())
+            }
+
             fn now(&mut self) -> Option<Duration> {
                 self.port().now()
             }

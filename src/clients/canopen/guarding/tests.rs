@@ -160,6 +160,15 @@ fn the_life_time_is_measured_with_the_clock() {
 }
 
 #[test]
+fn the_life_time_factor_is_at_least_1() {
+    for factor in [0, 1] {
+        let (mut node, mut guarding) = (node(&[Answer(5)]), Guarding::new(GUARD_TIME, factor));
+        assert_eq!(guarding.life_time(), GUARD_TIME);
+        assert_eq!([node.guard(&mut guarding), node.guard(&mut guarding)], [OPERATIONAL, LOST]);
+    }
+}
+
+#[test]
 fn a_dead_node_is_lost_after_its_life_time() {
     let (mut node, mut guarding) = (node(&[]), Guarding::new(GUARD_TIME, 3));
     let results = [(); 3].map(|()| node.guard(&mut guarding));
