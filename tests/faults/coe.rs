@@ -255,6 +255,33 @@ fn endless_noise_ends_in_time() {
     });
 }
 
+/// Sends requests with random faults for a simulated time, with a pause after each. Returns the numbers of requests and
+/// errors.
+pub fn soak(time: Duration, mut observe: impl FnMut(Duration)) -> (u32, u32) {
+    with_bench(|mut bench| async move {
+        let (mut random, start) = (Random::new(31), Instant::now());
+        let (mut requests, mut errors) = (0, 0);
+        while start.elapsed() < time {
+            let fault = match random.below(60) {
+                0 => Fault::Late(TIMEOUT + Duration::from_millis(random.below(190))),
+                1 => Fault::Lost,
+                2 => Fault::LostDatagram,
+                3 => Fault::Duplicated,
+                4 => Fault::Truncated,
+                5 => Fault::Foreign,
+                6 => Fault::Noise,
+                _ => Fault::Nothing,
+            };
+            let object = [COUNT, TEXT, SETPOINT][random.below(3) as usize];
+            errors += u32::from(bench.request(requests, fault, object).await.is_err());
+            requests += 1;
+            sleep(TIMEOUT).await;
+            observe(start.elapsed());
+        }
+        (requests, errors)
+    })
+}
+
 /// Returns the rows for the mailbox in the table of faults.
 pub fn rows() -> Vec<Row> {
     let faults = [

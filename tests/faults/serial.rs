@@ -146,7 +146,7 @@ pub fn blocking() -> (SerialLine<Port, Delimited, 64, impl FnMut() -> Duration>,
     let clock = now.clone();
     let clock = move || {
         // Time passes while the line polls.
-        clock.set(clock.get() + Duration::from_micros(10));
+        clock.set(clock.get() + Duration::from_micros(100));
         clock.get()
     };
     (SerialLine::new(Port::new(now.clone()), FRAMING).with_time(clock, TIMEOUT), now)

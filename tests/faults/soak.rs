@@ -1,48 +1,22 @@
-//! Soak test: an hour of simulated time with random faults, for the clients of SDO, Modbus and serial lines, and for the state
-//! machine walker. No value may be wrong, no buffer may grow, and the memory of the process may grow by at most 1 MiB.
+//! Soak test: an hour of simulated time with random faults, for the clients of SDO (CANopen and EtherCAT), Modbus and serial lines,
+//! and for the state machine walker. No value may be wrong, no buffer may grow, and the memory of the process may grow by at most 1 MiB.
 
 use std::process::Command;
 use std::time::Duration;
 
-use lexibus::clients::canopen::{CanPort, Node};
-use lexibus::sim::{CanBus, CanError, CanFault, CanNode, Device, StreamFault};
-use lexibus::{CanOpen, Client, Error, NodeId, Object};
+use lexibus::clients::canopen::Node;
+use lexibus::sim::{CanBus, CanFault, CanNode, Device, StreamFault};
+use lexibus::NodeId;
 use lexibus_drives::demo_drive::types::State;
 use lexibus_drives::demo_drive::{objects, DemoDrive, ENTRIES};
 
-use crate::faulty::{faulty, set, Faulty, TIMEOUT};
+use crate::faulty::{faulty, set, TIMEOUT};
 use crate::lane;
 use crate::modbus;
 use crate::random::Random;
 use crate::serial;
 
-/// Simulated time that the transmission of a frame takes.
-const FRAME: Duration = Duration::from_millis(1);
 const HOUR: Duration = Duration::from_secs(3600);
-
-/// A node whose client waits in simulated time.
-struct Simulated(Node<Faulty>);
-
-impl Client for Simulated {
-    type Bus = CanOpen;
-    type Error = CanError;
-
-    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<CanError>> {
-        Client::read(&mut self.0, object, buffer)
-    }
-
-    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<CanError>> {
-        Client::write(&mut self.0, object, data)
-    }
-
-    fn wait(&mut self, time: Duration) -> Result<(), Error<CanError>> {
-        CanPort::receive(self.0.port(), time, &mut |_| false).map(|_| ()).map_err(Error::Client)
-    }
-
-    fn now(&mut self) -> Option<Duration> {
-        Client::now(&mut self.0)
-    }
-}
 
 /// Name of the environment variable that contains the name of the test to run in this process.
 const ALONE: &str = "LEXIBUS_SOAK";
@@ -122,14 +96,14 @@ fn can() {
     let mut memory = Memory::default();
     let id = NodeId::new(5).expect("a node-ID");
     let mut bus = CanBus::new();
-    bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id).with_cia402().with_access_time(FRAME)));
-    let mut drive = DemoDrive::new(Simulated(Node::new(faulty(bus), id)));
+    bus.add(CanNode::new(Device::new(ENTRIES).with_node_id(id).with_cia402()));
+    let mut drive = DemoDrive::new(Node::new(faulty(bus), id));
     let mut random = Random::new(28);
     let (mut requests, mut errors, mut walks, mut longest, mut restarts) = (0_u32, 0, 0, 0, 0);
-    while drive.client().0.port().bus().now() < Some(HOUR) {
+    while drive.client().port().bus().now() < HOUR {
         requests += 1;
         let value = requests % 50_000;
-        let port = drive.client().0.port();
+        let port = drive.client().port();
         let fault = fault(&mut random);
         restarts += u32::from(fault == Some(CanFault::Restart));
         set(port, fault);
@@ -138,23 +112,23 @@ fn can() {
                 walks += 1;
                 let target = [State::OperationEnabled, State::SwitchOnDisabled][random.below(2) as usize];
                 let result = drive.walk(target, Duration::from_secs(2));
-                let status = drive.client().0.port().bus().nodes()[0].device().get(objects::STATUSWORD);
+                let status = drive.client().port().bus().nodes()[0].device().get(objects::STATUSWORD);
                 result.map(|_| assert_eq!(status.map(|status| status.state()), Ok(Some(target)))).is_ok()
             }
             1..=10 => {
-                let device = drive.client().0.port().bus().nodes()[0].device();
+                let device = drive.client().port().bus().nodes()[0].device();
                 device.set(objects::PROFILE_VELOCITY, value).expect("an object");
                 drive.profile_velocity().read().map(|read| assert_eq!(read, value, "request {requests}")).is_ok()
             }
             _ => drive.profile_velocity().write(value).is_ok_and(|()| {
-                let device = drive.client().0.port().bus().nodes()[0].device();
+                let device = drive.client().port().bus().nodes()[0].device();
                 assert_eq!(device.get(objects::PROFILE_VELOCITY), Ok(value), "request {requests}");
                 true
             }),
         };
         errors += u32::from(!is_right);
-        longest = longest.max(drive.client().0.port().waiting());
-        memory.observe(drive.client().0.port().bus().now().unwrap_or_default(), HOUR);
+        longest = longest.max(drive.client().port().waiting());
+        memory.observe(drive.client().port().bus().now(), HOUR);
     }
     memory.check();
     println!("{requests} accesses, {walks} of them walks, {restarts} restarts: {errors} errors, no wrong value, {longest} waiting frames");
@@ -243,6 +217,18 @@ fn serial() {
         }
         memory.check();
         println!("{requests} async exchanges: {errors} errors, no wrong reply");
+        assert!(requests > 10_000 && errors > 100 && errors < requests / 4, "{errors} of {requests}");
+    });
+}
+
+#[cfg(all(feature = "ethercat", feature = "macros"))]
+#[test]
+fn an_hour_over_ethercat() {
+    alone("an_hour_over_ethercat", || {
+        let mut memory = Memory::default();
+        let (requests, errors) = crate::coe::soak(HOUR, |elapsed| memory.observe(elapsed, HOUR));
+        memory.check();
+        println!("{requests} transfers through a mailbox: {errors} errors, no wrong value");
         assert!(requests > 10_000 && errors > 100 && errors < requests / 4, "{errors} of {requests}");
     });
 }
