@@ -73,7 +73,7 @@ impl CodesOfItems {
 /// Returns the items that a text mentions.
 fn items(mentions: &[Mention]) -> impl Iterator<Item = ItemId> + '_ {
     mentions.iter().filter_map(|mention| match mention {
-        Mention::Item(id) | Mention::Object(_, id) => Some(*id),
+        Mention::Item(id) | Mention::Bit(id, _) | Mention::Object(_, id) => Some(*id),
         _ => None,
     })
 }

@@ -108,6 +108,7 @@ impl<'d> Targets<'d> {
     pub fn mentioned(&self, mention: Mention) -> Option<&Link> {
         match mention {
             Mention::Item(id) => self.item(Some(id)),
+            Mention::Bit(id, part) => self.part(id, part),
             Mention::Object(index, first) => self.objects.get(&hex16(index)).or_else(|| self.item(Some(first))),
             Mention::Message(message) => self.messages.get(message),
             Mention::State(machine, state) => self.states.get(machine)?.get(state),

@@ -2,13 +2,17 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::ir::{CodeRow, CodeTable, Device, Documentation, ItemId};
+use super::referrers::Part;
+use crate::ir::owner::Owner;
+use crate::ir::{BitFieldEntry, CodeRow, CodeTable, Device, Documentation, ItemId, Shape};
 
 /// An element of a device that a text mentions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mention {
     /// An item.
     Item(ItemId),
+    /// A bit or bit field of an item.
+    Bit(ItemId, Part),
     /// The index of an object, and the first item of this object.
     Object(u16, ItemId),
     /// The position of a message.
@@ -18,8 +22,9 @@ pub enum Mention {
 }
 
 /// The names that texts can mention.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Mentions<'d> {
+    device: &'d Device,
     /// Items and messages whose names are not ordinary words.
     identifiers: HashMap<&'d str, Vec<Mention>>,
     /// Items and messages whose names have a capital only as the first letter, like the first word of a sentence.
@@ -34,7 +39,8 @@ pub struct Mentions<'d> {
 impl<'d> Mentions<'d> {
     /// Collects the names of a device.
     pub fn new(device: &'d Device) -> Self {
-        let mut mentions = Mentions::default();
+        let (identifiers, capitalized, objects, states, of_tables) = Default::default();
+        let mut mentions = Mentions { device, identifiers, capitalized, objects, states, of_tables };
         let tables: HashSet<&str> = device.code_tables.iter().map(|table| table.name.as_str()).collect();
         for (position, group) in (0..).zip(&device.groups) {
             for (id, item) in group.items_at(position) {
@@ -109,7 +115,36 @@ impl<'d> Mentions<'d> {
             all.extend(self.capitalized.get(word).into_iter().flatten());
         }
         all.extend(quoted(text).filter_map(|name| self.states.get(name)).flatten());
+        let bits: Vec<Mention> = self.bits_of(text).collect();
+        let has_bit = |id| bits.iter().any(|bit| matches!(bit, Mention::Bit(other, _) if *other == id));
+        all.retain(|mention| !matches!(mention, Mention::Item(id) if has_bit(*id)));
+        all.extend(bits);
         all
+    }
+
+    /// Returns the bits that a text mentions, such as `bit 3 of status_word`.
+    fn bits_of<'t>(&'t self, text: &'t str) -> impl Iterator<Item = Mention> + 't {
+        let all: Vec<&str> = words(text).collect();
+        let items = |name| [&self.identifiers, &self.capitalized].into_iter().filter_map(move |names| names.get(name));
+        let found = (3..all.len()).filter_map(move |last| {
+            let is_bit = all[last - 3].eq_ignore_ascii_case("bit") && all[last - 1] == "of";
+            let number: u32 = all[last - 2].parse().ok().filter(|_| is_bit)?;
+            Some(items(all[last]).flatten().filter_map(move |mention| self.bit(*mention, number)))
+        });
+        found.flatten()
+    }
+
+    /// Returns the field with this bit. If the meaning of the bit depends on a condition, the number does not determine
+    /// the field.
+    fn bit(&self, mention: Mention, number: u32) -> Option<Mention> {
+        let Mention::Item(id) = mention else { return None };
+        let owner = Owner { types: &self.device.types, groups: &[self.device.groups.as_slice()] };
+        let Shape::BitField { fields, .. } = &owner.definition(owner.item(id)?.ty)?.shape else { return None };
+        let has_bit = |field: &BitFieldEntry| {
+            let first = u32::from(field.offset);
+            (first..first + u32::from(field.bits)).contains(&number) && field.when.is_none()
+        };
+        Some(Mention::Bit(id, Part::Bit(fields.iter().position(has_bit)?)))
     }
 
     fn object(&self, word: &str) -> Option<Mention> {
@@ -155,8 +190,12 @@ fn is_capitalized(word: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Binding, Buses, Group, Item, Message, ObjectCode, Pattern, SharedList, StateMachine};
+    use crate::ir::{
+        Binding, BitMeaning, Buses, Condition, Group, Item, Message, ObjectCode, Pattern, SharedList, StateMachine,
+        Type, TypeDef, TypeId,
+    };
     use crate::source::Origin;
+    use compact_str::CompactString;
 
     #[test]
     fn items_that_name_a_table() {
@@ -178,6 +217,32 @@ mod tests {
         let mentions = Mentions::new(&device);
         assert_eq!(mentions.of_table(&table("alarms")), [Mention::Item(ItemId { group: 0, item: 0 })]);
         assert_eq!(mentions.of_table(&table("numbers")), []);
+    }
+
+    #[test]
+    fn bits_of_items() {
+        let flag = |offset, name: &str| {
+            BitFieldEntry::new(CompactString::from(name), offset, 1, BitMeaning::Flag { inverted: false })
+        };
+        let condition = Condition { item: "mode".into(), values: Vec::new(), names: Vec::new(), mask: None };
+        let conditional = BitFieldEntry { when: Some(Box::new(condition)), ..flag(4, "start") };
+        let fields = vec![flag(3, "alarm"), conditional];
+        let shape = Shape::BitField { base: Type::Unsigned(16), fields };
+        let mut group = Group::object(0x2000, ObjectCode::Var);
+        group.items.push(Item {
+            name: "Statusword".into(),
+            ty: Type::Named(TypeId(0)),
+            ..Item::new(Binding::canopen(0x2000, 0))
+        });
+        let types = vec![TypeDef::new("Status", shape, None)];
+        let device = Device { groups: vec![group], types, ..Device::default() };
+        let mentions = Mentions::new(&device);
+        let id = ItemId { group: 0, item: 0 };
+        let bit = Mention::Bit(id, Part::Bit(0));
+        assert_eq!(mentions.of_text("Bit 3 of Statusword reports an alarm"), [bit]);
+        assert_eq!(mentions.of_text("Bit 4 of Statusword, bits 3 to 5"), [Mention::Item(id)]);
+        assert_eq!(mentions.of_text("bits 3 to 4 of Statusword"), [Mention::Item(id)]);
+        assert_eq!(mentions.of_text("bit 3 in Statusword, bit 3 of"), [Mention::Item(id)]);
     }
 
     #[test]
