@@ -54,6 +54,19 @@ fn records_as_structs() {
     }
 }
 
+/// Tests the code that `lexibus docs` shows for an item of a record.
+#[test]
+fn one_field_of_a_record() -> Result<(), Error<PnioStatus>> {
+    use safe::submodules;
+    let (address, mut records) = (INPUTS, RecordAccess::<_, 16>::new(Device::default()));
+    records.write(address, &FILTER)?;
+    let value = records.read::<submodules::safe_inputs::InputFilterRecord>(address)?.gain / 2.0;
+    let record = submodules::safe_inputs::InputFilterRecord { gain: value, ..records.read(address)? };
+    records.write(address, &record)?;
+    assert_eq!(records.read(address), Ok(InputFilterRecord { gain: 5.0, ..FILTER }));
+    Ok(())
+}
+
 #[test]
 fn records_without_blocking() {
     now(async {

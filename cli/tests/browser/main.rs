@@ -35,7 +35,7 @@ fn tasks_of_a_commissioning_engineer_need_few_keys() {
 
 #[test]
 fn the_decoder_converts_values_in_both_directions() {
-    run("values.mjs", || [sites::drives(), sites::ethercat()]);
+    run("values.mjs", || [sites::drives(), sites::ethercat(), sites::station()]);
 }
 
 #[test]

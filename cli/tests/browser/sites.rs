@@ -51,6 +51,11 @@ pub fn modular() -> PathBuf {
     documented("modular", &["../tests/data/drive.gsdml.xml"])
 }
 
+/// Returns the site of a PROFINET station with parameter records.
+pub fn station() -> PathBuf {
+    documented("station", &["../tests/data/safe.gsdml.xml"])
+}
+
 /// Returns the site of an EtherCAT coupler and an EtherCAT drive. The drive has PDOs with a changeable mapping.
 pub fn ethercat() -> PathBuf {
     documented("ethercat", &["../tests/data/coupler.esi.xml"])

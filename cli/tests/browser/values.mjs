@@ -1,10 +1,10 @@
 // Tests that the decoder's conversions are inverse to each other and reject values that do not fit. The frames must have the
 // form that the standards define. The PDO builder changes the order of objects, and maps
-// objects on CANopen and EtherCAT.
+// objects on CANopen and EtherCAT. Requests for PROFINET records contain the whole record.
 import assert from "node:assert/strict";
 import { Window, withBrowser } from "./browser.mjs";
 
-const [site, ethercat] = process.argv.slice(2);
+const [site, ethercat, station] = process.argv.slice(2);
 await withBrowser(async (browser) => {
   const window = await Window.open(browser, site);
   const page = await window.go("vendor-0x0000078f/eco/no-revision/registers.html");
@@ -51,6 +51,9 @@ await withBrowser(async (browser) => {
   const other = await Window.open(browser, ethercat);
   await mapsOnEthercat(other);
   other.clean();
+  const records = await Window.open(browser, station);
+  await writesRecords(records);
+  records.clean();
 });
 
 // Checks the requests of an object with other access rights on a bus, and of 16-bit values in two registers.
@@ -138,4 +141,22 @@ async function mapsOnEthercat(window) {
   ]);
   assert.equal(python.split("\n")[2], 'slave.sdo_write(0x1600, 1, bytes.fromhex("10004060"))');
   assert.match(rust, /device::pdo::PositionMode \{ controlword, target_position \}/);
+}
+
+// Checks that a write of a value contains the whole record. The other values have their defaults, and numbers are big-endian.
+async function writesRecords(window) {
+  const cases = [["bytes_3_6", "10.0", "5A 01 84 41 20 00 00 EE 07"], ["byte_2_bits_3_1", "3", "5A 01 86 3F C0 00 00 EE 07"], ["byte_2_bit_7", "0", "5A 01 04 3F C0 00 00 EE 07"]];
+  for (const [position, raw, expected] of cases) {
+    const page = await window.go(`example/_files/safe-gsdml/modules.html#submodule-00000021.record_0x0002__${position}`);
+    const row = page.locator(".items > tbody.open");
+    await row.locator(".requests summary").click();
+    const lines = row.locator(".requests dd code");
+    await lines.first().waitFor();
+    assert.equal(await lines.count(), 1, "a write without a value");
+    await row.locator(".raw").fill(raw);
+    const [read, write, bytes] = await lines.allInnerTexts();
+    assert.match(read, /^API 0, slot of the module \(1 to 3\), subslot 1, index 0x0002, length 9, value in /);
+    assert.equal(write, read);
+    assert.equal(bytes, expected);
+  }
 }

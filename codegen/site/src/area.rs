@@ -53,6 +53,8 @@ pub(super) struct Section {
     /// Ambiguities that several entries of the object have in common.
     pub shared: Vec<SharedDoubt>,
     pub diagnostics: Vec<ShownDiagnostic>,
+    /// Default bytes of a PROFINET record, such as `5A 01`; empty if unknown or too long.
+    pub default_bytes: String,
     pub rows: Vec<Row>,
 }
 
@@ -211,6 +213,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
         doubts,
         shared: shared::doubts(&mut rows),
         diagnostics,
+        default_bytes: String::new(),
         rows,
     }
 }

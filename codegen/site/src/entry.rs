@@ -4,7 +4,7 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::diagnostics::{ShownDiagnostic, ShownDiagnostics};
 use super::link::{self, Relation};
-use super::requests::{self, Request};
+use super::requests::{self, OfRecord, Request};
 use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::backend::rust::Calls;
@@ -136,8 +136,8 @@ pub(super) struct Known<'d> {
     /// Lines of Rust code that read and write each item.
     pub calls: &'d Calls,
     pub diagnostics: &'d ShownDiagnostics,
-    /// API, slot and subslot of the submodule whose records contain the items.
-    pub records: &'d str,
+    /// PROFINET record that contains the items.
+    pub record: OfRecord<'d>,
 }
 
 /// Returns the ambiguities in `all` that are about the element with this kind and name.
@@ -213,8 +213,8 @@ impl Rows<'_> {
             rust: self.known.calls.get(&id).cloned().unwrap_or_default(),
             scale: tools::scale(item),
             writable: tools::range(item),
-            requests: tools::addresses(item, self.types, self.known.modbus, self.known.records),
-            fixed_requests: requests::requests(item, self.types, self.known.modbus, self.known.records),
+            requests: tools::addresses(item, self.types, self.known.modbus, &self.known.record),
+            fixed_requests: requests::requests(item, self.types, self.known.modbus, &self.known.record),
             bits: drawn,
             labels,
             same_as,

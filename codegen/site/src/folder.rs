@@ -23,6 +23,7 @@ use super::pages::{Content, Frameset, Pages, FIRST, ROOT};
 use super::parts::Parts;
 use super::process::{self, About, ProcessPart};
 use super::protocol;
+use super::requests::OfRecord;
 use super::revisions::{Changes, Previous};
 use super::search::{self, Entry, Index};
 use super::slots::{self, ModuleLinks};
@@ -245,7 +246,7 @@ impl<'a> Folder<'a> {
             modbus: &device.modbus,
             calls: &usage.calls,
             diagnostics: self.diagnostics,
-            records: ANY_SUBMODULE,
+            record: OfRecord { submodule: ANY_SUBMODULE, length: 0, default_bytes: &[] },
         };
         let mut areas = area::areas(&device.groups, &device.types, known, html::size_of_section, &mut self.files);
         for area in &mut areas {

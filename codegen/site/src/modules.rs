@@ -8,6 +8,7 @@ use super::area::Section;
 use super::diagnostics::ShownDiagnostics;
 use super::entry::{Known, Row, Rows};
 use super::process::{self, About, Frame};
+use super::requests::OfRecord;
 use super::split;
 use super::words;
 use lexibus_codegen::backend::rust::{self, Calls};
@@ -120,7 +121,7 @@ fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel>
         .map(|submodule| names.anchor(&format!("submodule-{:08X}", submodule.ident)))
         .collect();
     let mut all: Vec<ModuleModel> = Vec::new();
-    let calls = rust::usage_of_modules(catalog);
+    let (calls, records) = (rust::usage_of_modules(catalog), rust::usage_of_records(catalog));
     for (id, each) in (0..).map(ModuleId).zip(&catalog.modules) {
         let parts = each.submodules.iter().filter_map(|used| {
             let at = used.submodule.0 as usize;
@@ -129,11 +130,18 @@ fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel>
             Some((name, anchors.get(at)?.clone()))
         });
         let anchor = names.anchor(&format!("module-{:08X}", each.number));
-        let items = Items { types: &each.types, calls: calls.get(&id), records: "", diagnostics };
+        let items =
+            Items { types: &each.types, calls: calls.get(&id), submodule: "", default_bytes: None, diagnostics };
         all.push(module(each, anchor, parts.collect(), items));
     }
     let submodules = (0..).map(SubmoduleId).zip(&catalog.submodules).zip(anchors);
-    all.extend(submodules.map(|((id, each), anchor)| submodule(catalog, (id, each), anchor, diagnostics)));
+    all.extend(submodules.map(|((id, each), anchor)| {
+        let address = if each.records.is_empty() { String::new() } else { profinet::address_of_records(catalog, id) };
+        let usage = records.get(&id);
+        let (calls, default_bytes) = (usage.map(|usage| &usage.calls), usage.map(|usage| &usage.default_bytes));
+        let items = Items { types: &catalog.types, calls, submodule: &address, default_bytes, diagnostics };
+        submodule(each, anchor, items)
+    }));
     all
 }
 
@@ -143,19 +151,30 @@ struct Items<'m> {
     types: &'m [TypeDef],
     /// Rust code that reads and writes each item.
     calls: Option<&'m Calls>,
-    /// API, slot and subslot of a submodule.
-    records: &'m str,
+    /// API, slot and subslot of a submodule with records.
+    submodule: &'m str,
+    /// Default bytes of the records of a submodule, by the position of the record.
+    default_bytes: Option<&'m HashMap<u32, Vec<u8>>>,
     diagnostics: &'m ShownDiagnostics,
 }
 
 /// Returns the items of a module in sections. The anchors of the items begin with the module's anchor.
 fn sections<'g>(groups: impl Iterator<Item = &'g Group>, items: Items<'_>, anchor: &str) -> Vec<(String, Section)> {
     let (manual, none, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
-    let Items { types, calls, records, diagnostics } = items;
-    let known =
-        Known { manual: &manual, doubts: &[], modbus: &[], calls: calls.unwrap_or(&none), diagnostics, records };
+    let Items { types, calls, submodule, default_bytes, diagnostics } = items;
+    let calls = calls.unwrap_or(&none);
+    let record = OfRecord { submodule, length: 0, default_bytes: &[] };
+    let known = Known { manual: &manual, doubts: &[], modbus: &[], calls, diagnostics, record };
     let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
-    (0..).zip(groups).map(|(position, group)| section(position, group, &mut rows)).collect()
+    let section = |(position, group): (u32, &Group)| {
+        rows.known.record = OfRecord {
+            submodule,
+            length: if let GroupKind::Record(record) = &group.kind { record.length } else { 0 },
+            default_bytes: default_bytes.and_then(|all| all.get(&position)).map_or(&[], Vec::as_slice),
+        };
+        section(position, group, &mut rows)
+    };
+    (0..).zip(groups).map(section).collect()
 }
 
 /// Returns the facts about a module or submodule: its description and order code.
@@ -186,21 +205,13 @@ fn module(module: &Module, anchor: String, parts: Vec<(String, String)>, items: 
     }
 }
 
-fn submodule(
-    catalog: &Catalog,
-    (id, submodule): (SubmoduleId, &Submodule),
-    anchor: String,
-    diagnostics: &ShownDiagnostics,
-) -> ModuleModel {
-    let has_records = !submodule.records.is_empty();
-    let records = if has_records { profinet::address_of_records(catalog, id) } else { String::new() };
-    let items = Items { types: &catalog.types, calls: None, records: &records, diagnostics };
+fn submodule(submodule: &Submodule, anchor: String, items: Items<'_>) -> ModuleModel {
     let mut facts = facts(&submodule.name, submodule.documentation.as_deref(), &submodule.identity);
     facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
     facts.extend(
         submodule.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()),
     );
-    let image = |data: &IoData, title: &str| process::image(&data.image, &catalog.types, "", title);
+    let image = |data: &IoData, title: &str| process::image(&data.image, items.types, "", title);
     let inputs = submodule.input.as_deref().map(|data| image(data, "Inputs of the controller"));
     let outputs = submodule.output.as_deref().map(|data| image(data, "Outputs of the controller"));
     let names = words::names(&submodule.name, &submodule.names);
@@ -230,5 +241,6 @@ fn section(position: u32, group: &Group, rows: &mut Rows<'_>) -> (String, Sectio
         address::addresses(item, &[]).first().map_or_else(String::new, |address| address.number.clone())
     };
     let row = |(id, item)| Row { name: item::entry_name(item, group), ..rows.row(id, item, number(item), false) };
-    (title, Section::plain(group.items_at(position).map(row).collect()))
+    let plain = Section::plain(group.items_at(position).map(row).collect());
+    (title, Section { default_bytes: rows.known.record.shown_bytes(), ..plain })
 }

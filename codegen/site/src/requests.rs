@@ -2,12 +2,14 @@
 //! `requests.js` shows the same requests for a value, a node-ID and a Modbus unit identifier that the reader chooses.
 
 mod object;
+mod record;
 
 use super::tools;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{encoding, register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Type, TypeDef};
 use object::Object;
+pub(super) use record::OfRecord;
 
 /// The node-ID and Modbus unit identifier of the requests.
 const NODE: u8 = 1;
@@ -18,20 +20,17 @@ type Frame = Vec<Option<u8>>;
 /// A request: title and text.
 pub(super) type Request = (&'static str, String);
 
-/// Titles of the requests for records.
-const RECORD: [&str; 2] = ["PROFINET record read", "PROFINET record write"];
-
 /// Returns whether a request reads or writes a PROFINET record. Such a request contains neither a node-ID nor a Modbus
 /// unit identifier.
 pub(super) fn is_of_record((title, _): &Request) -> bool {
-    RECORD.contains(title)
+    record::TITLES.contains(title)
 }
 
 /// Returns the requests of an item. The node-ID or the Modbus unit identifier is 1. Write requests contain the default
 /// value. If the item has no valid default value, the bytes of the value are shown as `xx`.
 ///
-/// `of_records` is the address of the submodule that has the records of the item.
-pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> Vec<Request> {
+/// `record` is the record that contains the item.
+pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], record: &OfRecord<'_>) -> Vec<Request> {
     let mut all = Vec::new();
     for binding in &item.bindings {
         match binding {
@@ -56,11 +55,7 @@ pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], o
                 modbus(register, &functions, written.as_ref(), &mut all);
             }
             Binding::Record { index, bit_offset, bits } => {
-                let access = item.access_on(Bus::Profinet);
-                let text = record(of_records, *index, *bit_offset, *bits);
-                let [read, write] = RECORD;
-                all.extend(access.readable().then(|| (read, text.clone())));
-                all.extend(access.writable().then_some((write, text)));
+                all.extend(record.requests(item, types, (*index, *bit_offset, *bits)));
             }
             _ => {}
         }
@@ -208,20 +203,17 @@ fn rtu(function: u8, address: u16, data: &[Option<u8>]) -> String {
     }
 }
 
-/// Returns the address of a value in a record. `submodule` is the address of the submodule that has the record.
-fn record(submodule: &str, index: u16, bit_offset: u32, bits: u32) -> String {
-    let (last, length) = ((bit_offset + bits).saturating_sub(1), tools::record_length(bit_offset, bits));
-    let index = hex16(index);
-    format!("{submodule}, index {index}, length {length}; the value is in bits {bit_offset} to {last}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use lexibus_codegen::ir::{Access, Buses, ItemVariant, ObjectBuses, Value};
 
+    /// A record of seven bytes.
+    const RECORD: OfRecord<'_> =
+        OfRecord { submodule: "API 0, slot 1, subslot 1", length: 7, default_bytes: &[1, 2, 3, 4, 5, 6, 7] };
+
     fn texts(item: &Item) -> Vec<String> {
-        requests(item, &[], &[], "").into_iter().map(|(title, text)| format!("{title}: {text}")).collect()
+        requests(item, &[], &[], &RECORD).into_iter().map(|(title, text)| format!("{title}: {text}")).collect()
     }
 
     fn item(binding: Binding, ty: Type, default: Option<i128>) -> Item {
@@ -241,6 +233,25 @@ mod tests {
         let frames: Vec<String> =
             object.download(&known(&[1, 2, 3, 4, 5, 6, 7, 8])).iter().map(|frame| text(frame)).collect();
         assert_eq!(frames, ["21 10 20 01 08 00 00 00", "00 01 02 03 04 05 06 07", "1D 08 00 00 00 00 00 00"]);
+    }
+
+    #[test]
+    fn a_record_is_written_as_a_whole() {
+        let address = "API 0, slot 1, subslot 1, index 0x0002, length 7, value in";
+        let number =
+            |default| item(Binding::Record { index: 2, bit_offset: 16, bits: 16 }, Type::Unsigned(16), default);
+        let expected = |bytes: &str| {
+            let titles = ["PROFINET record read", "PROFINET record write"];
+            let mut texts: Vec<String> = titles.map(|title| format!("{title}: {address} bytes 2–3")).into();
+            texts.push(format!("PROFINET record bytes: {bytes}"));
+            texts
+        };
+        assert_eq!(texts(&number(Some(0x0304))), expected("01 02 03 04 05 06 07"));
+        assert_eq!(texts(&number(None)), expected("01 02 xx xx 05 06 07"));
+        let constant = Item { access: Access::Constant, ..number(Some(0x0304)) };
+        assert_eq!(texts(&constant), expected("")[..1]);
+        let text = item(Binding::Record { index: 2, bit_offset: 16, bits: 16 }, Type::VisibleString(Some(2)), None);
+        assert_eq!(texts(&text), expected("")[..1]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Attributes of a row for the script of the page, which converts values and shows requests.
 
+use super::requests::OfRecord;
 use lexibus_codegen::facts::{register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Scale, TypeDef, Value};
 
@@ -39,10 +40,9 @@ pub(super) fn range(item: &Item) -> String {
 ///   `ce-` has no requests on EtherCAT.
 /// - `m h 62 2 l 3/16`: Modbus table (its first letter), wire address, number of registers, flags and function codes. Flags:
 ///   `l` low word first, `s` swapped bytes, `x` sign-extended, `p` part of a register.
-/// - `r 1 8 16 4 API 0, slot 1, subslot 1`: index of the record, bit offset and number of bits of the item, number of
-///   bytes from the start of the record to the end of the item, and `of_records`, the address of the submodule that has
-///   the record.
-pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], of_records: &str) -> String {
+/// - `r 8 16 API 0, slot 1, subslot 1, …`: bit offset and number of bits of an item in a record, and the address of the
+///   value. `record` is the record that contains the item.
+pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], record: &OfRecord<'_>) -> String {
     let address = |binding: &Binding| match binding {
         Binding::Object { buses, index, sub_index } => {
             let buses = [(buses.canopen, "c", Bus::CanOpen), (buses.coe, "e", Bus::EtherCat)].into_iter();
@@ -51,7 +51,7 @@ pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], 
         }
         Binding::Register(register) => Some(registers(register, item, types, tables)),
         Binding::Record { index, bit_offset, bits } => {
-            Some(format!("r {index} {bit_offset} {bits} {} {of_records}", record_length(*bit_offset, *bits)))
+            Some(format!("r {bit_offset} {bits} {}", record.address(*index, *bit_offset, *bits)))
         }
         _ => None,
     };
@@ -63,11 +63,6 @@ pub(super) fn addresses(item: &Item, types: &[TypeDef], tables: &[ModbusTable], 
 pub(super) fn count(register: &RegisterBinding) -> u16 {
     let words = u16::from(register.words_per_address.max(1));
     register.count.div_ceil(words) * words
-}
-
-/// Returns the number of bytes from the start of a record to the end of an item.
-pub(super) fn record_length(bit_offset: u32, bits: u32) -> u32 {
-    (bit_offset + bits).div_ceil(8)
 }
 
 /// Returns the letters of the possible requests on a bus: `r`, `w`, `rw` or `-`. The text is empty if the requests correspond to
@@ -108,6 +103,8 @@ fn registers(register: &RegisterBinding, item: &Item, types: &[TypeDef], tables:
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const RECORD: OfRecord<'_> = OfRecord { submodule: "", length: 0, default_bytes: &[] };
     use lexibus_codegen::ir::{Access, Buses, ItemVariant, ObjectBuses, Type};
 
     #[test]
@@ -115,14 +112,14 @@ mod tests {
         let buses = ObjectBuses { canopen: true, coe: true };
         let binding = Binding::Object { buses, index: 0x6040, sub_index: 0 };
         let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
-        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 ce");
+        assert_eq!(addresses(&item, &[], &[], &RECORD), "o 24640 0 ce");
         let variant = |bus| ItemVariant { buses: Buses::from_iter([bus]), ..ItemVariant::default() };
         item.variants.push(ItemVariant { access: Some(Access::ReadOnly), ..variant(Bus::CanOpen) });
-        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 cre");
+        assert_eq!(addresses(&item, &[], &[], &RECORD), "o 24640 0 cre");
         item.variants.push(ItemVariant { ty: Some(Type::Unsigned(32)), ..variant(Bus::EtherCat) });
-        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 crer");
+        assert_eq!(addresses(&item, &[], &[], &RECORD), "o 24640 0 crer");
         item.access = Access::WriteOnly;
-        assert_eq!(addresses(&item, &[], &[], ""), "o 24640 0 cre-");
+        assert_eq!(addresses(&item, &[], &[], &RECORD), "o 24640 0 cre-");
     }
 
     #[test]
@@ -130,8 +127,8 @@ mod tests {
         let register = RegisterBinding { extended: true, ..RegisterBinding::new(RegisterSpace::Holding, 16, 2) };
         let binding = Binding::Register(Box::new(register));
         let mut item = Item { ty: Type::Unsigned(16), access: Access::ReadWrite, ..Item::new(binding) };
-        assert_eq!(addresses(&item, &[], &[], ""), "m h 16 2 - 3/16");
+        assert_eq!(addresses(&item, &[], &[], &RECORD), "m h 16 2 - 3/16");
         item.ty = Type::Integer(16);
-        assert_eq!(addresses(&item, &[], &[], ""), "m h 16 2 x 3/16");
+        assert_eq!(addresses(&item, &[], &[], &RECORD), "m h 16 2 x 3/16");
     }
 }

@@ -78,10 +78,28 @@ function modbusRequests([table, address, count, flags, functions], { canRead, ca
   return lines;
 }
 
-// A record is read and written as a whole.
-function recordRequests([index, offset, bits, length, ...submodule], { canRead, canWrite }) {
-  const record = `${submodule.join(" ")}, index 0x${hex(Number(index), 4)}, length ${length}`, bytes = `bits ${offset} to ${Number(offset) + Number(bits) - 1}`;
-  return [canRead && ["PROFINET record read", `${record}; the value is in ${bytes}`], canWrite && ["PROFINET record write", `${record}; the value is in ${bytes}`]].filter(Boolean);
+// Returns the bytes of a record with a raw value at its position. The bytes of a number are in the order from high to low.
+function recordBytes(bytes, offset, bits, raw) {
+  const changed = [...bytes], last = Math.floor((offset + bits - 1) / 8);
+  for (let bit = 0; bit < bits; bit++) {
+    const at = offset % 8 + bit, mask = 1 << at % 8, byte = last - Math.floor(at / 8);
+    changed[byte] = raw >> BigInt(bit) & 1n ? changed[byte] | mask : changed[byte] & ~mask;
+  }
+  return changed;
+}
+
+// A record is read and written as a whole. The other values have their default.
+function recordRequests([offset, bits, ...address], { canRead, canWrite, raw, record }) {
+  const text = address.join(" "), lines = canRead ? [["PROFINET record read", text]] : [];
+  if (canWrite) lines.push(["PROFINET record write", text]);
+  if (canWrite && record) lines.push(["PROFINET record bytes", bytesText(recordBytes(record, Number(offset), Number(bits), raw))]);
+  return lines;
+}
+
+// Returns the default bytes of the record with a row, which the page shows before the table.
+function recordOf(row) {
+  const text = row.closest("table").previousElementSibling?.querySelector(":scope > code")?.textContent;
+  return text?.split(" ").map((byte) => parseInt(byte, 16));
 }
 
 const KINDS = { o: objectRequests, m: modbusRequests, r: recordRequests };
@@ -103,13 +121,14 @@ function copyable([title, text]) {
 function requests(row, type) {
   const addresses = (row.dataset.at ?? "").split(";").filter(Boolean).map((address) => address.split(" "));
   const access = row.rows[0].cells[3].textContent, list = element("dl", {});
+  const record = addresses.some(([kind]) => kind === "r") ? recordOf(row) : undefined;
   const canRead = !/^wo/.test(access), isWritable = /^[rw]*w/.test(access) && Boolean(type);
   // Without a value there are no write requests, because a copied request would write 0.
   let raw;
   const show = () => {
     hint.textContent = isWritable && raw === undefined ? "Enter a raw value within the range for write requests." : "";
     const hasValue = Boolean(type) && raw !== undefined, canWrite = isWritable && hasValue, bytes = hasValue ? littleEndian(raw, Math.ceil(type.bits / 8)) : [];
-    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, hasValue, bytes, raw, node: node.value, unit: unit.value }));
+    const lines = addresses.flatMap(([kind, ...address]) => KINDS[kind](address, { canRead, canWrite, hasValue, bytes, raw, record, node: node.value, unit: unit.value }));
     list.replaceChildren(...lines.flatMap(copyable));
   };
   const node = keptNumber("node", "Node-ID", 1, 127, () => show()), unit = keptNumber("unit", "Modbus unit", 1, 247, () => show());

@@ -131,15 +131,40 @@ fn links_to_submodules_without_a_name_have_a_text() {
     assert!(!texts.is_empty() && texts.iter().all(|text| *text == "0x0000FFFF"), "{texts:?}");
 }
 
+/// Returns the page with the modules of a station with records.
+fn station(format: Format, name: &str) -> String {
+    let pages = files(format, &["tests/data/safe.gsdml.xml"]);
+    pages.into_iter().find(|page| page.path.ends_with(name)).expect("the modules").text
+}
+
 #[test]
-fn records_have_the_slot_and_subslot_of_their_submodule() {
-    let pages = files(Format::Markdown, &["tests/data/safe.gsdml.xml"]);
-    let text: String =
-        pages.iter().filter(|page| page.path.contains("/modules")).map(|page| page.text.as_str()).collect();
-    assert!(text.contains("PROFINET record read: API 0, slot of the module (1 to 3), subslot 1, index "), "{text}");
-    let pages = files(Format::Html, &["tests/data/safe.gsdml.xml"]);
-    let modules = pages.iter().find(|page| page.path.ends_with("/modules.html")).expect("the modules");
-    assert!(modules.text.contains(" API 0, slot of the module (1 to 3), subslot 1\""), "{}", modules.text);
+fn requests_for_records_are_about_the_whole_record() {
+    let address = "API 0, slot of the module (1 to 3), subslot 1, index 0x0002, length 9, value in bytes 3–6";
+    let bytes = "5A 01 84 3F C0 00 00 EE 07";
+    let text = station(Format::Markdown, "/modules.md");
+    let lines = [
+        format!("\nDefault bytes: `{bytes}`\n"),
+        format!("\nPROFINET record read: {address}\n"),
+        format!("\nPROFINET record write: {address}\nPROFINET record bytes: {bytes}\n"),
+    ];
+    for line in lines {
+        assert!(text.contains(&line), "{line}: {text}");
+    }
+    let text = station(Format::Html, "/modules.html");
+    for part in [format!(" data-at=\"r 24 32 {address}\""), format!("<p>Default bytes: <code>{bytes}</code><table")] {
+        assert!(text.contains(&part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn items_in_records_have_rust_code() {
+    let path = "submodules::safe_inputs::InputFilterRecord";
+    let text = station(Format::Markdown, "/modules.md");
+    let read = format!("\nrecords.read::<{path}>(address)?.gain\n");
+    let write = format!(
+        "\nlet record = {path} {{ gain: value, ..records.read(address)? }}; records.write(address, &record)?\n"
+    );
+    assert!(text.contains(&read) && text.contains(&write), "{text}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::scope::Scope;
 use super::RustOptions;
 use super::{catalog, device_names, model, objects, print, quantity};
-use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, ModuleId, ObjectBuses, Scale};
+use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, ModuleId, ObjectBuses, Scale, SubmoduleId};
 
 /// Version of the interface between generated code and the runtime. The version must equal
 /// `lexibus::interface::VERSION`.
@@ -80,6 +80,27 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
         (id, calls.collect())
     };
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
+}
+
+/// The records of a PROFINET submodule in the generated code, for documentation.
+#[derive(Clone, Debug, Default)]
+pub struct RecordUsage {
+    /// Code that reads and writes the items. In this code, the variable `records` is a `RecordAccess`, and `address` is
+    /// the address of the submodule.
+    pub calls: Calls,
+    /// Default bytes of the records, by the position of the record in the submodule.
+    pub default_bytes: HashMap<u32, Vec<u8>>,
+}
+
+/// Returns the usage of the records of each submodule for which code is generated.
+pub fn usage_of_records(catalog: &Catalog) -> HashMap<SubmoduleId, RecordUsage> {
+    #[cfg(feature = "gsdml")]
+    return super::profinet::usage_of_records(catalog);
+    #[cfg(not(feature = "gsdml"))]
+    {
+        let _ = catalog;
+        HashMap::new()
+    }
 }
 
 /// Returns the calls that read and write an item: first those for the physical value if the runtime can express the

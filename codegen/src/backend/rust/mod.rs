@@ -70,7 +70,8 @@ mod words;
 
 use emit::header;
 pub use emit::{
-    device_name, emit, emit_catalog, file_name, module_name, usage, usage_of_modules, Calls, Usage, INTERFACE_VERSION,
+    device_name, emit, emit_catalog, file_name, module_name, usage, usage_of_modules, usage_of_records, Calls,
+    RecordUsage, Usage, INTERFACE_VERSION,
 };
 pub use options::{Presence, RustOptions};
 #[cfg(feature = "gsdml")]

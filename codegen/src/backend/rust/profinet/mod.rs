@@ -14,6 +14,7 @@ mod program;
 mod record;
 mod scope;
 mod types;
+mod usage;
 mod values;
 
 use super::code::{line, Code, Doc};
@@ -27,6 +28,7 @@ pub(super) use image::{FieldModel, ImageModel};
 pub use program::{profinet_program, ProfinetData, ProfinetProgram};
 pub(super) use record::RecordModel;
 use scope::Scope;
+pub(super) use usage::usage_of_records;
 pub(super) use values::Enumeration;
 
 /// All device access points of a file, ready to be printed.

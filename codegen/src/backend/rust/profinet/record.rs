@@ -24,6 +24,9 @@ const MAX_NAME: usize = 32;
 /// Maximum length of a field's name, without a suffix that makes the name unique.
 const MAX_FIELD_NAME: usize = 30;
 
+/// Names that fields must not have.
+const RESERVED_FIELDS: [&str; 3] = ["self", "super", "crate"];
+
 /// Names that the constants for fields of a record must not have: keywords, and the names of constants that all records
 /// have.
 const RESERVED_CONSTANTS: [&str; 8] =
@@ -64,45 +67,97 @@ pub(in crate::backend::rust) struct ConstantModel {
 
 /// An item and its field in the record.
 struct Parameter<'i> {
+    /// Position of the item in the group.
+    position: u32,
     item: &'i Item,
     field: Field<'i>,
 }
 
+/// A record with a struct.
+struct Named<'a> {
+    /// Position of the group in the submodule.
+    position: u32,
+    group: &'a Group,
+    record: &'a Record,
+    /// Name of the struct without its ending.
+    name: String,
+}
+
+/// The generated struct of a record, for documentation.
+pub(super) struct RecordStruct<'a> {
+    /// Position of the record in the submodule.
+    pub position: u32,
+    pub name: String,
+    pub default_bytes: Vec<u8>,
+    /// The position of each item that has a field, the item, and the name of the field.
+    pub fields: Vec<(u32, &'a Item, String)>,
+}
+
 /// Returns the records of a submodule in the order of the description. Records without a valid length are left out.
 pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &RustOptions) -> Vec<RecordModel> {
-    let records = groups.iter().filter_map(|group| match &group.kind {
-        GroupKind::Record(record) if (1..=MAX_RECORD_BYTES).contains(&record.length) => Some((group, &**record)),
+    let model = |record| model(record, values, options);
+    named_records(groups).into_iter().map(model).collect()
+}
+
+/// Returns the structs of a submodule's records.
+pub(super) fn structs<'a>(groups: &'a [Group], values: &'a Values<'a>) -> Vec<RecordStruct<'a>> {
+    let found = |Named { position, group, record, name }| {
+        let parameters = parameters(group, record, values);
+        let default_bytes = default_bytes(record, &parameters);
+        let free: Vec<_> = parameters.into_iter().filter(|parameter| !parameter.is_constant()).collect();
+        let fields = named(&free, &RESERVED_FIELDS).into_iter();
+        let fields = fields.map(|(parameter, name)| (parameter.position, parameter.item, names::escaped(&name)));
+        RecordStruct { position, name: struct_name(&name), default_bytes, fields: fields.collect() }
+    };
+    named_records(groups).into_iter().map(found).collect()
+}
+
+fn named_records(groups: &[Group]) -> Vec<Named<'_>> {
+    let records = (0..).zip(groups).filter_map(|(position, group)| match &group.kind {
+        GroupKind::Record(record) if (1..=MAX_RECORD_BYTES).contains(&record.length) => {
+            Some((position, group, &**record))
+        }
         _ => None,
     });
-    let records: Vec<(&Group, &Record)> = records.collect();
+    let records: Vec<(u32, &Group, &Record)> = records.collect();
     let name_requests: Vec<NameRequest<'_>> = records
         .iter()
-        .map(|(group, record)| NameRequest::new(&group.name, "parameter", format!("{:04X}", record.index)))
+        .map(|(_, group, record)| NameRequest::new(&group.name, "parameter", format!("{:04X}", record.index)))
         .collect();
     let names = names::unique_up_to(&name_requests, &[], Case::Pascal, MAX_NAME);
     let all = records.into_iter().zip(names);
-    all.map(|((group, record), name)| model(group, record, name, values, options)).collect()
+    all.map(|((position, group, record), name)| Named { position, group, record, name }).collect()
 }
 
-fn model<'a>(
-    group: &'a Group,
-    record: &'a Record,
-    name: String,
-    values: &'a Values<'a>,
-    options: &RustOptions,
-) -> RecordModel {
-    let found = |item: &'a Item| {
+fn struct_name(name: &str) -> String {
+    format!("{name}Record")
+}
+
+/// Returns the items of a record that have a field.
+fn parameters<'a>(group: &'a Group, record: &Record, values: &'a Values<'a>) -> Vec<Parameter<'a>> {
+    let found = |(position, item): (u32, &'a Item)| {
         let (_, offset, bits) = record_address(item)?;
         let field = Field::new(values, item.ty, (offset, bits), record.length, Use::Record)?;
-        Some(Parameter { item, field })
+        Some(Parameter { position, item, field })
     };
-    let parameters: Vec<Parameter<'_>> = group.items.iter().filter_map(found).collect();
+    (0..).zip(&group.items).filter_map(found).collect()
+}
+
+impl Parameter<'_> {
+    /// Returns whether the field cannot be changed.
+    fn is_constant(&self) -> bool {
+        self.item.access == Access::Constant
+    }
+}
+
+fn model<'a>(record: Named<'a>, values: &'a Values<'a>, options: &RustOptions) -> RecordModel {
+    let Named { group, record, name, .. } = record;
+    let parameters = parameters(group, record, values);
     let left_out = group.items.len() - parameters.len();
     let bytes = default_bytes(record, &parameters);
-    let (fixed, free): (Vec<_>, Vec<_>) =
-        parameters.into_iter().partition(|parameter| parameter.item.access == Access::Constant);
+    let (fixed, free): (Vec<_>, Vec<_>) = parameters.into_iter().partition(Parameter::is_constant);
     let constants = constants(&fixed, &bytes, values);
-    let fields = named(&free, &["self", "super", "crate"]);
+    let fields = named(&free, &RESERVED_FIELDS);
     let model = |(parameter, name): &(&Parameter<'_>, String)| {
         let field = &parameter.field;
         FieldModel::new(field, name, facts(parameter, values), options)
@@ -115,7 +170,7 @@ fn model<'a>(
     let mut docs = record_docs(group, record, left_out);
     docs.extend(image::table(&models, &["check", "encode", "decode"], default));
     RecordModel {
-        name: format!("{name}Record"),
+        name: struct_name(&name),
         title: literal::string(&group.name),
         docs,
         derives: options.derives(true),
@@ -178,7 +233,7 @@ fn record_docs(group: &Group, record: &Record, left_out: usize) -> Vec<String> {
 }
 
 fn facts(parameter: &Parameter<'_>, values: &Values<'_>) -> Vec<String> {
-    let Parameter { item, field } = parameter;
+    let Parameter { item, field, .. } = parameter;
     let mut facts = field.facts(values.types, item.ty);
     if let Some(default) = &item.default {
         facts += &format!(", default {}", docs::value(default));

@@ -14,7 +14,7 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     for (offset, constant) in &record.constants {
         put(&mut bytes, *offset, constant);
     }
-    for Parameter { item, field } in parameters {
+    for Parameter { item, field, .. } in parameters {
         if let Some(default) = &item.default {
             put_default(&mut bytes, field, default);
         }

@@ -21,7 +21,7 @@ pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
 /// Returns a statement that checks a field. Returns `None` if all values of the Rust type are allowed. The allowed
 /// ranges are ignored if they contain no value of the field.
 pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<Doc> {
-    let Parameter { item, field } = parameter;
+    let Parameter { item, field, .. } = parameter;
     let allowed = ranges(&item.limits);
     let list = if field.is_bool() {
         bools(&allowed)
