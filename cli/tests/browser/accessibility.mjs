@@ -10,7 +10,7 @@ const PAGES = [
   "kollmorgen/akd/no-revision/profile-objects.html#0x6040",
 ];
 
-const [site] = process.argv.slice(2);
+const [site, networks] = process.argv.slice(2);
 const pages = process.env.LEXIBUS_LANE === "full" ? pagesOf(site) : PAGES;
 await withBrowser(async (browser) => {
   for (const colorScheme of ["light", "dark"]) {
@@ -28,9 +28,23 @@ await withBrowser(async (browser) => {
       await examine(window.page, `the search, ${colorScheme}, ${viewport.width} wide`);
       window.clean();
       await window.close();
+      await examineNetworks(browser, { colorScheme, viewport });
     }
   }
 });
+
+// Examines the pages of networks and segments, and the list of devices that leads to them.
+async function examineNetworks(browser, { colorScheme, viewport }) {
+  const window = await Window.open(browser, networks, { colorScheme, viewport });
+  const places = pagesOf(networks).filter((place) => /^(index\.html|_networks\/|_segments\/)/.test(place));
+  assert.equal(places.length, 3, places.join("\n"));
+  for (const place of places) {
+    await window.go(place);
+    await examine(window.page, `${place}, ${colorScheme}, ${viewport.width} wide`);
+  }
+  window.clean();
+  await window.close();
+}
 
 async function examine(page, what) {
   await browsed(page);

@@ -20,7 +20,7 @@ fn faults_of_pages_are_noticed() {
 
 #[test]
 fn each_page_loads_with_no_error_and_no_request_to_elsewhere() {
-    run("pages.mjs", || [sites::drives()]);
+    run("pages.mjs", || [sites::drives(), sites::networks()]);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn theme_and_language_are_kept() {
 
 #[test]
 fn pages_fit_on_a_phone() {
-    run("phone.mjs", || [sites::drives()]);
+    run("phone.mjs", || [sites::drives(), sites::networks()]);
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn pages_are_accessible_in_both_themes() {
     if lane::skips("accessibility") {
         return;
     }
-    run("accessibility.mjs", || [sites::drives()]);
+    run("accessibility.mjs", || [sites::drives(), sites::networks()]);
 }
 
 #[test]
@@ -102,5 +102,14 @@ fn pictures_are_kept() {
     if lane::skips("taking pictures") {
         return;
     }
-    run("screenshots.mjs", || [sites::drives(), sites::terminals(), sites::ethercat(), node::pictures()]);
+    run("screenshots.mjs", || {
+        [
+            sites::drives(),
+            sites::terminals(),
+            sites::ethercat(),
+            sites::station(),
+            sites::networks(),
+            node::pictures(),
+        ]
+    });
 }

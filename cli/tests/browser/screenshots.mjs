@@ -27,6 +27,17 @@ const COUPLER = [
   ["modules", "example/_files/coupler-esi/modules.html"],
 ];
 
+
+// Pages of a PROFINET station, and of a CANopen network and an EtherCAT segment.
+const STATION = [
+  ["access-point", "example/safe-head-0x00000001/no-revision/index.html"],
+  ["records", "example/_files/safe-gsdml/modules.html"],
+];
+const NETWORKS = [
+  ["network", "_networks/packaging-line.html"],
+  ["segment", "_segments/segment.html"],
+];
+
 const SCREENS = {
   desktop: { viewport: { width: 1280, height: 900 } },
   phone: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true },
@@ -51,11 +62,13 @@ async function take(browser, site, pictures, folder) {
   }
 }
 
-const [drives, terminals, coupler, folder] = process.argv.slice(2);
+const [drives, terminals, coupler, station, networks, folder] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
 await withBrowser(async (browser) => {
   await take(browser, drives, DRIVES, folder);
   await take(browser, terminals, TERMINALS, folder);
   await take(browser, coupler, COUPLER, folder);
+  await take(browser, station, STATION, folder);
+  await take(browser, networks, NETWORKS, folder);
   console.log(`pictures are in ${path.resolve(folder)}`);
 });

@@ -56,6 +56,25 @@ pub fn station() -> PathBuf {
     documented("station", &["../tests/data/safe.gsdml.xml"])
 }
 
+/// Returns the site of a CANopen network and an EtherCAT segment.
+pub fn networks() -> PathBuf {
+    const SEGMENT: &str = "[segment]\ncycle = 1000\n[segment.subdevices.terminals]\ndevice = \"coupler.esi.xml\"\n\
+        model = \"CP-32\"\nmodules = { 0 = \"DI-16\", 1 = \"DO-8\", 3 = 0x3001 }\n[segment.subdevices.axis]\n\
+        device = \"coupler.esi.xml\"\nmodel = \"SV-1\"\ndc = \"DC\"\nparameters = { \"0x2000:2\" = 250 }\n";
+    static SITE: OnceLock<PathBuf> = OnceLock::new();
+    let site = SITE.get_or_init(|| {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let (source, site) = (folder("networks-source"), folder("networks"));
+        let segment = source.join("segment.toml");
+        std::fs::write(&segment, SEGMENT).expect("a temporary file");
+        std::fs::copy(root.join("tests/data/coupler.esi.xml"), source.join("coupler.esi.xml")).expect("a description");
+        let network = root.join("examples/network/network.toml");
+        lexibus(|command| command.arg("docs").args([&network, &segment]).arg("--out").arg(&site), &[0]);
+        site
+    });
+    site.clone()
+}
+
 /// Returns the site of an EtherCAT coupler and an EtherCAT drive. The drive has PDOs with a changeable mapping.
 pub fn ethercat() -> PathBuf {
     documented("ethercat", &["../tests/data/coupler.esi.xml"])

@@ -88,7 +88,8 @@ pub struct RecordUsage {
     /// Code that reads and writes the items. In this code, the variable `records` is a `RecordAccess`, and `address` is
     /// the address of the submodule.
     pub calls: Calls,
-    /// Default bytes of the records, by the position of the record in the submodule.
+    /// Default bytes of the records, by the position of the record in the submodule; empty if the bytes of a default
+    /// value are unknown.
     pub default_bytes: HashMap<u32, Vec<u8>>,
 }
 

@@ -14,7 +14,7 @@ use crate::facts::number::hex16;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
 use crate::names::{self, Case, NameRequest};
-use bytes::{default_bytes, value_of};
+use bytes::{default_bytes, has_bytes, value_of};
 use check::{check, ranges};
 
 /// Maximum length of a record's name, without a suffix that makes the name unique. The limit keeps the generated lines
@@ -88,6 +88,7 @@ pub(super) struct RecordStruct<'a> {
     /// Position of the record in the submodule.
     pub position: u32,
     pub name: String,
+    /// Default bytes of the record; empty if the bytes of a default value are unknown.
     pub default_bytes: Vec<u8>,
     /// The position of each item that has a field, the item, and the name of the field.
     pub fields: Vec<(u32, &'a Item, String)>,
@@ -103,7 +104,8 @@ pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &
 pub(super) fn structs<'a>(groups: &'a [Group], values: &'a Values<'a>) -> Vec<RecordStruct<'a>> {
     let found = |Named { position, group, record, name }| {
         let parameters = parameters(group, record, values);
-        let default_bytes = default_bytes(record, &parameters);
+        let is_known = parameters.len() == group.items.len() && parameters.iter().all(has_bytes);
+        let default_bytes = if is_known { default_bytes(record, &parameters) } else { Vec::new() };
         let free: Vec<_> = parameters.into_iter().filter(|parameter| !parameter.is_constant()).collect();
         let fields = named(&free, &RESERVED_FIELDS).into_iter();
         let fields = fields.map(|(parameter, name)| (parameter.position, parameter.item, names::escaped(&name)));

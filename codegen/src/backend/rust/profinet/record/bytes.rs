@@ -22,6 +22,14 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
+/// Returns whether a field can contain the default value of its item.
+pub(super) fn has_bytes(Parameter { item, field, .. }: &Parameter<'_>) -> bool {
+    item.default.as_ref().is_none_or(|default| match (field.byte_string(), default) {
+        (Some(_), default) => matches!(default, Value::Text(_) | Value::Bytes(_)),
+        (None, default) => default.as_real().is_some() || default.as_int().is_some(),
+    })
+}
+
 /// Copies `data` to `bytes` at `offset`. Data beyond the end of `bytes` is ignored.
 fn put(bytes: &mut [u8], offset: u32, data: &[u8]) {
     for (to, from) in bytes.iter_mut().skip(offset as usize).zip(data) {
