@@ -1,7 +1,8 @@
 // Tests printed pages: they show the name of the device, have dark text on white in both themes, and contain no controls.
-// Folded texts are printed, and numbers stay in one line. A long page has few sheets.
+// Folded texts are printed, and numbers stay in one line. A long page has few sheets, and no sheet is empty.
 import assert from "node:assert/strict";
-import { Window, withBrowser } from "./browser.mjs";
+import { inflateSync } from "node:zlib";
+import { pagesOf, sampled, Window, withBrowser } from "./browser.mjs";
 
 const [site] = process.argv.slice(2);
 await withBrowser(async (browser) => {
@@ -34,6 +35,10 @@ await withBrowser(async (browser) => {
     window.clean();
     await window.close();
   }
+  const window = await Window.open(browser, site);
+  await hasNoEmptySheets(window);
+  window.clean();
+  await noticesAnEmptySheet(await browser.newPage());
 });
 
 async function complete(window) {
@@ -55,4 +60,26 @@ async function isShort(window) {
   const document = await page.pdf({ format: "A4", margin: { top: margin, right: margin, bottom: margin, left: margin } });
   const sheets = document.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
   assert.ok(sheets > 4 && sheets <= 12, `${sheets} sheets`);
+}
+
+// Checks that each printed sheet contains text.
+async function hasNoEmptySheets(window) {
+  for (const place of sampled(pagesOf(site), 3)) {
+    const page = await window.go(place), texts = textsOf(await page.pdf({ format: "A4" }));
+    assert.ok(texts.length && texts.every((count) => count > 0), `${place}: texts on its sheets: ${texts}`);
+  }
+}
+
+async function noticesAnEmptySheet(page) {
+  await page.setContent("<p>first</p><hr style='break-before: page'><p style='break-before: page'>third</p>");
+  assert.deepEqual(textsOf(await page.pdf()).map((count) => count > 0), [true, false, true]);
+}
+
+// Returns the number of texts on each sheet of a PDF.
+function textsOf(pdf) {
+  const text = pdf.toString("latin1");
+  return [...text.matchAll(/\/Type\s*\/Page\b[^]*?\/Contents (\d+) 0 R/g)].map(([, number]) => {
+    const start = text.indexOf("stream\n", text.indexOf(`\n${number} 0 obj`)) + "stream\n".length;
+    return inflateSync(pdf.subarray(start)).toString("latin1").match(/\bT[jJ]\b/g)?.length ?? 0;
+  });
 }
