@@ -170,6 +170,14 @@ impl Pages for Html {
     }
 
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
+        let title = match content {
+            Content::Changes(comparison) => Some(&comparison.title),
+            Content::Network(network) => Some(&network.title),
+            Content::Segment(segment) => Some(&segment.title),
+            _ => None,
+        };
+        let alone = title.and_then(|title| frame.alone(file, title));
+        let (frame, file) = alone.as_ref().map_or((frame, file), |(frame, file)| (frame, file.as_str()));
         match content {
             Content::Overview(overview, contents) => written(&OverviewPage { frame, file, overview, contents }),
             Content::Area(area) => {

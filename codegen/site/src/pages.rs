@@ -50,6 +50,18 @@ impl Frameset {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
 
+    /// Returns the frame of a page that belongs to no device, such as a network, and the file name of the page. The tree
+    /// contains only this page. Returns `None` if the frame already has pages.
+    pub fn alone(&self, path: &str, title: &str) -> Option<(Frameset, String)> {
+        if self.device_pages.count() + self.shared.count() > 0 {
+            return None;
+        }
+        let file = path.rsplit('/').next().unwrap_or(path).to_owned();
+        let shared = Rc::new(Links::new(vec![(file.clone(), title.to_owned())], 0..1));
+        let Frameset { title, root, .. } = self;
+        Some((Frameset { title: title.clone(), root, shared, ..Frameset::default() }, file))
+    }
+
     /// Returns the breadcrumb trail of `file`: the list of devices, the first page of the device or catalog, and `file` itself if
     /// it is another page.
     pub fn path(&self, file: &str) -> Vec<(&String, &String)> {

@@ -79,9 +79,9 @@ const copies = (parts) => [...parts].map((part) => part.nodeName === "A" ? part.
 
 function contents() {
   const objects = [...document.querySelectorAll("tbody.object[id]")];
-  const sections = objects.length ? objects : [...document.querySelectorAll("main section[id]")];
+  const sections = objects.length ? objects : [...document.querySelectorAll("main :is(section, h2)[id]")];
   return sections.map((section) => {
-    const heading = section.querySelector("h2, h3") ?? section.querySelector("tr");
+    const heading = section.matches("h2") ? section : section.querySelector("h2, h3") ?? section.querySelector("tr");
     const row = heading.matches("tr") && heading.cells;
     const parts = row ? [row[0].textContent, " ", ...copies(row[1].querySelectorAll(":scope > :is(b, i)"))] : copies(heading.childNodes);
     return element("li", {}, element("a", { href: "#" + section.id }, ...parts));
