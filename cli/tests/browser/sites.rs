@@ -1,5 +1,5 @@
 //! Creates the documentation sites that the scripts open. The site of the four drives, which most scripts open, is
-//! created only once.
+//! created only once, as are the other sites that several scripts open.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -53,7 +53,8 @@ pub fn modular() -> PathBuf {
 
 /// Returns the site of a PROFINET station with parameter records.
 pub fn station() -> PathBuf {
-    documented("station", &["../tests/data/safe.gsdml.xml"])
+    static SITE: OnceLock<PathBuf> = OnceLock::new();
+    SITE.get_or_init(|| documented("station", &["../tests/data/safe.gsdml.xml"])).clone()
 }
 
 /// Returns the site of a CANopen network and an EtherCAT segment.
@@ -77,12 +78,18 @@ pub fn networks() -> PathBuf {
 
 /// Returns the site of an EtherCAT coupler and an EtherCAT drive. The drive has PDOs with a changeable mapping.
 pub fn ethercat() -> PathBuf {
-    documented("ethercat", &["../tests/data/coupler.esi.xml"])
+    static SITE: OnceLock<PathBuf> = OnceLock::new();
+    SITE.get_or_init(|| documented("ethercat", &["../tests/data/coupler.esi.xml"])).clone()
 }
 
 /// Returns a site with EtherCAT terminals. One of the terminals is described in two revisions. The site also compares
 /// two descriptions.
 pub fn terminals() -> PathBuf {
+    static SITE: OnceLock<PathBuf> = OnceLock::new();
+    SITE.get_or_init(write_terminals).clone()
+}
+
+fn write_terminals() -> PathBuf {
     let entry = |ty: &str, bits: u8| {
         format!(
             "<Entry><Index>#x7010</Index><SubIndex>1</SubIndex><BitLen>{bits}</BitLen><Name>Set counter value</Name>\
@@ -142,6 +149,11 @@ pub fn many() -> PathBuf {
 
 /// Returns a site with 2,000 registers of eight fields each.
 pub fn large() -> PathBuf {
+    static SITE: OnceLock<PathBuf> = OnceLock::new();
+    SITE.get_or_init(write_large).clone()
+}
+
+fn write_large() -> PathBuf {
     let field = |at: usize| {
         format!("\"{}-{}\" = {{ name = \"field {at}\", number = true, doc = \"What it does\" }}", 2 * at + 1, 2 * at)
     };

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::calls::{Calls, RecordUsage, Usage};
 use super::code::Code;
 use super::context::Context;
 use super::ethercat::ModulePaths;
@@ -9,7 +10,7 @@ use super::model::Model;
 use super::scope::Scope;
 use super::RustOptions;
 use super::{catalog, device_names, model, objects, print, quantity};
-use crate::ir::{Catalog, Device, FileInfo, Item, ItemId, ModuleId, ObjectBuses, Scale, SubmoduleId};
+use crate::ir::{Catalog, Device, FileInfo, Item, ModuleId, Scale, SubmoduleId};
 
 /// Version of the interface between generated code and the runtime. The version must equal
 /// `lexibus::interface::VERSION`.
@@ -47,17 +48,6 @@ pub(super) fn header(file: &FileInfo) -> String {
     )
 }
 
-/// Rust calls that read and write each item, such as `device.identity().vendor_id().read()?`.
-pub type Calls = HashMap<ItemId, Vec<String>>;
-
-/// The calls and PDO names of a device in the generated code, for documentation.
-pub struct Usage {
-    /// Calls that read and write the items of the device.
-    pub calls: Calls,
-    /// Names of the PDO structs, by the index of the mapping object and the buses of the PDO.
-    pub pdos: HashMap<(u16, Option<ObjectBuses>), String>,
-}
-
 /// Returns the calls and PDO names of a device in the generated code.
 pub fn usage(device: &Device) -> Usage {
     let context = model::context(Scope::of_device(device), &RustOptions::default(), "");
@@ -80,17 +70,6 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
         (id, calls.collect())
     };
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
-}
-
-/// The records of a PROFINET submodule in the generated code, for documentation.
-#[derive(Clone, Debug, Default)]
-pub struct RecordUsage {
-    /// Code that reads and writes the items. In this code, the variable `records` is a `RecordAccess`, and `address` is
-    /// the address of the submodule.
-    pub calls: Calls,
-    /// Default bytes of the records, by the position of the record in the submodule; empty if the bytes of a default
-    /// value are unknown.
-    pub default_bytes: HashMap<u32, Vec<u8>>,
 }
 
 /// Returns the usage of the records of each submodule for which code is generated.

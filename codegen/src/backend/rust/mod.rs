@@ -6,6 +6,7 @@
 mod axes;
 mod bit_field;
 mod bus_facts;
+mod calls;
 mod catalog;
 mod cia402;
 mod code;
@@ -68,10 +69,11 @@ mod window;
 mod window_model;
 mod words;
 
+pub use calls::{Calls, RecordUsage, Usage};
 use emit::header;
 pub use emit::{
-    device_name, emit, emit_catalog, file_name, module_name, usage, usage_of_modules, usage_of_records, Calls,
-    RecordUsage, Usage, INTERFACE_VERSION,
+    device_name, emit, emit_catalog, file_name, module_name, usage, usage_of_modules, usage_of_records,
+    INTERFACE_VERSION,
 };
 pub use options::{Presence, RustOptions};
 #[cfg(feature = "gsdml")]

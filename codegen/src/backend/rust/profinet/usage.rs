@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::record::{self, RecordStruct};
 use super::scope::Scope;
 use super::RustOptions;
-use crate::backend::rust::RecordUsage;
+use crate::backend::rust::calls::RecordUsage;
 use crate::ir::{Catalog, ItemId, SubmoduleId};
 
 /// Returns the usage of the records of each submodule for which code is generated.
