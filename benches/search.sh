@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures how long the search of a site needs after each keystroke: benches/search.sh DESCRIPTION... Set LEXIBUS to the
+# Measures how long the search of a site needs after each keystroke, elapsed and on the processor: benches/search.sh DESCRIPTION... Set LEXIBUS to the
 # program that writes the site; otherwise, the script builds it. cli/tests/browser/README.md lists the requirements.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,3 +15,4 @@ fi
 # Ignore the exit code: descriptions with errors are left out of the site.
 "$LEXIBUS" docs "$@" --out "$site" 2>/dev/null || true
 node benches/search.mjs "$site"
+node benches/speed.mjs "$site"

@@ -98,17 +98,6 @@ fn two_thousand_registers_are_usable() {
 }
 
 #[test]
-fn pages_and_searches_are_fast() {
-    if lane::skips("measuring times") {
-        return;
-    }
-    match sites::corpus() {
-        Some(corpus) => run("speed.mjs", || [sites::large(), corpus]),
-        None => run("speed.mjs", || [sites::large()]),
-    }
-}
-
-#[test]
 fn pictures_are_kept() {
     if lane::skips("taking pictures") {
         return;

@@ -173,18 +173,6 @@ fn write_large() -> PathBuf {
     site
 }
 
-/// Returns the site of the whole corpus, or `None` if the corpus is absent. Descriptions with errors are left out.
-pub fn corpus() -> Option<PathBuf> {
-    let descriptions = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    if !descriptions.is_dir() {
-        println!("skipped: the corpus is absent");
-        return None;
-    }
-    let site = folder("corpus");
-    lexibus(|command| command.arg("docs").arg(&descriptions).arg("--out").arg(&site), &[0, 1]);
-    Some(site)
-}
-
 /// Returns a site for descriptions that contain markup. The file `diff.html` of the site compares two versions of a
 /// description.
 pub fn hostile() -> PathBuf {

@@ -1,11 +1,6 @@
-// Tests the processor time that a page needs: to load 500 items, to show the first result of a search, and to answer each further
-// keystroke. Processor time does not contain the time of other programs, so the limits hold on a busy machine, too. Arguments: a site
-// with 2,000 registers, and a site with the whole corpus.
-import assert from "node:assert/strict";
-import { Window, withBrowser } from "./browser.mjs";
-
-// Maximum processor times in ms.
-const LOAD = 200, FIRST_RESULT = 300, KEYSTROKE = 50;
+// Measures the processor time that a page needs: to show the first result of a search, to answer each further keystroke, and to load a
+// page. Other programs change processor time less than elapsed time. Arguments: a site, and optionally the path of a page.
+import { Window, withBrowser } from "../cli/tests/browser/browser.mjs";
 
 // Each time is measured so often, and the shortest time counts.
 const RUNS = 3;
@@ -42,16 +37,12 @@ class Clock {
   }
 }
 
-const [large, corpus] = process.argv.slice(2);
+const [site, page] = process.argv.slice(2);
 await withBrowser(async (browser) => {
-  const registers = await Clock.open(browser, large);
-  await loads(registers, "unknown-vendor/large/no-revision/registers.html");
-  await answers(registers, ["register_1999"]);
-  await registers.close();
-  if (!corpus) return;
-  const all = await Clock.open(browser, corpus);
-  await answers(all, QUERIES);
-  await all.close();
+  const clock = await Clock.open(browser, site);
+  await answers(clock, QUERIES);
+  if (page) await loads(clock, page);
+  await clock.close();
 });
 
 async function shortest(measure) {
@@ -60,7 +51,7 @@ async function shortest(measure) {
   return times[0].map((_, at) => Math.min(...times.map((run) => run[at])));
 }
 
-// Checks the time until a page is complete and its script has run.
+// Prints the time until a page is complete and its script has run.
 async function loads(clock, place) {
   const [time] = await shortest(async () => {
     await clock.window.go("index.html");
@@ -68,10 +59,9 @@ async function loads(clock, place) {
     return [await clock.time(() => clock.window.go(place))];
   });
   console.log(`loading ${place}: ${time.toFixed(0)} ms`);
-  assert.ok(time > 0 && time <= LOAD, `loading ${place}: ${time} ms`);
 }
 
-// Checks the times from the first letter to its results, and of each further letter. The browser has loaded the index.
+// Prints the times from the first letter to its results, and of each further letter. The browser has loaded the index.
 async function answers(clock, queries) {
   const { page } = clock;
   for (const query of queries) {
@@ -86,7 +76,5 @@ async function answers(clock, queries) {
     });
     const most = Math.max(...others);
     console.log(`${query}: first letter ${first.toFixed(0)} ms, further letters at most ${most.toFixed(0)} ms`);
-    assert.ok(first > 0 && first <= FIRST_RESULT, `${query}: first letter ${first} ms`);
-    assert.ok(most <= KEYSTROKE, `${query}: further letters ${others.map(Math.round)} ms`);
   }
 }
