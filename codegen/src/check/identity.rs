@@ -1,4 +1,4 @@
-//! Identity: differences between the identity of the device and object 0x1018 (CiA 301 7.5.2.19).
+//! Identity: differences between the identity of the device and object 0x1018 (CiA 301 7.5.2.21).
 
 use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};

@@ -10,7 +10,7 @@ use crate::resolve::{announced_count, is_device_of_number};
 /// Bit of a COB-ID that disables the PDO (CiA 301 7.5.2.35 and 7.5.2.37).
 const DISABLED: i128 = 1 << 31;
 
-/// Maximum number of entries of a PDO mapping. Greater values of sub-index 0 select a multiplexed PDO (CiA 301 7.5.2.36).
+/// Maximum number of entries of a PDO mapping. Greater values of sub-index 0 select a multiplexed PDO or are reserved (CiA 301 7.5.2.36).
 const MAX_ENTRIES: u8 = 64;
 
 /// The values that configure a device, and the objects that are left out. The fields with values are in the order of
@@ -235,7 +235,7 @@ fn reason(group: &Group, item: &Item) -> Option<LeftOut> {
     match group.index() {
         _ if !item.access.writable() => Some(LeftOut::ReadOnly),
         _ if (group.flags | item.flags) & REFUSES_WRITE != 0 => Some(LeftOut::RefusesDownload),
-        // Error history, store parameters and restore default parameters (CiA 301 7.5.2.3, 7.5.2.13 and 7.5.2.14).
+        // Error history, store parameters and restore default parameters (CiA 301 7.5.2.4, 7.5.2.13 and 7.5.2.14).
         Some(0x1003 | 0x1010 | 0x1011) => Some(LeftOut::Command),
         _ => None,
     }

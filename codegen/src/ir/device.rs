@@ -119,7 +119,7 @@ impl Device {
     }
 }
 
-/// Identity of a device: vendor, product and revision (object 0x1018, CiA 301 7.5.2.19).
+/// Identity of a device: vendor, product and revision (object 0x1018, CiA 301 7.5.2.21).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Identity {
