@@ -1904,7 +1904,7 @@ pub mod types {
     }
     /// ErrorFieldEntry.
     ///
-    /// Definition from CiA 301, 7.5.2.3.
+    /// Definition from CiA 301, 7.5.2.4.
     ///
     /// Value type of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3) and [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
     ///
@@ -3046,7 +3046,7 @@ pub mod codes {
     ///
     /// Error codes of emergency messages. The device also stores the codes in 0x1003.
     ///
-    /// Description from CiA 301, 7.2.7.1, 7.5.2.3.
+    /// Description from CiA 301, 7.2.7.1, 7.5.2.4.
     ///
     /// The codes have the type [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
@@ -3430,9 +3430,9 @@ pub mod objects {
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
-        /// Bits from CiA 301, 7.5.2.3.
+        /// Bits from CiA 301, 7.5.2.4.
         ///
-        /// Description from CiA 301, 7.5.2.3.
+        /// Description from CiA 301, 7.5.2.4.
         pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -3445,9 +3445,9 @@ pub mod objects {
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
-        /// Bits from CiA 301, 7.5.2.3.
+        /// Bits from CiA 301, 7.5.2.4.
         ///
-        /// Description from CiA 301, 7.5.2.3.
+        /// Description from CiA 301, 7.5.2.4.
         pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -3460,9 +3460,9 @@ pub mod objects {
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
-        /// Bits from CiA 301, 7.5.2.3.
+        /// Bits from CiA 301, 7.5.2.4.
         ///
-        /// Description from CiA 301, 7.5.2.3.
+        /// Description from CiA 301, 7.5.2.4.
         pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(
@@ -3475,9 +3475,9 @@ pub mod objects {
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
-        /// Bits from CiA 301, 7.5.2.3.
+        /// Bits from CiA 301, 7.5.2.4.
         ///
-        /// Description from CiA 301, 7.5.2.3.
+        /// Description from CiA 301, 7.5.2.4.
         pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
         > = super::ReadOnlyNamedErrorFieldEntry::object(

@@ -35394,7 +35394,7 @@ pub mod types {
     }
     /// ErrorFieldEntry.
     ///
-    /// Definition from CiA 301, 7.5.2.3.
+    /// Definition from CiA 301, 7.5.2.4.
     ///
     /// Value type of [`pre_defined_error_field::STANDARD_ERROR_FIELD_1`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_1) and [`pre_defined_error_field::STANDARD_ERROR_FIELD_2`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_2).
     ///
@@ -47397,7 +47397,7 @@ pub mod objects {
         ///
         /// Error history, entry 1. The low word contains the error code, as in 0x603F. The entry exists only after an error.
         ///
-        /// Bits from CiA 301, 7.5.2.3.
+        /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Manual: PRE-DEFINED ERROR FIELD: standard\_error\_field.
         ///
@@ -47416,7 +47416,7 @@ pub mod objects {
         ///
         /// Error history, entry 2. The entry exists only after an error.
         ///
-        /// Bits from CiA 301, 7.5.2.3.
+        /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Manual: PRE-DEFINED ERROR FIELD: standard\_error\_field.
         ///

@@ -1797,7 +1797,7 @@ pub mod codes {
     ///
     /// Error codes of emergency messages. The device also stores the codes in 0x1003.
     ///
-    /// Description from CiA 301, 7.2.7.1, 7.5.2.3.
+    /// Description from CiA 301, 7.2.7.1, 7.5.2.4.
     ///
     /// The codes have the type [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
