@@ -105,8 +105,8 @@ impl<C> CanOpenConnection<C> {
     }
 }
 
-/// Length of the buffer for the first attempt to read a value. A client reads values up to this length without a block
-/// transfer, which some devices don't support.
+/// Length of the buffer for the first attempt to read a value. By default, [`Node`](lexibus::clients::canopen::Node)
+/// reads values up to this length without a block transfer, which some devices don't support.
 const SHORT: usize = 900;
 /// Maximum length of a value.
 const LONG: usize = 1 << 20;

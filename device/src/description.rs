@@ -57,7 +57,7 @@ impl Error for DescriptionError {}
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FindError {
-    /// No parameter has this name or address. The second field is a similar name, if there is one.
+    /// No parameter has this name or address. The second field is a similar name or path, if there is one.
     Unknown(String, Option<String>),
     /// The address belongs to an object of an axis after the first one. The fields are the address, the number of this
     /// axis, and the corresponding object of the first axis.
@@ -91,7 +91,7 @@ impl Description {
     ///
     /// # Errors
     ///
-    /// Fails if the file has errors, if it doesn't describe exactly one selected device, or if this device has no
+    /// Fails if the file has errors, if the file and `options` don't select exactly one device, or if this device has no
     /// parameter on the network.
     pub fn compile(source: Source, network: Network, options: &Options) -> Result<Self, DescriptionError> {
         let compilation = compile::check(source, options);

@@ -1,4 +1,4 @@
-//! Parameters that must not be read or written unless a person names them.
+//! Parameters that are not read, or not restored, unless the caller names them.
 
 use std::fmt;
 
@@ -68,7 +68,7 @@ pub enum ReadRefusal {
     WriteOnly,
     /// The parameter refuses reads during a scan (bit 1 of ObjFlags, CiA 306).
     RefusesScan,
-    /// The device clears the value automatically, so a read may change it.
+    /// The device clears the value automatically, possibly when the value is read.
     Clears,
 }
 

@@ -37,7 +37,7 @@ pub struct FoundNode {
 /// The numbers of the identity in which a node and a description agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Fit {
-    /// Vendor ID and product code are equal. The description states no revision, or another one.
+    /// Vendor ID and product code are equal. The revision number is different or unknown.
     Product,
     /// Vendor ID, product code and revision number are equal.
     Revision,

@@ -83,8 +83,8 @@ impl Decoder {
     }
 }
 
-/// Parses a line as a frame. A time stamp at the end is ignored. Returns `None` if the line is not a frame: its CAN-ID
-/// or length is invalid, a digit is not hexadecimal, or it has too few or too many digits.
+/// Parses a line as a frame. A time stamp at the end is ignored. Returns `None` if the line is not a frame. For
+/// example, the CAN-ID or length is invalid, a digit is not hexadecimal, or the line has too few or too many digits.
 fn frame(line: &[u8]) -> Option<CanFrame> {
     let (kind, digits) = line.split_first()?;
     let (width, flag, is_remote) = match kind {

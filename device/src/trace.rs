@@ -7,7 +7,7 @@ use lexibus::clients::canopen::CanFrame;
 /// A line of a trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {
-    /// A frame. Its time is that of the trace, if the line has one.
+    /// A frame. The frame has the time that the line states, or no time if the line states none.
     Frame(CanFrame),
     /// A line without a frame, such as an empty line, a comment, a header, or an event of an ASC file.
     Other,

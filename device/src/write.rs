@@ -101,7 +101,7 @@ impl<'d> Write<'d> {
         Ok(Self { parameter, value, bytes })
     }
 
-    /// Creates a write without a check of the limits, for values that were checked before.
+    /// Creates a write without checks. A restore derives such writes from values that it checked.
     pub(crate) fn unchecked(parameter: Parameter<'d>, value: Value, bytes: Vec<u8>) -> Self {
         Self { parameter, value, bytes }
     }

@@ -17,7 +17,7 @@ use crate::protection::Protection;
 pub struct Options {
     /// Node-ID or Modbus server address of the device.
     pub node_id: Option<u8>,
-    /// Addresses of parameters that are saved although they are protected or volatile.
+    /// Addresses of parameters that are saved, although a backup otherwise leaves them out.
     pub include: Vec<Address>,
 }
 

@@ -25,9 +25,9 @@ pub struct Event {
 pub struct Named {
     /// Address of the parameter.
     pub address: String,
-    /// Name of the parameter.
+    /// Name of the parameter. For an SDO message, the address, followed by the path if the parameter is known.
     pub name: String,
-    /// Value with its unit.
+    /// Value as text, with its unit if there is one.
     pub value: String,
 }
 

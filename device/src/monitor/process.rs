@@ -54,8 +54,8 @@ impl<'d> Pdos<'d> {
 }
 
 impl<'d> Known<'d> {
-    /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if it
-    /// has no COB-ID.
+    /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if
+    /// the PDO has no COB-ID.
     fn new(node: u8, description: &'d Description, pdo: &Pdo) -> Option<Self> {
         let communication = pdo.communication.as_ref()?;
         let item = description.object(communication.index, 1).map(|parameter| parameter.item());
@@ -87,8 +87,8 @@ impl Field<'_> {
         Some(Named { address: self.parameter.address_text(), name: self.parameter.name(), value })
     }
 
-    /// Returns the bits of the field, or `None` if the frame is too short. The first bit of the field is bit 0 of the
-    /// first byte.
+    /// Returns the bits of the field, or `None` if the frame is too short. The first bit of the field becomes bit 0 of
+    /// the first returned byte.
     fn bytes(&self, data: &[u8]) -> Option<Vec<u8>> {
         let (first, end) = (self.offset as usize, (self.offset + self.bits) as usize);
         if end > 8 * data.len() {

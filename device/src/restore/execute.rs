@@ -15,12 +15,13 @@ use crate::write::{Write, WriteError};
 pub enum Status {
     /// The device confirmed the write.
     Written,
-    /// The device refused the value, or a condition of the description doesn't hold. The old value remains.
+    /// The device refused the value, or a condition of the description doesn't hold or cannot be checked. The old value
+    /// remains.
     Refused(WriteError),
-    /// The bus failed, the device didn't reply, or it refused one of several Modbus requests for the value. The device
-    /// has the old value, the new value, or a part of the new value.
+    /// The bus failed, the device didn't reply, or it refused a Modbus request for a value of several registers. The
+    /// device has the old value, the new value, or a part of the new value.
     Uncertain(Failure),
-    /// The condition for this write could not be checked, because the bus failed or the device didn't reply. Nothing was sent.
+    /// The bus failed or the device didn't reply when a condition of this write was checked. The value was not sent.
     NotSent(Failure),
     /// The restore ended before this write, or another write of the same PDO failed. The old value remains, unless an
     /// earlier write changed it.

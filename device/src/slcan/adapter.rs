@@ -16,8 +16,8 @@ const MIN_TIMEOUT: Duration = Duration::from_millis(1);
 const MAX_TIMEOUT: Duration = Duration::from_secs(86_400);
 /// Maximum time for the reply to a command. Some adapters send no replies.
 const REPLY: Duration = Duration::from_millis(200);
-/// If no byte arrives for this time, the adapter has sent all pending replies, and all frames of a channel that was
-/// open.
+/// If no byte arrives for this time, `open` assumes that the adapter has sent all replies to earlier commands, and all
+/// frames that it received before the channel was closed.
 const SILENCE: Duration = Duration::from_millis(100);
 
 /// A serial line with timeouts.
@@ -166,7 +166,7 @@ impl<L: SerialLine> CanPort for Adapter<L> {
         let text = line(frame);
         let missing = text.len() - self.write(text.as_bytes(), end)?;
         self.is_cut = (1..text.len()).contains(&missing);
-        // Only the carriage return is missing: the frame is complete with the next write.
+        // If only the carriage return is missing, the next call of `send` or `receive` writes it, and the frame is sent.
         Ok(missing <= 1)
     }
 
@@ -177,7 +177,7 @@ impl<L: SerialLine> CanPort for Adapter<L> {
     ) -> io::Result<Option<CanFrame>> {
         let end = Instant::now().checked_add(patience);
         self.end_line(Some(Instant::now()))?;
-        // Number of unread bytes when `patience` was over. Bytes that arrive later are left for the next call.
+        // Number of unread bytes at the end of `patience`. Bytes that arrive later are left for the next call.
         let mut last = None;
         loop {
             while let Some(frame) = self.decoder.next_frame() {
@@ -205,7 +205,7 @@ mod tests {
 
     use super::*;
 
-    /// A serial line that accepts `free` bytes, and from which `noise` can be read without end.
+    /// A serial line that accepts `free` bytes, and that receives `noise` before each read.
     #[derive(Default)]
     struct Fake {
         free: usize,

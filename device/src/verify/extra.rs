@@ -67,7 +67,8 @@ fn check_entry<C: Connection>(run: &mut Run<'_, C>, index: u16, sub: u8, message
     Ok(true)
 }
 
-/// Checks the number of entries of all declared objects, except the error history and mappings, whose number changes.
+/// Checks the number of entries of the declared objects. Skips missing objects, and the error history and mappings, in
+/// which the number of entries changes.
 fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let description = run.description;
     for group in &description.device().groups {

@@ -88,7 +88,7 @@ pub struct Finding {
     pub kind: FindingKind,
     /// Address of the parameter or object, or `identity` for the identity of a Modbus device.
     pub address: String,
-    /// Path of the parameter; empty for an undeclared object and for the whole device.
+    /// Path of the parameter, or name of a missing object; empty for an undeclared object and for the whole device.
     pub name: String,
     /// The fact that differs, or the reason for the finding, as text.
     pub message: String,

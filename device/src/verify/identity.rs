@@ -37,7 +37,8 @@ fn unverifiable<C: Connection>(run: &mut Run<'_, C>, message: String) {
     run.add(Finding::of_device(FindingKind::Unverifiable, IDENTITY, message));
 }
 
-/// Returns whether two names are the same, or one contains the other: `AEC s.r.l.` and `AEC SRL`.
+/// Returns whether two names are the same, or one contains the other. Compares only letters and digits, in any case:
+/// `AEC s.r.l.` and `AEC SRL`.
 fn agrees(one: &str, other: &str) -> bool {
     let (one, other) = (letters(one), letters(other));
     one.contains(&other) || other.contains(&one)

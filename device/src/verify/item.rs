@@ -87,21 +87,22 @@ fn different(parameter: &Parameter<'_>, fact: &str) -> Finding {
     Finding::of(parameter, FindingKind::Different, fact)
 }
 
-/// Returns whether the parameter doesn't always exist: an entry of a list, or a parameter of some models or versions.
+/// Returns whether the device can lack the parameter: an entry of the error history or of a mapping, an optional
+/// parameter, or a parameter of some models or versions.
 fn is_conditional(parameter: &Parameter<'_>) -> bool {
     let item = parameter.item();
     item.is_optional || item.availability.is_some() || is_entry(parameter)
 }
 
 /// Returns whether the parameter is an entry of the error history or of a mapping. Entries above the current number of entries don't
-/// exist, or have no value (CiA 301 7.5.2.3 and 7.5.2.36).
+/// exist, or have no value (CiA 301 7.5.2.4, 7.5.2.36 and 7.5.2.38).
 fn is_entry(parameter: &Parameter<'_>) -> bool {
     const HISTORY: u16 = 0x1003;
     let object = parameter.address().object();
     object.is_some_and(|object| object.sub_index > 0 && (object.index == HISTORY || pdo::is_mapping(object.index)))
 }
 
-/// Returns whether a failure means that an entry of a list has no value.
+/// Returns whether a failure means that an entry of the error history or of a mapping has no value.
 fn is_unused_entry(parameter: &Parameter<'_>, failure: &Failure) -> bool {
     is_entry(parameter) && matches!(failure, Failure::Abort(AbortCode::NO_DATA | AbortCode::NO_RESOURCE))
 }
@@ -192,7 +193,7 @@ fn identity_number(identity: &Identity, sub_index: u8) -> Option<u32> {
     }
 }
 
-/// Compares the identity numbers that the description states without a sub-index of 0x1018 for them.
+/// Compares the identity numbers that the description states although it doesn't declare their sub-index of 0x1018.
 pub(super) fn check_identity<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     const IDENTITY: u16 = 0x1018;
     let description = run.description;

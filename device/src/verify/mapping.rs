@@ -57,9 +57,9 @@ fn check_mapping<C: Connection>(run: &mut Run<'_, C>, group: &Group) -> Result<(
     Ok(())
 }
 
-/// Reads a mapping. Returns `None` if it cannot be read; `item::check` reports the reason.
+/// Reads a mapping. Returns `None` if it cannot be read, or if the number of entries is above the maximum.
 fn read<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<Option<Vec<Entry>>, Failure> {
-    /// Maximum number of entries. Greater numbers select a multiplexed PDO.
+    /// Maximum number of entries. Greater numbers are reserved or select a multiplexed PDO.
     const MAX_ENTRIES: u8 = 64;
     let description = run.description;
     let is_refused =

@@ -62,7 +62,7 @@ fn each_deviation_is_found_and_no_other() {
     check_overlay(&report, &bus);
 }
 
-/// Checks that with the overlay, `verify` reports only the deviations that an overlay cannot express.
+/// Checks that with the overlay, `verify` reports no missing or extra parameters and no wrong lengths.
 fn check_overlay(report: &Report, bus: &BusAddress) {
     let overlay = report.overlay().expect("an overlay");
     let options = lexibus_codegen::compile::Options {

@@ -35,9 +35,9 @@ fn compiled(source: Source, network: Network) -> Description {
 /// Mapping entries for objects of the demo drive that PDOs can map: index, sub-index and length in bits.
 const MAPPINGS: [i128; 4] = [0x6041_0010, 0x6064_0020, 0x6040_0010, 0x6081_0020];
 
-/// Returns candidates for another value of an integer. For a COB-ID of a PDO, the candidate toggles bit 31, and for the
-/// number of mapped objects, it is 0, so that the PDO is disabled and the device accepts changes to its other
-/// parameters.
+/// Returns candidates for another value of an integer. For the COB-ID of a PDO, the only candidate toggles bit 31, which
+/// disables an enabled PDO. For the number of mapped objects, the only candidate is 0. The device then accepts changes
+/// to the other parameters of the PDO.
 fn other_integers(parameter: &Parameter<'_>, number: i128) -> Vec<Value> {
     let object = parameter.address().object().map(|object| (object.index, object.sub_index));
     let numbers = match object {

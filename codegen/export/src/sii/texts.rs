@@ -42,8 +42,8 @@ impl Texts {
     }
 }
 
-/// Returns a text in ISO 8859-1. Adds notes if it replaces other characters with question marks or shortens the text to
-/// 255 bytes.
+/// Returns a text in ISO 8859-1. Replaces other characters with question marks, shortens the text to 255 bytes, and adds
+/// a note for each of these changes.
 fn encoded(text: &str, notes: &mut Notes) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut unknown = false;
