@@ -1,11 +1,17 @@
-//! Writes files and creates folders.
+//! Reads and writes files, and creates folders.
 
 use std::io::Write;
 use std::path::Path;
 
 use lexibus_codegen::output::{write_if_changed, writing};
+use lexibus_codegen::source::Source;
 
 use super::Failure;
+
+/// Reads a file that the user named.
+pub(super) fn read(path: &Path) -> Result<Source, Failure> {
+    Source::read(path).map_err(|error| Failure::Failed(format!("cannot read {}: {error}", path.display())))
+}
 
 /// Writes a text to a file, or to standard output if `path` is `None`.
 pub(super) fn put(path: Option<&Path>, text: &str) -> Result<(), Failure> {

@@ -3,11 +3,10 @@
 use std::io::Write;
 
 use lexibus_codegen::diagnostics::{Level, Levels};
-use lexibus_codegen::source::Source;
 use lexibus_import::Options;
 
 use super::args::Import;
-use super::files::create;
+use super::files::{create, read};
 use super::report::Reporter;
 use super::Failure;
 
@@ -16,8 +15,7 @@ pub(super) fn run(import: &Import) -> Result<bool, Failure> {
     for code in &import.allow {
         levels.set(code, Level::Allow).map_err(|error| Failure::Usage(error.to_string()))?;
     }
-    let source = Source::read(&import.path)
-        .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", import.path.display())))?;
+    let source = read(&import.path)?;
     let options = Options { levels, map: import.map.clone(), delimiter: import.delimiter, name: import.name.clone() };
     let imported = lexibus_import::import(source, &options);
     let mut reporter = Reporter::with(&import.printing, false)?;

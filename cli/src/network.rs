@@ -2,7 +2,6 @@
 
 use lexibus_codegen::compile::Compilation as Reported;
 use lexibus_codegen::output::write_if_changed;
-use lexibus_codegen::source::Source;
 use lexibus_codegen::text::count_of;
 use lexibus_network::check::bus_load;
 use lexibus_network::compile::{compile, Compilation};
@@ -11,7 +10,7 @@ use lexibus_network::model::Network;
 use lexibus_network::output::{files, segment_summary, OutputFile};
 
 use super::args::{self, NetworkBuild, NetworkCheck, NetworkCommand, NetworkInput};
-use super::files::{cannot_write, create_folder};
+use super::files::{cannot_write, create_folder, read as read_file};
 use super::report::Reporter;
 use super::{output, Failure};
 
@@ -48,8 +47,7 @@ fn build(arguments: &NetworkBuild) -> Result<bool, Failure> {
 }
 
 fn read(input: &NetworkInput, is_result: bool) -> Result<(Reporter, Compilation), Failure> {
-    let source = Source::read(&input.path)
-        .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", input.path.display())))?;
+    let source = read_file(&input.path)?;
     let reporter = Reporter::with(&input.printing, is_result)?;
     Ok((reporter, compile(source, input.levels.levels()?)))
 }

@@ -9,6 +9,7 @@ use lexibus_codegen::diagnostics::{Level, Levels};
 use lexibus_codegen::selection::{DeviceFilter, Filter, ObjectFilter, Selection};
 use lexibus_codegen::source::Source;
 
+use crate::files::read;
 use crate::Failure;
 
 /// Heading in the help text for the options that affect how inputs are read.
@@ -152,10 +153,7 @@ impl LevelArguments {
 
 impl Inputs {
     pub(crate) fn options(&self) -> Result<Options, Failure> {
-        let overlay = |path: &PathBuf| {
-            Source::read(path).map_err(|error| Failure::Usage(format!("cannot read {}: {error}", path.display())))
-        };
-        let overlays: Result<Vec<Source>, Failure> = self.overlay.iter().map(overlay).collect();
+        let overlays: Result<Vec<Source>, Failure> = self.overlay.iter().map(|path| read(path)).collect();
         let select =
             Selection { devices: self.device.clone(), modules: self.module.clone(), objects: self.objects.clone() };
         Ok(Options {

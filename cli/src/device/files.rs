@@ -5,16 +5,16 @@ use std::path::Path;
 use lexibus_codegen::compile::Options;
 use lexibus_codegen::ir::IdentityNumber;
 use lexibus_codegen::selection::Selection;
-use lexibus_codegen::source::Source;
 use lexibus_device::backup::Backup;
 use lexibus_device::{Address, Description, Network};
 
 use crate::args::DescriptionOptions;
+use crate::files::read;
 use crate::Failure;
 
 /// Reads a description.
 pub(super) fn description(path: &Path, given: &DescriptionOptions, network: Network) -> Result<Description, Failure> {
-    let overlays = given.overlay.iter().map(|path| source(path)).collect::<Result<_, _>>()?;
+    let overlays = given.overlay.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
     let select = Selection { devices: given.device.iter().cloned().collect(), ..Selection::default() };
     let options = Options { overlays, select, choices: given.option.clone(), ..Options::default() };
     compiled(path, network, &options)
@@ -26,13 +26,8 @@ pub(super) fn plain(path: &Path, network: Network) -> Result<Description, Failur
 }
 
 fn compiled(path: &Path, network: Network, options: &Options) -> Result<Description, Failure> {
-    let found = Description::compile(source(path)?, network, options);
+    let found = Description::compile(read(path)?, network, options);
     found.map_err(|error| Failure::Failed(format!("{}: {error}", path.display())))
-}
-
-/// Reads a file.
-pub(super) fn source(path: &Path) -> Result<Source, Failure> {
-    Source::read(path).map_err(|error| Failure::Failed(format!("cannot read {}: {error}", path.display())))
 }
 
 /// Reads a backup: a TOML file, or a description file with configured values. The vendor ID and product code of a
@@ -40,7 +35,7 @@ pub(super) fn source(path: &Path) -> Result<Source, Failure> {
 pub(super) fn backup(path: &Path, description: &Description) -> Result<Backup, Failure> {
     let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     if is_toml {
-        let found = Backup::from_toml(source(path)?.text(), description);
+        let found = Backup::from_toml(read(path)?.text(), description);
         return found.map_err(|error| Failure::Failed(format!("{}: {error}", path.display())));
     }
     let configured = plain(path, description.network())?;

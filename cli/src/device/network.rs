@@ -10,7 +10,7 @@ use lexibus_network::compile::{compile, Compilation};
 use lexibus_network::model::{self, NetworkNode};
 use lexibus_network::output::node_catalog;
 
-use super::files;
+use crate::files::read;
 use crate::Failure;
 
 /// Name of the network file in the working folder.
@@ -33,7 +33,7 @@ pub(super) enum Values {
 impl NetworkFile {
     /// Reads a network file, by default `network.toml` in the working folder.
     pub(super) fn open(path: Option<&Path>) -> Result<Self, Failure> {
-        let compilation = compile(files::source(path.unwrap_or(Path::new(DEFAULT)))?, Levels::lenient());
+        let compilation = compile(read(path.unwrap_or(Path::new(DEFAULT)))?, Levels::lenient());
         if compilation.usable().is_some() {
             return Ok(NetworkFile { compilation });
         }

@@ -7,13 +7,13 @@ use askama::Template;
 use lexibus_codegen::compile::{self, Compilation, Options, NOTHING_TO_GENERATE};
 use lexibus_codegen::ir::{Catalog, Device};
 use lexibus_codegen::selection::Selection;
-use lexibus_codegen::source::Source;
 
 use super::files::Files;
 use super::layout::{self, At};
 use super::text::literal;
 use super::{objects, profinet};
 use crate::args::{New, Printing};
+use crate::files::read;
 use crate::report::Reporter;
 use crate::{shell, Failure};
 
@@ -86,8 +86,7 @@ pub(super) fn run(new: &New, name: &str, description: &Path) -> Result<bool, Fai
     check_name(name)?;
     let folder = new.out.clone().unwrap_or_else(|| PathBuf::from(name));
     Files::check(&folder)?;
-    let source = Source::read(description)
-        .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", description.display())))?;
+    let source = read(description)?;
     let devices = new.device.iter().cloned().collect();
     let options = Options { select: Selection { devices, ..Selection::default() }, ..Options::default() };
     let compilation = compile::check(source, &options);
