@@ -42,7 +42,7 @@ pub struct DeclaredMaster {
     /// Synchronous counter overflow value (0x1019).
     pub sync_overflow: u8,
     /// COB-ID of TIME (0x1012).
-    pub time_cob_id: u32,
+    pub time_cob_id: At<u32>,
     /// Inhibit time of EMCY in units of 100 µs (0x1015).
     pub emcy_inhibit_time: u16,
     /// Heartbeat producer time in ms (0x1017).
@@ -75,7 +75,7 @@ impl DeclaredMaster {
             sync_period: None,
             sync_window: 0,
             sync_overflow: 0,
-            time_cob_id: 0x100,
+            time_cob_id: At::new(0x100, Span::MISSING),
             emcy_inhibit_time: 0,
             heartbeat: At::new(0, span),
             heartbeat_multiplier: At::new(HEARTBEAT_MULTIPLIER, span),

@@ -20,6 +20,7 @@ struct Sender {
     name: String,
     /// Location in the network file; empty if the description or CiA 301 states the COB-ID.
     span: Span,
+    is_pdo: bool,
 }
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
@@ -56,13 +57,13 @@ fn conflict(sender: &Sender, other: &Sender) -> Diagnostic {
     let message = format!("{} and {} use the same CAN-ID {}", sender.name, other.name, hex(can_id));
     let found = Diagnostic::new(&codes::COB_ID_CONFLICT, sender.span, message);
     let found = if other.span.is_empty() { found } else { found.note_at(other.span, "the other sender is here") };
-    found.help("choose another `cob_id`, or use `auto`")
+    found.help(if sender.is_pdo { "choose another `cob_id`, or use `auto`" } else { "choose another COB-ID" })
 }
 
 fn of_pdo((node, pdo): (&NetworkNode, &NetworkPdo)) -> Sender {
     let name = node.pdo_title(pdo);
     let name = if pdo.direction == Direction::Transmit { name } else { name + " (sent by the master)" };
-    Sender { cob_id: pdo.cob_id, name, span: place(node, pdo) }
+    Sender { cob_id: pdo.cob_id, name, span: place(node, pdo), is_pdo: true }
 }
 
 /// Returns the location of a PDO in the file: its COB-ID, its section, or the name of its node.
@@ -73,13 +74,13 @@ pub(super) fn place(node: &NetworkNode, pdo: &NetworkPdo) -> Span {
 /// Returns the senders of SYNC, TIME and EMCY.
 fn services(network: &Network) -> Vec<Sender> {
     let mut senders = Vec::new();
-    let mut add = |cob_id: u32, name: String, span: Span| senders.push(Sender { cob_id, name, span });
+    let mut add = |cob_id: u32, name: String, span: Span| senders.push(Sender { cob_id, name, span, is_pdo: false });
     let producers = sync_producers(network);
     if let Some(master) = &network.master {
         if producers.iter().all(|producer| can_id(producer.cob_id) != 0x80) {
             add(0x80, "SYNC".to_owned(), Span::MISSING);
         }
-        add(master.time_cob_id, "TIME".to_owned(), Span::MISSING);
+        add(master.time_cob_id.value, "TIME".to_owned(), master.time_cob_id.span);
     }
     producers.into_iter().for_each(|producer| add(producer.cob_id, producer.name, producer.span));
     for node in network.nodes.iter().filter(|node| node.emcy_cob_id & DISABLED == 0) {

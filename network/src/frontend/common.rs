@@ -24,7 +24,7 @@ pub(crate) fn master(reader: &mut Reader<'_>, table: Table<'_>, names: &Names) -
     master.sync_period = reader.integer(table, "sync_period");
     master.sync_window = number(reader, table, "sync_window", 0);
     master.sync_overflow = number(reader, table, "sync_overflow", 0);
-    master.time_cob_id = number(reader, table, "time_cob_id", master.time_cob_id);
+    master.time_cob_id = reader.integer(table, "time_cob_id").unwrap_or(master.time_cob_id);
     master.emcy_inhibit_time = number(reader, table, "emcy_inhibit_time", 0);
     master.heartbeat = reader.integer(table, names.heartbeat).unwrap_or(master.heartbeat);
     master.heartbeat_multiplier = reader.number(table, "heartbeat_multiplier").unwrap_or(master.heartbeat_multiplier);

@@ -119,7 +119,7 @@ fn communication(network: &Network, master: &DeclaredMaster) -> Vec<Group> {
         number(0x1005, "COB-ID SYNC message", U32, 0x4000_0080),
         number(0x1006, "Communication cycle period", U32, master.sync_period.as_ref().map_or(0, |period| period.value)),
         number(0x1007, "Synchronous window length", U32, master.sync_window),
-        number(0x1012, "COB-ID time stamp object", U32, master.time_cob_id),
+        number(0x1012, "COB-ID time stamp object", U32, master.time_cob_id.value),
         var(mappable(item(0x1013, 0, ("High resolution time stamp", U32, ReadWrite)))),
         var(emcy),
         number(0x1015, "Inhibit time EMCY", U16, master.emcy_inhibit_time.into()),

@@ -98,7 +98,7 @@ impl CobIds {
     /// Returns the CAN-IDs that are in use: those of SYNC, TIME, EMCY, SDO and of PDOs.
     fn used(&self, nodes: &[DescribedNode<'_>], master: Option<&DeclaredMaster>) -> HashSet<u32> {
         let mut used = HashSet::from([0x80]);
-        used.extend(master.map(|master| can_id(master.time_cob_id)));
+        used.extend(master.map(|master| can_id(master.time_cob_id.value)));
         for node in nodes {
             let pdos = pdos(node.values()).into_iter().filter_map(|pdo| self.last(node, pdo.direction, pdo.number));
             let enabled = pdos.chain(services(node)).filter(|cob_id| cob_id & DISABLED == 0);

@@ -91,3 +91,17 @@ rpdo = { 1 = { cob_id = "axis1.tpdo1", map = ["Target position"] } }
     let compilation = compiled("cob-ids-disabled", &files(disabled));
     assert_eq!(messages(&compilation), ["NET015 TPDO 1 of `axis1` is missing or disabled"]);
 }
+
+#[test]
+fn the_cob_id_of_time_is_not_restricted() {
+    let compile = |cob_id: &str| {
+        let text =
+            format!("[master]\nid = 127\ntime_cob_id = {cob_id}\n[nodes.axis]\nid = 1\ndevice = \"drive.eds\"\n");
+        compiled("cob-ids-time", &[("drive.eds", example_file("drive.eds")), ("network.toml", text)])
+    };
+    let time = |cob_id: &str| messages(&compile(cob_id));
+    assert_eq!(time("0x4000_0100"), Vec::<String>::new());
+    assert_eq!(time("0x601"), ["NET023 TIME cannot use the CAN-ID 0x601"]);
+    assert_eq!(time("0x81"), ["NET019 TIME and the EMCY of `axis` use the same CAN-ID 0x81"]);
+    assert_eq!(compile("0x81").diagnostics.list()[0].help.as_deref(), Some("choose another COB-ID"));
+}
