@@ -247,6 +247,6 @@ pub enum ObjectName {
 pub struct DeclaredParameter {
     /// The object.
     pub object: At<ObjectName>,
-    /// The value: a raw value, a physical value with its unit, or the name of a value.
+    /// The value: a raw value, a physical value with its unit, the name of a value, a formula with `$NODEID`, or a text.
     pub value: At<Scalar>,
 }

@@ -61,7 +61,7 @@ pub(crate) struct DeviceReference<'d> {
 /// Path of the description, paths of overlays, and model.
 type Key = (PathBuf, Vec<PathBuf>, String);
 
-/// Reads each description once.
+/// Reads each combination of a description, its overlays and a model once.
 pub(crate) struct Descriptions<'s> {
     network: &'s Source,
     bus: Bus,

@@ -1,5 +1,5 @@
 //! The network compiler of Lexibus: checks the configuration of a CANopen network, and writes DCF, concise DCF, DBC and typed Rust.
-//! Writes the configuration of an EtherCAT segment as data.
+//! Writes the configuration of an EtherCAT segment as JSON and Rust.
 //!
 //! ```
 //! use lexibus_codegen::diagnostics::Levels;

@@ -62,7 +62,7 @@ impl Network {
         self.master.as_ref().and_then(|master| master.node_id.as_ref()).map_or(255, |id| id.value)
     }
 
-    /// Returns whether the file only declares an EtherCAT segment, and no CANopen nodes.
+    /// Returns whether the network has an EtherCAT segment, and neither a CANopen master nor nodes.
     pub fn is_only_segment(&self) -> bool {
         self.segment.is_some() && self.master.is_none() && self.nodes.is_empty()
     }

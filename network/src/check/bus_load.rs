@@ -31,7 +31,7 @@ pub struct Traffic {
 pub struct BusLoad {
     /// All cyclic frames.
     pub traffic: Vec<Traffic>,
-    /// Names of PDOs whose rate has no limit, because they have neither an inhibit time nor an event timer.
+    /// Names of event-driven PDOs with neither an inhibit time nor an event timer. Their rate is unknown.
     pub unbounded: Vec<String>,
     /// Bit rate in bit/s.
     pub bit_rate: u32,
@@ -43,7 +43,7 @@ impl BusLoad {
         self.traffic.iter().fold(0.0, |sum, traffic| sum + traffic.rate * f64::from(traffic.bits))
     }
 
-    /// Returns the load as text: `bus load of cyclic frames: 8.0 % of 500 kbit/s`, and the PDOs whose rate has no limit.
+    /// Returns the load as text: `bus load of cyclic frames: 8.0 % of 500 kbit/s`, and the PDOs whose rate is unknown.
     pub fn summary(&self) -> String {
         let unbounded = match self.unbounded.as_slice() {
             [] => String::new(),
@@ -121,8 +121,8 @@ fn per_second(milliseconds: u16) -> f64 {
     1000.0 / f64::from(milliseconds)
 }
 
-/// Returns how many times per second a PDO is sent at most, or `None` if its rate has no limit. `sync` is the number of SYNCs per
-/// second.
+/// Returns the assumed rate of a PDO in frames per second, or `None` if its rate is unknown. The rate of an event-driven PDO follows
+/// from its inhibit time or, without an inhibit time, from its event timer. `sync` is the number of SYNCs per second.
 fn rate(pdo: &NetworkPdo, sync: f64) -> Option<f64> {
     match (pdo.syncs(), pdo.inhibit_time, pdo.event_timer) {
         (Some(syncs), ..) => Some(sync / f64::from(syncs)),

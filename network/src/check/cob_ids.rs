@@ -24,8 +24,8 @@ struct Sender {
 }
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
-    // Services whose COB-ID the file does not set are not reported, because many descriptions state a wrong COB-ID of EMCY. The
-    // COB-IDs that the file sets are compared with them.
+    // COB-IDs of SYNC, TIME and EMCY that the network file does not set are not checked, because many descriptions state a wrong
+    // COB-ID of EMCY. COB-IDs that the file sets must differ from them.
     let (unplaced, placed): (Vec<Sender>, Vec<Sender>) =
         services(network).into_iter().partition(|sender| sender.span.is_empty());
     let mut senders = BTreeMap::new();

@@ -53,7 +53,7 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
     }
 }
 
-/// Reports entries of 0x1016 for nodes that do not exist, that send no heartbeat, or that send it too rarely.
+/// Reports entries of 0x1016 that the configuration writes for nodes that do not exist, that send no heartbeat, or that send it too rarely.
 fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostics) {
     let written: BTreeSet<(u16, u8)> = node.writes.iter().map(|write| write.object).collect();
     for object in written.range((0x1016, 1)..=(0x1016, u8::MAX)) {

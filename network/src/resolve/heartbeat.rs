@@ -29,8 +29,8 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
                 }
             }
         } else {
-            // Clears the entries of the description that monitor the master, because the master sends no heartbeat, or the network
-            // file does not request the monitoring, or it sets another entry.
+            // Clears the entries of the description that monitor the master: the master sends no heartbeat, the network file does
+            // not request the monitoring, or another entry, which the network file sets, monitors the master.
             for (sub_index, value) in described.iter().filter(monitors) {
                 writer.write((0x1016, *sub_index), value & 0x00FF_0000, span);
             }

@@ -61,7 +61,7 @@ pub(super) fn resolve(node: DescribedNode<'_>, cob_ids: &CobIds, diagnostics: &m
     }
 }
 
-/// Returns all values that configure a node, except heartbeat consumers. Other nodes and the master use the last value of an object.
+/// Returns all values that configure a node, except the entries of 0x1016 that monitor the master. Other nodes and the master use the last value of an object.
 fn writes(
     declared: &DeclaredNode,
     id: u8,

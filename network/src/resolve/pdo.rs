@@ -39,8 +39,8 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
     writer.diagnostics.push(Diagnostic::new(&codes::NO_SUCH_PDO, declared.number.span, message).help(help));
 }
 
-/// Applies the declaration of a PDO, and writes the changed values: disable the PDO, set the parameters, clear the mapping, write the
-/// mapping, enable the PDO.
+/// Configures a PDO as declared: disable the PDO, write the parameters that differ, clear the mapping, write the mapping, enable the
+/// PDO.
 fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
     let index = pdo.index();
     let span = declared.cob_id.as_ref().map_or(declared.number.span, |cob_id| cob_id.span);
@@ -108,7 +108,7 @@ fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>
 }
 
 /// Returns the mapping entry for a data type, which reserves space in an RPDO (CiA 301 7.4.7). Reports a data type that has no
-/// fixed length, that a PDO of this direction cannot map, or that this device does not support.
+/// fixed length, a dummy entry in a TPDO, and a data type that this device does not support as a dummy entry.
 fn dummy(direction: Direction, code: u16, span: Span, writer: &mut Writer<'_>) -> Option<MappedObject> {
     let Some(bits) = Type::from_cia301(code.into()).and_then(Type::bits) else {
         let message = format!("the data type {} has no fixed length, so it cannot be a dummy entry", hex16(code));
