@@ -1,4 +1,4 @@
-//! Output files of the example network, and of networks with DCF.
+//! Output files of the example network and of other networks of its devices.
 
 mod support;
 
@@ -84,7 +84,8 @@ fn the_master_knows_all_nodes() {
     assert_eq!(file.as_deref(), Some("axis1.bin"));
     let writes = master_writes(network);
     assert!(writes.contains(&((0x1F87, 1), 0x0001_0000)), "{writes:?}");
-    // The second axis receives the second TPDO of the first axis, so the master does not send RPDO 2.
+    // The second axis receives the second TPDO of the first axis, so the master does not send
+    // RPDO 2 of the second axis.
     let rpdos = network.nodes.iter().flat_map(|node| &node.pdos).filter(|pdo| pdo.is_enabled && pdo.cob_id == 0x281);
     assert_eq!(rpdos.count(), 2);
     let sent = (0..3).filter_map(|number| value(0x1800 + number, 1)).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! Validates network files by the JSON Schema of `network.toml`.
+//! Validates network files against the JSON Schema of `network.toml`.
 
 #[path = "../../tests/support/python.rs"]
 mod python;
@@ -8,7 +8,7 @@ use std::process::Command;
 
 use lexibus_network::frontend::schema;
 
-/// Prints the number of errors of each file.
+/// Prints the number of schema errors in each file.
 const SCRIPT: &str = "
 import json, sys, tomllib
 from jsonschema import Draft202012Validator

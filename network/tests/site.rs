@@ -1,4 +1,4 @@
-//! Documentation of the example network: all links lead to a page, and the page of the network has the values of the network.
+//! Documentation of the example network and of an EtherCAT segment: all links lead to a page, and the pages show the configured values.
 
 #[path = "../../codegen/site/tests/docs_support/mod.rs"]
 mod docs_support;
@@ -18,7 +18,7 @@ fn site(format: Format) -> Vec<Page> {
     site_of(Source::read(&path).expect("the example"), "Packaging line", format)
 }
 
-/// Returns the pages of a site with the network of a file.
+/// Returns the pages of a site with the network or segment of a file.
 fn site_of(source: Source, title: &str, format: Format) -> Vec<Page> {
     let compilation = compile(source, Levels::lenient());
     let network = compilation.usable().expect("a network");

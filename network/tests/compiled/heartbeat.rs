@@ -1,11 +1,11 @@
-//! Heartbeat consumers of nodes that monitor the master.
+//! Heartbeat consumers of nodes.
 
 use crate::support::{compiled, configured, example_file, messages, node, valid, written};
 
 /// Object 0x1016, sub-index 1.
 const CONSUMER: (u16, u8) = (0x1016, 1);
 
-/// Consumer time of 300 ms for the master.
+/// Value of a consumer entry for the master (node-ID 127) with a consumer time of 300 ms.
 const OF_MASTER: u64 = 127 << 16 | 300;
 
 fn network(node: &str) -> String {
@@ -42,7 +42,7 @@ fn an_entry_that_parameters_set_is_not_free() {
     assert_eq!(messages(&compilation), ["NET020 the node `axis` cannot monitor the heartbeat of the master"]);
     let axis = node(compilation.network.as_ref().expect("a network"), "axis");
     assert_eq!(written(axis, CONSUMER), [2 << 16 | 50]);
-    // An entry that the file clears is not free, either, because the write of the file is the last one.
+    // An entry that `parameters` clear is not free, either.
     let cleared = network("heartbeat_consumer = true\nparameters = { \"0x1016:1\" = 0 }");
     let compilation =
         compiled("heartbeat-cleared", &[("axis.dcf", example_file("drive.eds")), ("network.toml", cleared)]);

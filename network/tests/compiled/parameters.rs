@@ -59,7 +59,7 @@ fn the_master_expects_the_emcy_of_the_last_value() {
     assert_eq!(messages(&compilation), ["NET023 the EMCY of `axis` cannot use the CAN-ID 0x601"]);
 }
 
-/// Values that configure TPDO 2 in the order in which an application writes them.
+/// Values that configure TPDO 2, in the order in which they must be written: disable, clear, map, count, enable.
 const TPDO: &str = "
     - {index: 0x1801, sub_index: 1, value: 0x80000281}
     - {index: 0x1801, sub_index: 2, value: 1}

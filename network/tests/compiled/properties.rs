@@ -1,5 +1,5 @@
-//! Random networks: the values that remain after the concise DCF of a node has been written are those that the model, the checks and
-//! the master use.
+//! Random networks. After the concise DCF of a node has been written, the node must have the values in the model, in its DCF and in
+//! the DCF of the master.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -16,19 +16,19 @@ use crate::random::Random;
 use crate::random_networks;
 use crate::support::{compiled, configured, entries, example_file, with_tpdo_5};
 
-/// Values of all integer objects.
+/// Values of integer objects by index and sub-index.
 type Dictionary = BTreeMap<(u16, u8), u64>;
 
-/// Returns the initial values of a device, with a node-ID.
+/// Returns the initial values of a device with the node-ID `id`.
 fn dictionary(catalog: &Catalog, id: u8) -> Dictionary {
     let items = catalog.devices[0].items();
     let value = |item: &Item| Some((item.object()?, item.initial()?.resolved(id).as_int()?));
     items.filter_map(value).map(|(object, value)| (object, value as u64)).collect()
 }
 
-/// Returns the values of a node to which its concise DCF has been written.
+/// Returns the values of a node after its concise DCF has been written.
 fn configured_dictionary(node: &NetworkNode, files: &[OutputFile]) -> Dictionary {
-    // The device has its default values: those of its EDS.
+    // Before the configuration, the device has the default values, not the configured values of a DCF.
     let mut device = node.description.catalog().clone();
     for item in device.devices[0].groups.iter_mut().flat_map(|group| &mut group.items) {
         item.configured = None;
@@ -66,16 +66,16 @@ fn compare_pdo(node: &NetworkNode, pdo: &NetworkPdo, values: &Dictionary, text: 
     assert_eq!(pdo.is_enabled, value(1) >> 31 == 0 && !words.is_empty(), "{context}");
 }
 
-/// Returns the mapping of the PDO with a communication object. Leaves out entries with the value 0, which are unused.
+/// Returns the mapping of the PDO whose communication object has the given index. Leaves out unused entries, which have the value 0.
 fn mapping(values: &Dictionary, index: u16) -> Vec<u64> {
     let count = values.get(&(index + 0x200, 0)).copied().unwrap_or(0) as u8;
     (1..=count).map(|sub_index| values[&(index + 0x200, sub_index)]).filter(|word| *word != 0).collect()
 }
 
-/// COB-ID, number and node-ID, and mapping of a PDO.
+/// A PDO: COB-ID, number and node-ID in one integer, and mapping.
 type Exchanged = (u64, u64, Vec<u64>);
 
-/// Returns the enabled PDOs of all nodes in a range of communication objects.
+/// Returns the enabled PDOs of all nodes. Considers the eight communication objects from index `first` on.
 fn enabled(nodes: &[(u8, Dictionary)], first: u16) -> BTreeSet<Exchanged> {
     let of_node = |(id, values): &(u8, Dictionary)| {
         let pdo = |number: u16| {
@@ -89,7 +89,7 @@ fn enabled(nodes: &[(u8, Dictionary)], first: u16) -> BTreeSet<Exchanged> {
     nodes.iter().flat_map(of_node).collect()
 }
 
-/// Returns the PDOs that the master exchanges, from the objects that state the PDOs of the nodes.
+/// Returns the PDOs of the nodes that the master exchanges, from its objects that describe these PDOs (`remote`).
 fn exchanged(master: &Dictionary, communication: u16, remote: u16) -> BTreeSet<Exchanged> {
     let pdo = |number: u16| {
         let words = mapping(master, remote + number);
@@ -137,7 +137,7 @@ fn compare_master(network: &Network, master: &Dictionary, nodes: &[(u8, Dictiona
     assert_eq!(from_master.into_iter().collect::<BTreeSet<_>>(), expected, "{text}");
 }
 
-/// Compares the consumer of a node with the settings of the network file.
+/// Compares the first heartbeat consumer entry of a node with the settings of the network file.
 fn compare_consumer(compilation: &Compilation, node: &NetworkNode, values: &Dictionary, text: &str) {
     let master = compilation.network.as_ref().and_then(|network| network.master.as_ref()).expect("a master");
     let section = text.split("[nodes.").find(|section| section.starts_with(&format!("{}]", node.name.value)));
@@ -179,8 +179,8 @@ fn descriptions() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-/// Compiles a network in a folder. Faults on the bus are allowed. The only error that may occur is an RPDO that receives a disabled
-/// TPDO.
+/// Compiles a network in a folder. Faults on the bus are only warnings. Panics if there is an error other than an RPDO that receives
+/// a missing or disabled TPDO.
 fn compiled_in(folder: &Path, text: &str) -> Compilation {
     let mut levels = Levels::lenient();
     for number in [13, 17, 18, 19, 20, 21, 22, 23] {

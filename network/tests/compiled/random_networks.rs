@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 
-/// A description with the objects that its PDOs can map.
+/// A device description with its PDOs and the objects that RPDOs (`received`) and TPDOs (`sent`) can map.
 struct Model {
     file: &'static str,
     pdos: &'static [(&'static str, u16)],
@@ -25,7 +25,7 @@ const FIFTH: Model = Model { file: "fifth.eds", pdos: &[("rpdo", 1), ("rpdo", 2)
 
 const IO: Model = Model { file: "io.eds", pdos: &[("rpdo", 1), ("tpdo", 1), ("tpdo", 2)], received: &[], sent: &[] };
 
-/// Returns a random network of 3 to 6 nodes, whose node-IDs start at 1, and a master with the node-ID 127.
+/// Returns a random network with 3 to 6 nodes and a master. The node-IDs of the nodes start at 1; the master has 127.
 pub fn network(random: &mut Random) -> String {
     let count = 3 + random.below(4);
     let models: Vec<&Model> = (0..count).map(|_| *random.choose(&[&DRIVE, &DRIVE, &CONFIGURED, &FIFTH, &IO])).collect();

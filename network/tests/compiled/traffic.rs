@@ -24,7 +24,7 @@ fn a_pdo_of_the_master_for_several_nodes_counts_once() {
     let load = bus_load(valid(&compilation));
     let sent: Vec<(u32, f64)> = load.traffic.iter().map(|traffic| (traffic.can_id, traffic.rate)).collect();
     assert_eq!(sent, [(0x80, 500.0), (0x201, 500.0)]);
-    // SYNC and one PDO take 1040 µs, but two PDOs would not fit.
+    // SYNC and one PDO take 1040 µs, but SYNC and two PDOs would take more than 1100 µs.
     let bits = frame_bits(0x80, 0) + frame_bits(0x201, 2);
     let period = f64::from(bits) * 8.0;
     assert!(period < 1100.0);
@@ -60,7 +60,7 @@ fn sync_of_a_node_counts() {
             "NET022 SYNC and 1 synchronous PDO take up to 1040 µs, but the SYNC period is 1000 µs"
         ]
     );
-    // A node without bit 30 of 0x1005, or with the period 0, sends no SYNC.
+    // A node sends no SYNC if bit 30 of 0x1005 is 0, or if the period is 0.
     for (with, without) in [("0x40000080", "0x80"), ("1000", "0")] {
         let text = format!("[master]\nid = 127\n{PRODUCER}").replace(with, without);
         let found = messages(&with_sync("traffic-sync", &text));
@@ -76,6 +76,6 @@ fn two_producers_of_sync_are_a_conflict() {
     let load = bus_load(compilation.network.as_ref().expect("a network"));
     let rates: Vec<f64> = load.traffic.iter().map(|traffic| traffic.rate).collect();
     assert_eq!(rates, [500.0, 1000.0, 1000.0], "the PDO is sent with the faster SYNC at worst");
-    // With its own CAN-ID, the SYNC of the node is another message.
+    // There is no conflict if the SYNC of the node has another CAN-ID.
     valid(&with_sync("traffic-two", &text.replace("0x40000080", "0x40000090")));
 }

@@ -1,7 +1,8 @@
 //! Decodes random frames with `cantools` and the exported DBC, and compares the physical values with those of the device descriptions.
 //!
-//! The expected values are computed from the mapping words, types and scales of the objects. In the full lane, generated Rust unpacks the
-//! frames, too. If there is no corpus or no Python with `cantools`, the tests print a message and pass.
+//! The expected values are computed from the mapping, types and scales of the objects. In the full lane, a second test compares `cantools`
+//! with the generated Rust. If the corpus or a Python with `cantools` is missing, a test that needs it prints a
+//! message and passes. A test fails if the Python that `LEXIBUS_PYTHON` names lacks the module.
 
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
@@ -27,7 +28,7 @@ use lexibus_network::output::dbc;
 use random::Random;
 use serde::Deserialize;
 
-/// The result for one network.
+/// Result of `decode.py` for one network.
 #[derive(Debug, Deserialize)]
 struct Verdict {
     compared: usize,
@@ -43,7 +44,7 @@ fn frames() -> usize {
     }
 }
 
-/// Returns the physical value of the bits of an item.
+/// Returns the physical value of an item from its bits in a frame.
 fn physical(node: &NetworkNode, item: &Item, bits: u64, length: u32) -> String {
     let ty = types::basic(&node.device().types, item.object_type());
     let raw = match ty {
@@ -59,7 +60,7 @@ fn physical(node: &NetworkNode, item: &Item, bits: u64, length: u32) -> String {
     }
 }
 
-/// Returns the physical values of a frame.
+/// Returns the physical values in a frame, each after a semicolon.
 fn expected(node: &NetworkNode, pdo: &NetworkPdo, word: u64) -> String {
     let mut text = String::new();
     for (start, entry) in signals(node, pdo) {
@@ -71,7 +72,7 @@ fn expected(node: &NetworkNode, pdo: &NetworkPdo, word: u64) -> String {
     text
 }
 
-/// Returns the mapped objects that the DBC contains, with their first bits.
+/// Returns the mapped objects that the DBC contains, each with its bit offset.
 fn signals<'p>(node: &NetworkNode, pdo: &'p NetworkPdo) -> Vec<(u32, &'p MappedObject)> {
     let mut start = 0;
     let with_start = |entry: &'p MappedObject| {
@@ -84,21 +85,21 @@ fn signals<'p>(node: &NetworkNode, pdo: &'p NetworkPdo) -> Vec<(u32, &'p MappedO
     pdo.entries.iter().map(with_start).filter(is_known).collect()
 }
 
-/// Returns the PDOs of a network that the DBC contains, and that a frame can hold.
+/// Returns the enabled PDOs with 1 to 64 bits, one for each CAN-ID. TPDOs take precedence.
 fn pdos(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
     let all = network.pdos(Direction::Transmit).chain(network.pdos(Direction::Receive));
     let mut known = std::collections::HashSet::new();
     all.filter(|(_, pdo)| (1..=64).contains(&pdo.bits()) && known.insert(pdo.can_id())).collect()
 }
 
-/// A network of one device of the corpus, in a folder with its DBC.
+/// A compiled network, and the folder of its DBC and its frames.
 pub struct Sample {
     compilation: Compilation,
     folder: PathBuf,
 }
 
 impl Sample {
-    /// Compiles a network. Returns `None` if the network has no PDO that `cantools` can decode, or a PDO that is too long.
+    /// Compiles a network. Returns `None` if the file cannot be compiled, or if the network has no PDO with data or a PDO that is too long.
     fn new(root: &Path, source: Source) -> Option<Self> {
         let compilation = compile(source, Levels::lenient());
         let network = compilation.network.as_ref()?;
@@ -117,7 +118,7 @@ impl Sample {
         self.compilation.network.as_ref().expect("a network")
     }
 
-    /// Writes random frames of all PDOs: the CAN-ID, the data, and the values that `values` returns.
+    /// Writes random frames of all PDOs to `frames.txt`. A line contains the CAN-ID, the data, and the values that `values` returns.
     fn write_frames(&self, random: &mut Random, values: Values<'_>) {
         let mut text = String::new();
         for (node, pdo) in pdos(self.network()) {
@@ -131,10 +132,10 @@ impl Sample {
     }
 }
 
-/// Returns the values of a frame, each after a semicolon.
+/// Function that returns the values in a frame, each after a semicolon.
 type Values<'v> = &'v dyn Fn(&NetworkNode, &NetworkPdo, u64) -> String;
 
-/// Returns the networks of the first 50 devices of the corpus with PDOs.
+/// Returns up to 50 samples: networks with one device of the corpus.
 fn samples(name: &str, corpus: &Path) -> Vec<Sample> {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&root);
@@ -147,8 +148,8 @@ fn samples(name: &str, corpus: &Path) -> Vec<Sample> {
     files.filter_map(sample).take(50).collect()
 }
 
-/// Decodes the frames of all samples with `cantools`, and asserts that the values are those in the files of the frames. Returns the
-/// number of values.
+/// Decodes the frames of all samples with `cantools`, and asserts that the values are those in `frames.txt`. Returns the number
+/// of values.
 fn compare(python: &Path, samples: &[Sample]) -> usize {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dbc/decode.py");
     let folders = samples.iter().map(|sample| &sample.folder);

@@ -5,7 +5,7 @@
 use std::io::Write as _;
 use std::path::Path;
 
-/// A field of a PDO as a text: the number, as a decimal or with an exponent.
+/// Converts a field of a PDO to text: integers in decimal notation, floating-point numbers with an exponent.
 trait Field {
     fn text(self) -> String;
 }
@@ -55,7 +55,7 @@ impl<const LENGTH: usize> Field for [u8; LENGTH] {
     }
 }
 
-/// A physical value as a text.
+/// Returns a physical value as text, with an exponent.
 fn physical(value: impl Into<Option<f64>>) -> String {
     format!("{:e}", value.into().expect("a number"))
 }

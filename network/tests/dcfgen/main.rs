@@ -1,7 +1,8 @@
-//! Compares the output with that of Lely's `dcfgen`: networks of random devices of the corpus, and the `bus.yml` files of the corpus.
+//! Compares the output with that of Lely's `dcfgen`, for random networks of corpus devices and for `bus.yml` files of the corpus.
 //!
-//! Concise DCF must be equal byte for byte, and the master's DCF value for value. Each difference needs a reason. If there is no corpus
-//! or no Python with `dcf-tools`, the tests print a message and pass.
+//! Concise DCFs are compared byte for byte, and DCFs of the master value by value. The tests fail if a difference has no known reason.
+//! If the corpus or a Python with `dcf-tools` is missing, the tests print a message and pass. They fail if the Python that
+//! `LEXIBUS_PYTHON` names lacks the module.
 
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
@@ -24,14 +25,14 @@ use networks::{network, Model};
 use random::Random;
 use serde::Deserialize;
 
-/// The result of a comparison.
+/// Result of `compare.py` for one network.
 #[derive(Debug, Deserialize)]
 struct Verdict {
     error: String,
     differences: Vec<String>,
 }
 
-/// Runs a Python script of this folder, and returns one value for each line of its output.
+/// Runs a Python script, whose path is relative to the crate, and returns one value for each line of its output.
 fn run<T: for<'d> Deserialize<'d>>(python: &Path, script: &str, arguments: &[PathBuf]) -> Vec<T> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join(script);
     let output = Command::new(python).args(["-W", "ignore"]).arg(script).args(arguments).output().expect("Python runs");
@@ -42,13 +43,13 @@ fn run<T: for<'d> Deserialize<'d>>(python: &Path, script: &str, arguments: &[Pat
     values
 }
 
-/// Result of `dcfchk` for an EDS.
+/// Result of `check.py` for an EDS: whether dcf-tools accepts the file.
 #[derive(Debug, Deserialize)]
 struct Accepted {
     strict: bool,
 }
 
-/// Returns the devices of the corpus that `dcfgen` accepts.
+/// Returns the devices of the corpus that both dcf-tools and Lexibus accept.
 fn models(python: &Path) -> Option<Vec<Model>> {
     let folder = folder_of("eds")?;
     let files: Vec<_> =
@@ -69,7 +70,7 @@ fn compiled(folder: &Path) -> Compilation {
     compile(Source::read(&folder.join("bus.yml")).expect("a file"), levels)
 }
 
-/// Builds the network in a folder. Returns the errors of Lexibus.
+/// Writes the output files of the network in a folder. If the network has errors, returns all diagnostics instead.
 fn build(folder: &Path) -> Vec<String> {
     let compilation = compiled(folder);
     let out = folder.join("lexibus");

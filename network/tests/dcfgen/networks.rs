@@ -6,9 +6,9 @@ use lexibus_codegen::source::Source;
 
 use crate::random::Random;
 
-/// A device of the corpus that `dcfgen` accepts.
+/// A device of the corpus that both dcf-tools and Lexibus accept.
 pub struct Model {
-    /// File name of its description.
+    /// File name of the device description.
     pub file: String,
     catalog: Catalog,
 }
@@ -30,7 +30,7 @@ impl Model {
     }
 }
 
-/// Returns a random network, and the files of its devices.
+/// Returns the `bus.yml` of a random network, and the model of each node.
 pub fn network<'m>(models: &'m [Model], random: &mut Random) -> (String, Vec<&'m Model>) {
     let mut text = String::new();
     if random.chance(40) {
@@ -166,7 +166,7 @@ fn mapping(model: &Model, is_tpdo: bool, index: u16, random: &mut Random) -> Str
     }
 }
 
-/// Returns values of writable integers, within the limits of the description.
+/// Returns random values for writable integer objects from index 0x2000 on, within the limits of the description.
 fn values(model: &Model, random: &mut Random) -> String {
     let is_writable = |item: &&Item| {
         let (index, _) = item.object().unwrap_or((0, 0));

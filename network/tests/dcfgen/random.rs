@@ -1,6 +1,6 @@
 //! Pseudorandom numbers.
 
-// Each test uses only a part of this module.
+// Some tests use only a part of this module.
 #![allow(dead_code)]
 
 /// A generator of pseudorandom numbers (SplitMix64).
@@ -16,12 +16,12 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// Returns a number below `end`.
+    /// Returns a number below `end`, or 0 if `end` is 0.
     pub fn below(&mut self, end: usize) -> usize {
         (self.next() % end.max(1) as u64) as usize
     }
 
-    /// Returns true with a probability in percent.
+    /// Returns true with a probability of `percent` %.
     pub fn chance(&mut self, percent: usize) -> bool {
         self.below(100) < percent
     }

@@ -111,7 +111,7 @@ fn nodes_receive_the_values_of_their_concise_dcf() {
         let expected = concise.map_or(Vec::new(), |file| entries(&file.content));
         let expected: Vec<String> =
             expected.iter().map(|(index, sub_index, bytes)| format!("{node} {index} {sub_index} {bytes:?}")).collect();
-        // After the configuration, `boot` writes its date.
+        // `axis` stores its configuration, so `boot` then writes the date of the configuration to 0x1020 (4128).
         let dates: &[&str] = if node == "axis" { &["axis 4128 1", "axis 4128 2"] } else { &[] };
         let received: Vec<&str> = output.lines().filter(|line| line.starts_with(&format!("{node} "))).collect();
         let (result, received) = received.split_last().expect("a result");

@@ -1,5 +1,5 @@
-//! EtherCAT segments: the start-up commands are compared with those of the runtime, and sync managers and identity with the SII
-//! image of the same device.
+//! EtherCAT segments. The tests compare the start-up commands with those of the runtime, and the sync managers and the identity with
+//! the SII image of the same device.
 
 #[rustfmt::skip]
 #[allow(dead_code)]
@@ -35,7 +35,7 @@ lexibus::dictionary! {
     pub mod groups = "../tests/data/gateway.esi.xml";
 }
 
-/// Compiles a network file next to the descriptions.
+/// Compiles a network file in a folder with both descriptions.
 fn network(name: &str, text: &str) -> Compilation {
     let description = |file: &'static str| {
         (file, std::fs::read_to_string(root().join("tests/data").join(file)).expect("a description"))
@@ -48,7 +48,7 @@ fn segment(compilation: &Compilation) -> &Segment {
     valid(compilation).segment.as_ref().expect("a segment")
 }
 
-/// Returns the messages of a segment with one SubDevice.
+/// Returns the diagnostics of a segment with one SubDevice.
 fn faults(name: &str, keys: &str) -> Vec<String> {
     messages(&network(name, &format!("[segment]\ncycle = 1000\n[segment.subdevices.one]\n{keys}")))
 }
@@ -56,7 +56,7 @@ fn faults(name: &str, keys: &str) -> Vec<String> {
 const COUPLER: &str = "device = \"coupler.esi.xml\"\nmodel = \"CP-32\"\n";
 const DRIVE: &str = "device = \"coupler.esi.xml\"\nmodel = \"SV-1\"\n";
 
-/// Returns the commands of the runtime in the form of a segment.
+/// Converts commands of the runtime to the type that the network compiler uses.
 fn of_runtime(commands: impl Iterator<Item = Command>) -> Vec<StartupCommand> {
     let names = [(Transition::IP, "IP"), (Transition::PS, "PS")];
     let command = |command: Command| StartupCommand {
@@ -137,7 +137,7 @@ fn parameters_follow_the_assignment() {
     assert_eq!(last, [("PS", 2, vec![250, 0]), ("PS", 1, vec![1])]);
 }
 
-/// Two modules of one type have objects with equal names. The table of a module determines which of them is meant.
+/// Two modules of one type have objects with equal names. A name in the table of a module refers to an object of this module.
 #[test]
 fn objects_of_modules_have_names() {
     let module = |slot: u8, object: &str, value: &str| {
@@ -211,7 +211,7 @@ fn logical_addresses_are_outputs_then_inputs() {
     assert_eq!(segment.subdevices.iter().map(|one| one.alias).collect::<Vec<_>>(), [0, 0, 7]);
 }
 
-/// Returns the sync managers in an SII image: start address, length, control register, and whether it is enabled.
+/// Returns the sync managers in an SII image: start address, length, control register, and whether the sync manager is enabled.
 fn sii_sync_managers(image: &[u8]) -> Vec<(u16, u16, u8, bool)> {
     let word = |at: usize| u16::from_le_bytes([image[at], image[at + 1]]);
     let mut at = 0x80;
@@ -302,7 +302,7 @@ fn invalid_modules_are_reported() {
     assert_eq!(of("{ 0 = \"DI-16\", 1 = { parameters = {} } }"), ["NET004 the table of a module has no key `module`"]);
 }
 
-/// The padding in front of a group of modules has a mapping object, which has at most 254 entries of at most 255 bits.
+/// A mapping object describes the padding before a group of modules. It has at most 254 entries of at most 255 bits.
 #[test]
 fn padding_that_does_not_fit_into_a_pdo_is_reported() {
     let text = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("a description");
@@ -338,7 +338,7 @@ fn the_cycle_time_is_required_if_a_clock_needs_it() {
     assert_eq!(of("dc = \"DX\"\n"), ["NET028 `SV-1 servo drive` has no mode `DX` of the distributed clocks"]);
 }
 
-/// Compares the generated module with `generated.rs`, which is compiled with this test. `LEXIBUS_BLESS=1` writes the file.
+/// Compares the generated module with `generated.rs`, which is compiled with this test. `LEXIBUS_BLESS=1` writes the file first.
 #[test]
 fn the_rust_module_has_the_data_of_the_segment() {
     let text = format!(

@@ -1,6 +1,6 @@
-//! Networks of the example's devices, and readers of output files.
+//! Functions that compile networks, change device descriptions, and read output files.
 
-// Each test uses only a part of this module.
+// Some tests use only a part of this module.
 #![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
@@ -40,7 +40,7 @@ pub fn entries(mut bytes: &[u8]) -> Vec<Entry> {
     list
 }
 
-/// Writes files to a folder, and compiles the last one.
+/// Writes files to an empty folder, and compiles the last file.
 pub fn compiled(name: &str, files: &[(&str, String)]) -> Compilation {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -58,7 +58,7 @@ pub fn messages(compilation: &Compilation) -> Vec<String> {
     found.map(|found| format!("{} {}", found.code.id, found.message)).collect()
 }
 
-/// Returns the network of a file without diagnostics.
+/// Returns the network, and panics if there are diagnostics.
 pub fn valid(compilation: &Compilation) -> &Network {
     assert_eq!(messages(compilation), Vec::<String>::new());
     compilation.network.as_ref().expect("a network")
@@ -69,19 +69,19 @@ pub fn node<'n>(network: &'n Network, name: &str) -> &'n NetworkNode {
     network.nodes.iter().find(|node| node.name.value == name).expect("a node")
 }
 
-/// Returns the values that a node's concise DCF writes to an object, in their order.
+/// Returns the values that a node's concise DCF writes to an object, in the order of the writes.
 pub fn written(node: &NetworkNode, object: (u16, u8)) -> Vec<u64> {
     let number = |bytes: &[u8]| bytes.iter().rev().fold(0u64, |number, byte| number << 8 | u64::from(*byte));
     node.writes.iter().filter(|write| write.object == object).map(|write| number(&write.bytes)).collect()
 }
 
-/// Returns the text of a description with a configured value of an object, such as `1016sub1`.
+/// Returns the text of a description in which the object of a section, such as `1016sub1`, has a configured value.
 pub fn configured(eds: &str, section: &str, value: &str) -> String {
     let (before, rest) = eds.split_once(&format!("[{section}]")).expect("an object of the description");
     format!("{before}[{section}]\nParameterValue={value}{rest}")
 }
 
-/// Returns the text of a description with an additional UNSIGNED32 object, such as `1006`.
+/// Returns the text of a description with an additional UNSIGNED32 object. `index` is hexadecimal, such as `1006`.
 pub fn with_object(eds: &str, index: &str, value: &str) -> String {
     let (before, rest) = eds.split_once("[OptionalObjects]\r\nSupportedObjects=").expect("optional objects");
     let (count, rest) = rest.split_once("\r\n").expect("a line");
