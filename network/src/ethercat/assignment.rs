@@ -104,7 +104,7 @@ fn find<'d>(device: &'d Device, name: &At<ObjectName>) -> Result<&'d Pdo, Box<Di
     }
 }
 
-/// Returns the sync manager of a PDO, or the reason why the PDO cannot be assigned together with the other PDOs.
+/// Returns the sync manager of a PDO, or the reason why the PDO cannot be assigned.
 fn combined(device: &Device, pdo: &Pdo, others: &[Assigned<'_>], span: Span) -> Result<u8, Box<Diagnostic>> {
     for (other, _) in others {
         if std::ptr::eq(*other, pdo) {
@@ -121,7 +121,8 @@ fn combined(device: &Device, pdo: &Pdo, others: &[Assigned<'_>], span: Span) -> 
     })
 }
 
-/// Returns the default sync manager of a PDO, or the first one with its direction that the PDO does not exclude.
+/// Returns the default sync manager of a PDO, or the first one with its direction that the PDO does not exclude. If the description
+/// lists no sync managers, returns the sync manager of another PDO with the same direction.
 pub(super) fn sync_manager(data: &ProcessData, pdo: &Pdo) -> Option<u8> {
     if pdo.sync_manager.is_some() {
         return pdo.sync_manager.filter(|number| data.has_sync_manager(*number));

@@ -42,7 +42,7 @@ impl Plugged<'_> {
     pub fn objects_in_slot(self) -> Device {
         let Module { name, types, groups, .. } = self.module;
         let mut groups: Vec<Group> = groups.iter().filter_map(|group| in_slot(group, self.objects())).collect();
-        // The objects of a device are sorted by index. Indices that do not depend on the slot keep their value.
+        // The objects of a device are sorted by index. The offsets can change the order, because only some indices depend on the slot.
         groups.sort_by_key(Group::index);
         Device { name: name.clone(), types: types.clone(), groups, ..Device::default() }
     }

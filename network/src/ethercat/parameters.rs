@@ -1,4 +1,4 @@
-//! The values of `parameters`: of the objects of a SubDevice and of its modules.
+//! Values of `parameters` for the objects of a SubDevice and of its modules.
 
 use lexibus_codegen::diagnostics::{Diagnostic, Diagnostics};
 use lexibus_codegen::ir::{Bus, Device};
@@ -53,7 +53,7 @@ fn owner<'d>(device: &'d Device, modules: &'d [Device], parameter: &DeclaredPara
     of_module.unwrap_or(device)
 }
 
-/// Returns a diagnostic for a parameter of the SubDevice whose name only a module has. Its help is the table of the first module that
+/// Returns a diagnostic for a parameter of the SubDevice whose name only a module has. The help shows the table of the first module that
 /// has the name.
 fn misplaced(
     device: &Device,

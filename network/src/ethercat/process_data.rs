@@ -10,7 +10,7 @@ use super::assignment::{assignable, direction, sync_manager, Assigned};
 use super::modules::{Offsets, Plugged};
 use super::segment::AssignedPdo;
 
-/// Maximum length of padding in a PDO in bits: the mapping has at most 255 entries of at most 255 bits.
+/// Maximum length of padding in a PDO in bits: a mapping has at most 254 entries of at most 255 bits.
 const MAX_PADDING: u32 = MAX_PDO_SUBS as u32 * MAX_ENTRY;
 
 /// A PDO or padding in the process data of a sync manager.
@@ -58,7 +58,7 @@ impl<'d> Layout<'d> {
     }
 }
 
-/// Returns the process data of a device: for a modular device sorted by sync manager.
+/// Returns the process data of a device. The process data of a modular device are sorted by sync manager.
 pub(super) fn place<'d>(device: &'d Device, assigned: &[Assigned<'d>], plugged: &[Plugged<'d>]) -> Vec<Placed<'d>> {
     let mut layout = Layout { placed: Vec::new() };
     if device.slots.is_empty() {

@@ -24,7 +24,7 @@ pub struct Segment {
 /// The configuration of a SubDevice.
 #[derive(Debug, Serialize)]
 pub struct SubDevice {
-    /// Name of the SubDevice, as its file spells it.
+    /// Name of the SubDevice, as the network file spells it.
     pub name: String,
     /// Position on the bus, counted from 0.
     pub position: u16,
@@ -53,7 +53,7 @@ pub struct SubDevice {
     pub dc: Option<Clock>,
 }
 
-/// Identity of a SubDevice; `None` = the description does not state the number.
+/// Identity of a SubDevice; `None` = the number is unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Identity {
     /// Vendor-ID.
@@ -172,7 +172,7 @@ pub struct AssignedPdo {
 pub struct Clock {
     /// Name of the mode.
     pub mode: String,
-    /// Value of register 0x0980 (`AssignActivate`).
+    /// Value of the registers 0x0980 and 0x0981 (`AssignActivate`).
     pub assign_activate: u32,
     /// Times of SYNC0.
     pub sync0: ClockSignal,

@@ -21,7 +21,7 @@ const ASSIGNMENT: u16 = 0x1C10;
 /// Index of the object that lists the idents of the configured modules (ETG.5001.1).
 const MODULE_IDENTS: u16 = 0xF030;
 
-/// What the start-up commands of a SubDevice configure.
+/// Data from which the start-up commands of a SubDevice are computed.
 pub(super) struct Startup<'d> {
     pub device: &'d Device,
     pub plugged: &'d [Plugged<'d>],

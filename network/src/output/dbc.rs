@@ -64,7 +64,7 @@ struct Dbc {
 }
 
 impl Dbc {
-    /// If the short name of an element differs from its whole name, writes the attribute with the whole name.
+    /// Writes the attribute with the long form of a name if the short form differs.
     fn long_name(&mut self, kind: &str, element: &str, name: &Name) {
         if name.long != name.short {
             let _ = writeln!(self.attributes, "BA_ \"System{kind}LongSymbol\" {element} \"{}\";", name.long);
@@ -191,7 +191,7 @@ fn unit(item: &Item) -> &str {
     }
 }
 
-/// Returns the limits of the physical value; 0 and 0 = no limits.
+/// Returns minimum and maximum of the physical value. Returns 0 and 0, which a DBC reads as no limits, unless both are known.
 fn limits(item: &Item, id: u8, factor: f64, offset: f64) -> (f64, f64) {
     let physical = |limit: &Option<Value>| Some(limit.as_ref()?.resolved(id).as_real()? * factor + offset);
     match (physical(&item.limits.low), physical(&item.limits.high)) {

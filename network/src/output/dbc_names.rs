@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-/// Maximum length of a name. The whole of a longer name is in an attribute.
+/// Maximum length of a name. A longer name is shortened, and an attribute contains its long form.
 const MAX_NAME: usize = 32;
 
 /// Maximum length of a name in an attribute.
@@ -14,7 +14,8 @@ pub(super) const MASTER: &str = "master";
 /// Names that are not available: that of the master, and keywords of DBC.
 const RESERVED: [&str; 3] = [MASTER, "FILTER", "VERSION"];
 
-/// A name with at most [`MAX_NAME`] characters, and the whole name. Both are equal if the whole name is not longer.
+/// A name in two forms: short (at most [`MAX_NAME`] characters) and long (at most [`MAX_LONG_NAME`] characters). Both forms are equal
+/// if the long form has at most [`MAX_NAME`] characters.
 pub(super) struct Name {
     pub short: String,
     pub long: String,
@@ -25,8 +26,8 @@ pub(super) struct Name {
 pub(super) struct Names(HashSet<String>);
 
 impl Names {
-    /// Returns the name for a text: letters, digits and `_`. If a name is already in use, a number makes it unique. The whole name
-    /// and the short name can have different numbers.
+    /// Returns the name for a text: letters, digits and `_`. If a name is already in use, a number makes it unique. The long form
+    /// and the short form can have different numbers.
     pub fn unique(&mut self, text: &str) -> Name {
         let whole = identifier(text);
         let long = self.free(&whole, MAX_LONG_NAME);

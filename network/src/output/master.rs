@@ -192,8 +192,8 @@ fn domains<'n>(
     record(index, name, ObjectCode::Array, (1..=NODES).map(domain).collect())
 }
 
-/// Returns the communication and mapping objects of all PDOs, the objects that they map, and the PDOs of the nodes with which they
-/// exchange data.
+/// Returns the communication and mapping objects of all PDOs of the master, the objects that these PDOs map, and the objects that
+/// describe the matching PDOs of the nodes.
 fn pdos(network: &Network) -> Vec<Group> {
     let mut groups = Vec::new();
     for (direction, first) in [Direction::Transmit, Direction::Receive].into_iter().zip(DATA) {
@@ -253,8 +253,8 @@ fn communication_object(pdo: &NetworkPdo, number: u16) -> Group {
 /// For each mapped object of a node, the address of its data in the master's object dictionary.
 type Places = HashMap<(u16, u8), (u16, u8)>;
 
-/// Returns the object with the data of a PDO. Objects of the node that an earlier PDO maps share the data of that PDO. Returns
-/// `None` if no data remain.
+/// Returns the object with the data of a PDO. An object of the node that an earlier PDO maps uses the data of that PDO.
+/// Returns `None` if earlier PDOs contain all data.
 fn place(node: &NetworkNode, pdo: &NetworkPdo, index: u16, places: &mut Places) -> Option<Group> {
     let is_received = pdo.direction == Direction::Transmit;
     let (access, kind) = if is_received { (Access::ReadWriteOutput, "RPDO") } else { (Access::ReadWriteInput, "TPDO") };
@@ -299,7 +299,8 @@ fn words(index: u16, name: &str, words: &[u32]) -> Group {
     array(index, (name, U32, Access::ReadWrite), None, words.len() as u8, &values)
 }
 
-/// Returns the manufacturer-specific objects of Lely CANopen that state the node's PDO and the mapped objects of the node.
+/// Returns the manufacturer-specific objects of Lely CANopen that describe a PDO of a node: its number and node-ID, and the objects
+/// that it maps.
 fn remote(node: &NetworkNode, pdo: &NetworkPdo, number: u16) -> [Group; 2] {
     let (first, kind) = match pdo.direction {
         Direction::Transmit => (0x5800, "TPDO"),

@@ -19,7 +19,7 @@ use crate::values::Write;
 const RESERVED: [&str; 6] = ["boot", "bit_rate", "network_node", "node_id", "duration", "rt"];
 
 /// Returns the Rust files with their names: `network.rs`, and `network/<node>.rs` for each node. `options` are the options of the
-/// bindings, except the name of the device.
+/// bindings; their device name and configuration are replaced by those of the node.
 pub fn rust(network: &Network, options: &RustOptions) -> Vec<(String, String)> {
     let requests: Vec<NameRequest<'_>> =
         network.nodes.iter().map(|node| NameRequest::new(&node.name.value, "node", node.id)).collect();
@@ -191,7 +191,7 @@ fn error_control(node: &NetworkNode) -> String {
 }
 
 /// Returns a date that changes if the configuration changes: milliseconds and days for 0x1020. It is computed from the SHA-256 of the
-/// configuration, so that equal network files give equal dates.
+/// configuration, so that equal configurations give equal dates.
 fn date(node: &NetworkNode) -> (u32, u16) {
     let entries = node.writes.iter().map(|write| (write.object, write.bytes.as_slice()));
     let digest = Source::new("", super::concise(entries)).sha256().to_owned();

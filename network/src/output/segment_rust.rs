@@ -136,7 +136,7 @@ fn clock(clock: &Clock) -> String {
     )
 }
 
-/// Returns the range of logical addresses of one direction, which is contiguous.
+/// Returns the range of logical addresses of one direction. The addresses of a direction are contiguous.
 fn addresses(subdevice: &SubDevice, direction: Direction) -> String {
     let fmmus = || subdevice.fmmus.iter().filter(|fmmu| fmmu.direction == direction);
     let start = fmmus().map(|fmmu| fmmu.logical_address).min().unwrap_or(0);

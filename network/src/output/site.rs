@@ -22,7 +22,7 @@ use crate::values::Write;
 /// Separator between the names of an object and of its entry, or of a network and of its device.
 pub(super) const SEPARATOR: &str = " / ";
 
-/// Announces the devices of all nodes. Announce all networks of a site before you add the pages of one of them.
+/// Announces the devices of all nodes and SubDevices. Announce all networks of a site before you add the pages of one of them.
 pub fn announce(network: &Network, title: &str, site: &mut Site) {
     for node in &network.nodes {
         // The configuration of a node does not change the folders of its device.
@@ -121,7 +121,7 @@ fn facts(node: &NetworkNode) -> Vec<String> {
     facts
 }
 
-/// Returns the frames of all senders.
+/// Returns one frame for each CAN-ID of a PDO, then the frames of the services.
 fn frames(network: &Network, traffic: &[Traffic]) -> Vec<Frame> {
     let mut known = BTreeSet::new();
     let sent = network.pdos(Direction::Transmit).chain(network.pdos(Direction::Receive));

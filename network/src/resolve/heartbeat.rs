@@ -29,8 +29,8 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
                 }
             }
         } else {
-            // Clears the entries of the description that monitor the master: the master sends no heartbeat, the network file does
-            // not request the monitoring, or another entry, which the network file sets, monitors the master.
+            // Clears the entries of the description that monitor the master. The master sends no heartbeat, or the network file does
+            // not request the monitoring, or the network file itself sets an entry that monitors the master.
             for (sub_index, value) in described.iter().filter(monitors) {
                 writer.write((0x1016, *sub_index), value & 0x00FF_0000, span);
             }
@@ -52,7 +52,7 @@ fn entries(node: &NetworkNode) -> (Entries, Entries) {
     subs.map(|sub_index| (sub_index, value(sub_index))).partition(|(sub_index, _)| values.is_set((0x1016, *sub_index)))
 }
 
-/// Returns the sub-index of the entry that monitors the master, or of the first unused entry.
+/// Returns the sub-index of the entry with the node-ID of the master, or of the first unused entry.
 fn free_entry(entries: &[(u8, u32)], master_id: u8) -> Option<u8> {
     let of_master = entries.iter().find(|(_, value)| (value >> 16) as u8 == master_id);
     let is_unused = |value: u32| value & 0xFFFF == 0 || !(1..=127).contains(&((value >> 16) as u8));

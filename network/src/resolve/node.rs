@@ -24,8 +24,9 @@ const EMCY: u32 = 0x80;
 
 /// Resolves a node.
 ///
-/// The order of the writes is that of `dcfgen`: heartbeat consumer, TIME, heartbeat producer, node guarding, error behavior, RPDOs,
-/// TPDOs, and all other values in the order of the file.
+/// The configured values of the description come first, unless `is_description_written` is false. The order of the other writes is
+/// that of `dcfgen`: heartbeat consumer, TIME, heartbeat producer, node guarding, error behavior, RPDOs, TPDOs, and `parameters` in
+/// the order of the file.
 pub(super) fn resolve(node: DescribedNode<'_>, cob_ids: &CobIds, diagnostics: &mut Diagnostics) -> NetworkNode {
     let DescribedNode { declared, id, description, parameters } = node;
     let writes = writes(declared, id, &description, cob_ids, parameters, diagnostics);

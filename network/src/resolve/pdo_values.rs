@@ -83,7 +83,7 @@ pub(super) fn pdo(values: Values<'_>, direction: Direction, number: u16) -> Opti
     })
 }
 
-/// Returns the kind of multiplexed PDO that a number of mapped objects stands for, or `None` for other numbers (CiA 301 7.5.2.36).
+/// Returns the kind of multiplexed PDO that a number of mapped objects represents, or `None` for other numbers (CiA 301 7.5.2.36).
 fn multiplexed_name(count: u8) -> Option<&'static str> {
     match count {
         254 => Some("SAM-MPDO"),

@@ -91,8 +91,8 @@ fn check_master(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports nodes without a node-ID, and nodes with the node-ID of another node. Returns the locations of the
-/// latter's names.
+/// Reports nodes without a node-ID, and nodes with the node-ID of the master or of an earlier node. Returns the locations of the names
+/// of the nodes with a repeated node-ID.
 fn check_node_ids(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
     let mut repeated = Vec::new();
     let mut known: BTreeMap<u8, (String, Span)> = BTreeMap::new();

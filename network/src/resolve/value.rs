@@ -93,7 +93,7 @@ fn text_value(device: &Device, item: &Item, bus: Bus, text: &str) -> Result<Valu
             _ => Ok(Value::NodeId(offset)),
         };
     }
-    // The name of a value can have the form of a physical value: `50 Hz`.
+    // Names come first, because the name of a value can have the form of a physical value: `50 Hz`.
     match (named(device, item, bus, text), quantity(text)) {
         (Some(value), _) => Ok(value),
         (None, Some((number, unit))) => physical(item, number, unit, ty),
@@ -167,7 +167,7 @@ fn enumeration<'d>(device: &'d Device, item: &Item, bus: Bus) -> Option<impl Ite
     Some(values.iter().filter(|value| value.is_named()).map(|value| (value.name.as_str(), value.value)))
 }
 
-/// Returns the value with a name of the object's enumeration.
+/// Returns the value that has this name in the object's enumeration. Ignores case.
 fn named(device: &Device, item: &Item, bus: Bus, text: &str) -> Option<Value> {
     let mut values = enumeration(device, item, bus)?;
     let named = values.find(|(name, _)| name.eq_ignore_ascii_case(text));

@@ -1,4 +1,4 @@
-//! Collects the values that configure a node, and checks them against its description.
+//! Collects the values that configure a node or a SubDevice, and checks them against its description.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::facts::encoding;
@@ -41,7 +41,7 @@ impl Writer<'_> {
         self.parameter(&DeclaredParameter { object: name, value: At::new(Scalar::Integer(number.into()), span) });
     }
 
-    /// Writes a declared value.
+    /// Writes a declared value. Reports an object that the device does not have, and a value that the object cannot have.
     pub fn parameter(&mut self, parameter: &DeclaredParameter) {
         let Some((item, object)) = find(self.device, &parameter.object, self.diagnostics) else { return };
         let span = parameter.value.span;
