@@ -7,7 +7,7 @@ use crate::parameter::Parameter;
 
 /// Bits of an 11-bit COB-ID that contain the node-ID in the predefined connection set (CiA 301 7.3.3).
 const NODE: i128 = 0x7F;
-/// Function codes of emergency messages and of the PDOs 1 to 4 in the predefined connection set.
+/// CAN-IDs, without the node-ID, of emergency messages and of PDOs 1 to 4 in the predefined connection set.
 const FUNCTIONS: [i128; 9] = [0x080, 0x180, 0x200, 0x280, 0x300, 0x380, 0x400, 0x480, 0x500];
 /// Bits 30 and 31, which are flags.
 const FLAGS: i128 = 0xC000_0000;

@@ -88,9 +88,10 @@ impl<'d> Plan<'d> {
     /// Writes the values, and then reads them back.
     ///
     /// `proceed` is called before each write that is attempted. If it returns false, the restore ends, and the
-    /// remaining values are not written. The restore also ends if the bus fails or the device doesn't reply. A value
-    /// that the device refuses doesn't end the restore, but the remaining values of its PDO are not written. After a
-    /// restore that ended early, the written values are read back too, because the device may have restarted.
+    /// remaining values are not written. The restore also ends if the bus fails, if the device doesn't reply, or if it
+    /// refuses a Modbus value of several registers. After any other refusal, the restore continues, but the remaining
+    /// values of the same PDO are not written. After a restore that ended early, the written values are read back too,
+    /// because the device may have restarted.
     pub fn execute(
         &self,
         connection: &mut impl Connection,

@@ -20,7 +20,8 @@ const GAP: u16 = 4;
 /// Maximum number of objects in a list.
 const LIST_LENGTH: u16 = 0x200;
 
-/// Searches for objects and sub-indices that the description doesn't declare, and checks the numbers of entries.
+/// Searches for objects and sub-indices that the description doesn't declare, and checks the number of entries of the declared
+/// objects.
 pub(super) fn check<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let groups = run.description.device().groups.iter();
     let declared: BTreeSet<u16> = groups.filter_map(|group| group.index()).collect();

@@ -18,7 +18,8 @@ const CAN_ID: u32 = 0x3FFF_FFFF;
 struct Sender {
     cob_id: u32,
     name: String,
-    /// Location in the network file; empty if the description or CiA 301 states the COB-ID.
+    /// Location in the network file. Empty for TIME and EMCY if the file does not set the COB-ID, and for SYNC if no known node sends it
+    /// with 0x80.
     span: Span,
     is_pdo: bool,
 }

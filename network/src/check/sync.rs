@@ -43,7 +43,7 @@ fn period(
     }
 }
 
-/// Reports the first synchronous PDO of the network file, because no node sends SYNC.
+/// Reports the first synchronous PDO that the network file declares, for a network in which no node sends SYNC.
 fn without_sync(synchronous: &[(&NetworkNode, &NetworkPdo)], diagnostics: &mut Diagnostics) {
     if let Some((node, pdo)) = synchronous.iter().find(|(_, pdo)| !pdo.span.is_empty()) {
         let message = format!("{} of `{}` is synchronous, but no node sends SYNC", pdo.title(), node.name.value);

@@ -61,7 +61,7 @@ fn cycle_sync0(mode: &ClockMode) -> ClockTime {
     }
 }
 
-/// Returns whether a time of an active mode depends on the cycle time of the segment.
+/// Returns whether the mode is active and its SYNC0 cycle time or shift time depends on the cycle time of the segment.
 fn depends_on_cycle(mode: &ClockMode) -> bool {
     let has_factor = |time: ClockTime| time.factor.is_some_and(|factor| factor != 0);
     mode.assign_activate != 0 && (has_factor(cycle_sync0(mode)) || has_factor(mode.shift_sync0))

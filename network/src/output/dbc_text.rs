@@ -28,8 +28,10 @@ const SPELLINGS: [(&str, &str); 21] = [
     ("\\", "/"),
 ];
 
-/// Superscript and subscript digits and signs.
+/// Superscript digits and signs.
 const EXPONENTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻";
+
+/// Subscript digits and signs.
 const INDICES: &str = "₀₁₂₃₄₅₆₇₈₉₊₋";
 
 /// The digits and signs of the lists above as normal characters, in the same order.

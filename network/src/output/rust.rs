@@ -15,7 +15,7 @@ use crate::check::bus_load;
 use crate::model::{Network, NetworkNode, KEEP_RUNNING};
 use crate::values::Write;
 
-/// Names of items in the module of the network, which no node can have.
+/// Names that the Rust module of a node must not have. A node with such a name gets its node-ID as a suffix of the module name.
 const RESERVED: [&str; 6] = ["boot", "bit_rate", "network_node", "node_id", "duration", "rt"];
 
 /// Returns the Rust files with their names: `network.rs`, and `network/<node>.rs` for each node. `options` are the options of the

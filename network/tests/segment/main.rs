@@ -211,7 +211,7 @@ fn logical_addresses_are_outputs_then_inputs() {
     assert_eq!(segment.subdevices.iter().map(|one| one.alias).collect::<Vec<_>>(), [0, 0, 7]);
 }
 
-/// Returns the sync managers in an SII image: start address, length, control register, and whether the sync manager is enabled.
+/// Returns the start address, length, control register and enable bit of each sync manager in an SII image.
 fn sii_sync_managers(image: &[u8]) -> Vec<(u16, u16, u8, bool)> {
     let word = |at: usize| u16::from_le_bytes([image[at], image[at + 1]]);
     let mut at = 0x80;
