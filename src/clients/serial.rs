@@ -32,8 +32,8 @@
 //! then reads only bytes that have arrived. With the feature `std`, the line has a clock, and pauses while it waits.
 //! Without `std`, set a clock with [`SerialLine::with_time`].
 //!
-//! Without a clock or this information, a read can block. Only a timeout of the stream then ends a read, and the exchange
-//! returns the error of the stream. Without a clock, only the [number of received bytes](SerialLine) limits an exchange in
+//! Without a clock or this information, a read can block. If no byte arrives, only a timeout of the stream ends the read,
+//! and the exchange returns the error of the stream. Without a clock, only the [number of received bytes](SerialLine) limits an exchange in
 //! which noise arrives continuously.
 //!
 //! Async streams have no timeout, so an async line needs a timer. An async exchange on a line without a timer doesn't

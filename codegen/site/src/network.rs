@@ -9,7 +9,7 @@ use lexibus_codegen::facts::words::{capital, sentence};
 /// A CANopen network.
 #[derive(Clone, Debug, Default)]
 pub struct Network {
-    /// Name of the network. Each network of a site must have a different [page name](super::page_name).
+    /// Name of the network. Each network of a site must have a unique [page name](super::page_name).
     pub name: String,
     /// Bit rate in bit/s.
     pub bit_rate: u32,

@@ -5,7 +5,7 @@ use super::listed::Listed;
 /// An EtherCAT segment.
 #[derive(Clone, Debug, Default)]
 pub struct Segment {
-    /// Name of the segment. Each segment of a site must have a different [page name](super::page_name).
+    /// Name of the segment. Each segment of a site must have a unique [page name](super::page_name).
     pub name: String,
     /// Number of SubDevices and length of the process data as a sentence.
     pub summary: String,

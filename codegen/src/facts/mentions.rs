@@ -134,7 +134,7 @@ impl<'d> Mentions<'d> {
         found.flatten()
     }
 
-    /// Returns the field with this bit. If the meaning of the bit depends on a condition, the number does not determine
+    /// Returns the field that contains bit `number` of an item. If the meaning of the bit depends on a condition, the number does not determine
     /// the field.
     fn bit(&self, mention: Mention, number: u32) -> Option<Mention> {
         let Mention::Item(id) = mention else { return None };

@@ -198,7 +198,7 @@ pub struct MessageValue {
     pub completes: Option<PolledCommand>,
 }
 
-/// A command whose completion a value in a reply indicates.
+/// A command whose completion is indicated by a value in a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PolledCommand {
     /// The message of the command. Its completion contains the mask and the expected value.

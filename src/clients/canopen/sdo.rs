@@ -171,7 +171,7 @@ macro_rules! transfers {
                 self.$run(transfer)$(.$await)?.map(|_| ())
             }
 
-            /// Waits while the interface receives frames. [`Buffered`](super::Buffered) and
+            /// Waits for `time`. Meanwhile, the interface receives frames. [`Buffered`](super::Buffered) and
             /// [`Network`](super::Network) keep these frames. An interface without a buffer loses them, as during a
             /// transfer.
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<P::Error>> {

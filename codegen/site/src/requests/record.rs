@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{Bus, Item, TypeDef};
 /// Titles of the requests for records: addresses of a read and of a write, and the bytes of a write.
 pub(super) const TITLES: [&str; 3] = ["PROFINET record read", "PROFINET record write", "PROFINET record bytes"];
 
-/// Maximum length of a record whose bytes are shown.
+/// Maximum length in bytes of a record whose bytes are shown.
 const LONGEST: usize = 256;
 
 /// A record, and the submodule that has it.
@@ -54,7 +54,7 @@ impl OfRecord<'_> {
         TITLES.into_iter().zip(texts).filter_map(|(title, text)| Some((title, text?)))
     }
 
-    /// Returns the default bytes, in which the bytes of an unknown value are unknown.
+    /// Returns the default bytes of the record. If the written value is unknown, the bytes that contain it are `None`.
     fn bytes(&self, written: &Written, bit_offset: u32, bits: u32) -> Frame {
         let mut bytes = super::known(self.default_bytes);
         if written.known().is_none() {

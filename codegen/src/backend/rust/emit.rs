@@ -72,7 +72,7 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
 }
 
-/// Returns the usage of the records of each submodule for which code is generated.
+/// Returns the code that reads and writes the records, and their default bytes, for each submodule with generated code.
 pub fn usage_of_records(catalog: &Catalog) -> HashMap<SubmoduleId, RecordUsage> {
     #[cfg(feature = "gsdml")]
     return super::profinet::usage_of_records(catalog);

@@ -73,7 +73,7 @@ struct Parameter<'i> {
     field: Field<'i>,
 }
 
-/// A record with a struct.
+/// A record for which a struct is generated.
 struct Named<'a> {
     /// Position of the group in the submodule.
     position: u32,
