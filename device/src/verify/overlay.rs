@@ -7,14 +7,16 @@ use super::report::Report;
 use crate::quote::quoted;
 
 impl Report {
-    /// Returns an overlay with the deviations that an overlay can express, or `None` if there are none.
+    /// Returns an overlay with the deviations of objects that an overlay can express, or `None` if there are none. An overlay cannot
+    /// name registers.
     ///
     /// Each row has the finding as a comment. The length of a value determines its type: an unsigned integer up to 8
     /// bytes, and `bytes` above. The type of an undeclared object that cannot be read is `?`.
     #[must_use]
     pub fn overlay(&self) -> Option<String> {
-        let rows: Vec<(&Finding, String)> =
-            self.deviations().filter_map(|finding| Some((finding, row(finding)?))).collect();
+        let all = self.deviations();
+        let rows: Vec<(&Finding, String, String)> =
+            all.filter_map(|finding| Some((finding, key(&finding.address)?, facts(finding)?))).collect();
         if rows.is_empty() {
             return None;
         }
@@ -23,28 +25,26 @@ impl Report {
              title = \"Found on the device\"\n\n[chapters.objects]\n",
             quoted(&self.device)
         );
-        for (finding, facts) in rows {
+        for (finding, key, facts) in rows {
             let _ = writeln!(text, "# {}", finding.to_string().replace(char::is_control, " "));
-            let _ = writeln!(text, "{} = {{ {facts} }}", key(&finding.address));
+            let _ = writeln!(text, "{key} = {{ {facts} }}");
         }
         Some(text)
     }
 }
 
-/// Returns the address as a key: `0x2000` for sub-index 0, `"0x1018:1"` for others.
-fn key(address: &str) -> String {
-    match address.split_once(':') {
-        Some((index, "00")) => index.to_owned(),
-        Some((index, sub_index)) => {
-            let sub_index = u8::from_str_radix(sub_index, 16).unwrap_or_default();
-            format!("\"{index}:{sub_index}\"")
-        }
-        None => quoted(address),
+/// Returns the address of an object as a key: `0x2000` for sub-index 0, `"0x1018:1"` for others. Returns `None` for a register, which
+/// an overlay of objects cannot name.
+fn key(address: &str) -> Option<String> {
+    let (index, sub_index) = address.split_once(':')?;
+    match u8::from_str_radix(sub_index, 16).ok()? {
+        0 => Some(index.to_owned()),
+        sub_index => Some(format!("\"{index}:{sub_index}\"")),
     }
 }
 
 /// Returns the facts of a row, or `None` if an overlay cannot state the finding.
-fn row(finding: &Finding) -> Option<String> {
+fn facts(finding: &Finding) -> Option<String> {
     match finding.found {
         Found::Nothing => Some("remove = true".to_owned()),
         Found::Length(bytes) => Some(format!("type = \"{}\"", type_of(bytes)?)),
@@ -65,5 +65,16 @@ fn type_of(bytes: usize) -> Option<String> {
         0 => None,
         1..=8 => Some(format!("u{}", 8 * bytes)),
         _ => Some(format!("bytes({bytes})")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_objects_have_rows() {
+        let keys = ["0x2000:00", "0x1018:0A", "register 101", "identity"].map(key);
+        assert_eq!(keys, [Some("0x2000".to_owned()), Some("\"0x1018:10\"".to_owned()), None, None]);
     }
 }
