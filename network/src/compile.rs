@@ -27,7 +27,7 @@ impl Compilation {
     }
 }
 
-/// Reads and checks a network file. Paths of descriptions are relative to the folder of the file.
+/// Compiles a network file. Relative paths of descriptions refer to a folder that the file declares, or to the folder of the file.
 pub fn compile(source: Source, levels: Levels) -> Compilation {
     let mut diagnostics = Diagnostics::new(levels);
     let declared = frontend::read(&source, FileId(0), &mut diagnostics);

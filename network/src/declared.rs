@@ -1,4 +1,4 @@
-//! What a network file declares: values with spans, before descriptions are read. All front ends produce these types.
+//! What a network file declares, before descriptions are read. All front ends produce these types.
 
 use lexibus_codegen::source::Span;
 
@@ -16,9 +16,10 @@ pub struct DeclaredNetwork {
     pub bus: Option<At<String>>,
     /// The master.
     pub master: Option<DeclaredMaster>,
-    /// True if a missing master is no fault: the format of the file has no master, or the file only declares an EtherCAT segment.
+    /// True if a missing master is no fault: the format of the file has no master, or the file declares an EtherCAT segment
+    /// and has no section `nodes`.
     pub is_master_optional: bool,
-    /// All nodes except the master, in the order of the file.
+    /// Nodes without the master, in the order in which the front end reads them.
     pub nodes: Vec<DeclaredNode>,
     /// The EtherCAT segment, if the file declares one.
     pub segment: Option<DeclaredSegment>,
@@ -49,7 +50,7 @@ pub struct DeclaredMaster {
     pub heartbeat: At<u16>,
     /// Consumer time of the master's heartbeat as a multiple of its producer time.
     pub heartbeat_multiplier: At<f64>,
-    /// True if the master monitors the heartbeats of all nodes (0x1016).
+    /// True if the master monitors the heartbeats of the nodes (0x1016).
     pub consumes_heartbeats: bool,
     /// Error behavior (0x1029): sub-index and value.
     pub error_behavior: Vec<(u8, u8)>,
@@ -59,8 +60,8 @@ pub struct DeclaredMaster {
     pub startup: u32,
     /// Boot time in ms (0x1F89).
     pub boot_time: u32,
-    /// True if the master exchanges PDOs: it receives each enabled TPDO of the nodes, and sends each enabled RPDO that no other
-    /// node sends.
+    /// True if the master exchanges PDOs: it receives each enabled TPDO of the nodes, and sends each enabled RPDO that no node
+    /// sends.
     pub exchanges_pdos: bool,
 }
 
@@ -92,7 +93,7 @@ impl DeclaredMaster {
 /// Default ratio of the consumer time of a heartbeat to its producer time.
 pub const HEARTBEAT_MULTIPLIER: f64 = 3.0;
 
-/// Default number of attempts to start a node.
+/// Default retry factor of a node (0x1F81).
 pub const RETRY_FACTOR: u8 = 3;
 
 /// A node as its section declares it. Times have the unit of the object that contains them.
@@ -144,11 +145,11 @@ pub struct DeclaredNode {
     pub software_file: Option<At<String>>,
     /// Expected software identification (0x1F55); 0 = not checked.
     pub software_version: u32,
-    /// Expected texts of the manufacturer hardware version (0x1009) and software version (0x100A).
+    /// Expected texts of the manufacturer hardware version (0x1009) and software version (0x100A); `None` = not checked.
     pub versions: [Option<At<String>>; 2],
     /// Sub-index of 0x1011 that restores the defaults before the configuration; 0 = none.
     pub restore: u8,
-    /// Number of attempts to start the node.
+    /// Retry factor of the node (0x1F81).
     pub retry_factor: u8,
     /// True if the node stores its configuration.
     pub store: bool,
@@ -197,7 +198,7 @@ impl DeclaredNode {
     }
 }
 
-/// A PDO of a node as its section declares it. Values that are not declared remain those of the description.
+/// A PDO of a node as its section declares it.
 #[derive(Clone, Debug)]
 pub struct DeclaredPdo {
     /// True if the node sends the PDO.
@@ -238,7 +239,7 @@ pub enum DeclaredCobId {
 pub enum ObjectName {
     /// Index and sub-index.
     Address(u16, u8),
-    /// Name of the object, or of an object and its sub-index (`Object/Sub-index`).
+    /// Name of an item, or the names of its object and of the item, separated by a slash (`Object/Item`).
     Name(String),
 }
 

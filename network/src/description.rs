@@ -13,7 +13,7 @@ use lexibus_codegen::source::{Source, Span};
 
 use crate::syntax::At;
 
-/// The description of a device, which several nodes can share.
+/// The description of a device. Several nodes or SubDevices can share it.
 #[derive(Debug)]
 pub struct Description {
     /// File of the description.
@@ -74,7 +74,8 @@ impl<'s> Descriptions<'s> {
         Descriptions { network, bus, read: HashMap::new() }
     }
 
-    /// Returns the description of a device. If several devices have the same key, reports an unusable description only once.
+    /// Returns the description of a device. If several devices have the same description, overlays and model, reports an unusable
+    /// description only once.
     pub fn of(&mut self, reference: &DeviceReference<'_>, diagnostics: &mut Diagnostics) -> Option<Rc<Description>> {
         let Some(device) = reference.device else {
             let message = format!("{} has no device description", reference.title);
@@ -121,8 +122,8 @@ impl<'s> Descriptions<'s> {
         }
     }
 
-    /// Opens a file. If the file is below the folder of the network file, its path in diagnostics starts like that of the network
-    /// file.
+    /// Opens a file. If its path starts with the folder of the network file, the name of the source starts with the folder in the
+    /// name of the network file instead.
     fn open(&self, path: &Path) -> std::io::Result<Source> {
         let source = Source::read(path)?;
         let shown = match path.strip_prefix(self.folder()) {
@@ -137,8 +138,8 @@ impl<'s> Descriptions<'s> {
         self.network.folder().unwrap_or(Path::new(""))
     }
 
-    /// Returns the path of a file, which is searched in `folders` and then in the folder of the network file. Reports a file that
-    /// does not exist.
+    /// Searches a file in `folders` and then in the folder of the network file, and returns its path. Reports a file that is not
+    /// found.
     fn find(&self, name: &At<String>, folders: &[At<String>], diagnostics: &mut Diagnostics) -> Option<PathBuf> {
         let mut unknown = Vec::new();
         let name_path = expanded(name, &mut unknown);
@@ -166,7 +167,7 @@ impl<'s> Descriptions<'s> {
     }
 }
 
-/// Returns the path of a file with a similar name in one of the folders of `paths`.
+/// Replaces the file name in `name` with a similar one that exists in the folder of one of `paths`. Returns `None` if there is none.
 fn similar_file(name: &str, paths: &[PathBuf]) -> Option<String> {
     let similar = |path: &PathBuf| {
         let entries = std::fs::read_dir(path.parent()?).ok()?;
@@ -180,8 +181,8 @@ fn similar_file(name: &str, paths: &[PathBuf]) -> Option<String> {
     paths.iter().find_map(similar)
 }
 
-/// Replaces `$NAME` and `${NAME}` in a path, and `@BUS_CONFIG_PATH@` at its start, which is the folder of the network file. Adds
-/// the names of unset variables to `unknown`.
+/// Replaces `\` with `/` in a path, and expands `$NAME` and `${NAME}`. Removes `@BUS_CONFIG_PATH@`, the folder of the network file,
+/// from the start of the path. Adds the names of unset variables to `unknown`.
 pub(crate) fn expanded(path: &str, unknown: &mut Vec<String>) -> PathBuf {
     let path = path.replace('\\', "/");
     let path = path.strip_prefix("@BUS_CONFIG_PATH@").map_or(path.as_str(), |rest| rest.trim_start_matches('/'));
@@ -254,7 +255,7 @@ fn usable(compilation: &Compilation, overlays: &[Source], bus: Bus) -> Result<()
     }
 }
 
-/// Returns the reason why a network file cannot contain a device on a bus.
+/// Returns the reason why a device cannot be used on `bus`, or `None` if it can.
 fn unsupported(device: &Device, bus: Bus) -> Option<&'static str> {
     match bus {
         Bus::EtherCat if device.ethercat.is_none() => Some("has no EtherCAT settings"),

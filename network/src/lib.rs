@@ -31,7 +31,7 @@
 //! | EtherCAT segments | [`ethercat`] |
 //! | output files | [`output`] |
 //!
-//! [`compile`] calls all stages before the output.
+//! [`compile`](compile::compile) runs the stages before the output.
 
 #![forbid(unsafe_code)]
 

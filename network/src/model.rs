@@ -12,7 +12,7 @@ use crate::ethercat::Segment;
 use crate::syntax::At;
 use crate::values::{Values, Write};
 
-/// Bit of a COB-ID that disables a PDO or an EMCY (CiA 301 7.5.2.17, 7.5.2.35).
+/// Bit of a COB-ID that disables a PDO or EMCY (CiA 301 7.5.2.17, 7.5.2.35, 7.5.2.37).
 pub const DISABLED: u32 = 1 << 31;
 
 /// Bit of a COB-ID that is set if the CAN-ID has 29 bits.
@@ -27,13 +27,13 @@ pub const BOOT: u32 = 0x04;
 /// Bit of 0x1F81: the network needs the node.
 pub const MANDATORY: u32 = 0x08;
 
-/// Bit of 0x1F81: the master does not reset the node while it is Operational.
+/// Bit of 0x1F81: the master does not reset a node that is Operational.
 pub const KEEP_RUNNING: u32 = 0x10;
 
 /// Bit of 0x1F81: the master verifies the software version.
 pub const VERIFY_SOFTWARE: u32 = 0x20;
 
-/// Bit of 0x1F81: the master updates the software.
+/// Bit of 0x1F81: the master may update the software.
 pub const UPDATE_SOFTWARE: u32 = 0x40;
 
 /// Bit of 0x1F81: the master restores the defaults before the configuration.
@@ -50,7 +50,7 @@ pub struct Network {
     pub bit_rate_at: Span,
     /// The master, if the file declares one.
     pub master: Option<DeclaredMaster>,
-    /// All nodes except the master, in the order of the file.
+    /// The resolved nodes without the master, in the order of the declared nodes.
     pub nodes: Vec<NetworkNode>,
     /// The EtherCAT segment, if the file declares one.
     pub segment: Option<Segment>,
@@ -80,7 +80,7 @@ impl Network {
         self.master.as_ref().is_some_and(|master| master.exchanges_pdos) && !is_sent()
     }
 
-    /// Returns the RPDOs that the master sends. Of several RPDOs with one CAN-ID and one length, the master sends one PDO.
+    /// Returns the RPDOs that the master sends. Of several RPDOs with the same CAN-ID and number of bytes, returns only the first.
     pub fn sent_by_master(&self) -> Vec<(&NetworkNode, &NetworkPdo)> {
         let mut known = HashSet::new();
         let is_sent = |(_, pdo): &(&NetworkNode, &NetworkPdo)| {
@@ -89,18 +89,18 @@ impl Network {
         self.pdos(Direction::Receive).filter(is_sent).collect()
     }
 
-    /// Returns all PDOs on the bus: the TPDOs of the nodes, then the RPDOs that the master sends.
+    /// Returns the enabled TPDOs of the nodes, then the RPDOs that the master sends.
     pub fn sent(&self) -> Vec<(&NetworkNode, &NetworkPdo)> {
         self.pdos(Direction::Transmit).chain(self.sent_by_master()).collect()
     }
 
-    /// Returns the nodes with an enabled RPDO that has the CAN-ID of `cob_id`.
+    /// Returns the node of each enabled RPDO that has the CAN-ID of `cob_id`.
     pub fn receivers(&self, cob_id: u32) -> impl Iterator<Item = &NetworkNode> {
         self.pdos(Direction::Receive).filter(move |(_, pdo)| pdo.can_id() == can_id(cob_id)).map(|(node, _)| node)
     }
 }
 
-/// Returns the CAN-ID of a COB-ID. Bit 29 is set if the CAN-ID has 29 bits.
+/// Returns the CAN-ID of a COB-ID. Bit 29 of the result is set if the CAN-ID has 29 bits.
 pub fn can_id(cob_id: u32) -> u32 {
     match cob_id & EXTENDED {
         0 => cob_id & 0x7FF,
@@ -111,7 +111,7 @@ pub fn can_id(cob_id: u32) -> u32 {
 /// A node of the network.
 #[derive(Debug)]
 pub struct NetworkNode {
-    /// Name of the node, as its file spells it.
+    /// Name of the node.
     pub name: At<String>,
     /// Node-ID, from 1 to 127.
     pub id: u8,
@@ -129,7 +129,7 @@ pub struct NetworkNode {
     pub device_type: u32,
     /// Expected identity: vendor-ID, product code, revision number, serial number; 0 = not checked.
     pub identity: [u32; 4],
-    /// COB-ID of EMCY (0x1014).
+    /// COB-ID of EMCY (0x1014); [`DISABLED`] if the device does not have the object.
     pub emcy_cob_id: u32,
     /// Heartbeat producer time in ms; 0 = no heartbeat.
     pub heartbeat: At<u16>,
@@ -143,7 +143,7 @@ pub struct NetworkNode {
     pub pdos: Vec<NetworkPdo>,
     /// Values that configure the node, in the order in which they are written.
     pub writes: Vec<Write>,
-    /// Bits of the node in 0x1F81 (CiA 302-2).
+    /// Value of 0x1F81 for the node (CiA 302-2).
     pub assignment: u32,
     /// Sub-index of 0x1011 that restores the defaults before the configuration; 0 = none.
     pub restore: u8,
@@ -157,7 +157,7 @@ impl NetworkNode {
         self.description.device()
     }
 
-    /// Returns the name of the node's output files, without extension.
+    /// Returns the name of the node's DCF and concise DCF, without extension.
     pub fn file_stem(&self) -> String {
         file_stem(&self.name.value)
     }
@@ -172,7 +172,7 @@ impl NetworkNode {
         self.device().entry(object.0, object.1)
     }
 
-    /// Returns the item that a PDO maps, or `None` for a gap and for an object that the description does not contain.
+    /// Returns the item that a mapping entry refers to, or `None` for a gap and for an object that the description does not contain.
     pub fn mapped_item(&self, entry: &MappedObject) -> Option<&Item> {
         self.item((entry.index, entry.sub_index)).filter(|_| !entry.is_gap())
     }
@@ -231,7 +231,7 @@ pub struct NetworkPdo {
     pub is_enabled: bool,
     /// COB-ID with flags.
     pub cob_id: u32,
-    /// Location of the COB-ID in the network file; empty if the file does not declare it.
+    /// Location of the COB-ID in the network file or, if the file does not set the COB-ID, the location `span`.
     pub cob_id_at: Span,
     /// Transmission type.
     pub transmission: u8,
@@ -248,7 +248,7 @@ pub struct NetworkPdo {
 }
 
 impl NetworkPdo {
-    /// Returns the CAN-ID. Bit 29 is set if the CAN-ID has 29 bits.
+    /// Returns the CAN-ID. Bit 29 of the result is set if the CAN-ID has 29 bits.
     pub fn can_id(&self) -> u32 {
         can_id(self.cob_id)
     }
@@ -263,8 +263,8 @@ impl NetworkPdo {
         self.bits().div_ceil(8)
     }
 
-    /// Returns the number of SYNCs after which the PDO is sent, or `None` if it is not synchronous. The number for an acyclic PDO
-    /// (transmission type 0) is 1, which is the worst case.
+    /// Returns the number of SYNCs after which the PDO is sent, or `None` for a transmission type above 240. The number for an acyclic
+    /// PDO (transmission type 0) is 1, which is the worst case.
     pub fn syncs(&self) -> Option<u8> {
         match self.transmission {
             0 => Some(1),
@@ -294,7 +294,7 @@ pub fn communication_index(direction: Direction, number: u16) -> u16 {
 /// An object in a PDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MappedObject {
-    /// Index of the object. An index below 0x1000 is the code of a data type, which leaves a gap.
+    /// Index of the object. An index below 0x1000 is the code of a data type: the entry is a gap.
     pub index: u16,
     /// Sub-index of the object.
     pub sub_index: u8,

@@ -3,16 +3,16 @@
 use lexibus_codegen::ir::{Device, Value};
 use lexibus_codegen::source::Span;
 
-/// A value that is written to an object of a node.
+/// A value that is written to an object of a node or of a SubDevice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Write {
     /// Index and sub-index.
     pub object: (u16, u8),
-    /// The value, as a value of the object's type; `None` for a value that the description already configures.
+    /// The value, converted to the type of the object; `None` for a value that the description already configures.
     pub value: Option<Value>,
     /// The bytes of the value in an SDO transfer.
     pub bytes: Vec<u8>,
-    /// Location of the value in the network file.
+    /// Location in the network file for diagnostics; empty for a value that the description already configures.
     pub span: Span,
 }
 
@@ -36,8 +36,8 @@ impl Values<'_> {
         written.or_else(|| self.device.entry(object.0, object.1)?.initial())?.resolved(self.id).as_int()
     }
 
-    /// Returns the value of an object as a number of type `T`. Returns `None` if the object has no integer value, or if `T` is too
-    /// small for it.
+    /// Returns the value of an object as a number of type `T`. Returns `None` if the object has no integer value, or if the value is
+    /// not in the range of `T`.
     pub fn number<T: TryFrom<i128>>(&self, object: (u16, u8)) -> Option<T> {
         self.get(object).and_then(|value| T::try_from(value).ok())
     }
@@ -47,7 +47,7 @@ impl Values<'_> {
         self.writes.iter().any(|write| write.object == object && write.value.is_some())
     }
 
-    /// Returns the location of the last value of an object in the network file; empty if the file does not set the object.
+    /// Returns the location of the last write to an object; empty if the network file does not set the object.
     pub fn set_at(&self, object: (u16, u8)) -> Span {
         self.writes.iter().rev().find(|write| write.object == object).map_or(Span::MISSING, |write| write.span)
     }

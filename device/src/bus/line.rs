@@ -1,4 +1,4 @@
-//! Modbus connections over TCP or a serial line that can read the device identification.
+//! Modbus connections that can read the device identification, over TCP or a serial line.
 
 use lexibus::clients::modbus::tokio_modbus::bytes::Bytes;
 use lexibus::clients::modbus::tokio_modbus::{Request, Response};

@@ -90,7 +90,7 @@ where
     }
 }
 
-/// Returns the number of bytes of the registers or coils.
+/// Returns the number of bytes of the registers, coils or discrete inputs.
 fn capacity(register: &Register) -> usize {
     match register.table {
         RegisterTable::Coil | RegisterTable::DiscreteInput => usize::from(register.count).div_ceil(8),

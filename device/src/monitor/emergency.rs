@@ -7,7 +7,7 @@ use lexibus_codegen::ir::CodeRow;
 use super::event::{Event, EventKind};
 use crate::description::Description;
 
-/// Returns the event of an emergency message, with the name of its code in the description.
+/// Returns the event of an emergency message. The text contains the name of the error code if the description has one.
 pub(super) fn event(node: u8, message: &Emergency, description: Option<&Description>) -> Event {
     let name = description.and_then(|description| name(message.code, description));
     let name = name.map(|name| format!(" ({name})")).unwrap_or_default();
@@ -23,7 +23,7 @@ pub(super) fn event(node: u8, message: &Emergency, description: Option<&Descript
 }
 
 /// Returns the name of an emergency code from the row with the smallest range that contains the code, or `None` if no
-/// row contains it.
+/// row contains it or the row has no name.
 fn name(code: u16, description: &Description) -> Option<String> {
     let code = i128::from(code);
     let rows = description.device().code_tables.iter().flat_map(|table| table.rows.iter());

@@ -7,13 +7,13 @@ use serde::Serialize;
 /// An event on the bus.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Event {
-    /// Node that sent the message, or to which it was sent. `None` if the message belongs to no single node, such as
-    /// SYNC or an NMT command to all nodes.
+    /// Node that sent the message, or to which it was sent. `None` for SYNC, TIME and LSS messages, and for NMT commands to all
+    /// nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<u8>,
     /// Kind of the event.
     pub kind: EventKind,
-    /// The event as text.
+    /// The event as text, without the node and the values.
     pub text: String,
     /// Values with their names.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -23,11 +23,11 @@ pub struct Event {
 /// A value with its name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Named {
-    /// Address of the parameter.
+    /// Address of the parameter or object.
     pub address: String,
     /// Name of the parameter. For an SDO message, the address, followed by the path if the parameter is known.
     pub name: String,
-    /// Value as text, with its unit if there is one.
+    /// Value as text, or its bytes if it cannot be decoded.
     pub value: String,
 }
 

@@ -33,8 +33,8 @@ impl<'d> Interpreter<'d> {
         self.nodes.iter().find(|(id, _)| *id == node).map(|(_, description)| *description)
     }
 
-    /// Returns the event of a frame. Returns `None` for remote frames, for PDOs that no description declares, and for
-    /// frames that are no message of CiA 301 or LSS.
+    /// Returns the event of a frame. Returns `None` for remote frames, and for frames that are neither a PDO that a description
+    /// declares nor an NMT, heartbeat, SYNC, TIME, emergency, SDO or LSS message with its default COB-ID.
     pub fn interpret(&mut self, frame: &CanFrame) -> Option<Event> {
         if frame.is_remote() {
             return None;

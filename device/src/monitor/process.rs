@@ -11,7 +11,7 @@ use crate::parameter::Parameter;
 /// Bits of a COB-ID that are not part of the identifier: bit 31 (disabled) and bit 30 (no RTR).
 const FLAGS: u32 = 0xC000_0000;
 
-/// The PDOs of all nodes by COB-ID.
+/// The PDOs of all nodes that have a description.
 #[derive(Debug)]
 pub(super) struct Pdos<'d> {
     /// COB-ID, node-ID, name and fields of each PDO.
@@ -40,7 +40,7 @@ impl<'d> Pdos<'d> {
             description.device().process_data.pdos.iter().filter_map(|pdo| Known::new(*node, description, pdo))
         });
         let mut list: Vec<Known<'d>> = known.collect();
-        // If a TPDO and RPDOs have the same COB-ID, the event names the TPDO and its node, which sent the frame.
+        // If a TPDO and RPDOs have the same COB-ID, the event names the TPDO and its node, because this node sent the frame.
         list.sort_by_key(|known| known.title.starts_with("RPDO"));
         Self { list }
     }
@@ -55,7 +55,7 @@ impl<'d> Pdos<'d> {
 
 impl<'d> Known<'d> {
     /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if
-    /// the PDO has no COB-ID.
+    /// the PDO has no valid COB-ID, or the COB-ID 0.
     fn new(node: u8, description: &'d Description, pdo: &Pdo) -> Option<Self> {
         let communication = pdo.communication.as_ref()?;
         let item = description.object(communication.index, 1).map(|parameter| parameter.item());
@@ -73,7 +73,7 @@ impl<'d> Known<'d> {
 }
 
 impl Field<'_> {
-    /// Returns the value of the field, or `None` if the frame is too short.
+    /// Returns the value of the field with its name, or `None` if the frame is too short.
     fn named(&self, data: &[u8]) -> Option<Named> {
         let bytes = self.bytes(data)?;
         let value = match self.parameter.basic() {

@@ -8,11 +8,11 @@ use serialport::SerialPort;
 
 use super::{line, setup, Decoder, Reply};
 
-/// Bit rate of the serial line. Adapters with USB ignore it.
+/// Bit rate of the serial line. Many adapters with USB ignore it.
 const LINE_RATE: u32 = 115_200;
-/// Minimum timeout of a read or write. A timeout of zero would mean no timeout on some systems.
+/// Minimum timeout of a read or write. On some systems, a timeout of zero would mean an unlimited time.
 const MIN_TIMEOUT: Duration = Duration::from_millis(1);
-/// Maximum timeout of a read or write. Systems cannot represent much longer ones.
+/// Maximum timeout of a read or write. Some systems cannot represent much longer ones.
 const MAX_TIMEOUT: Duration = Duration::from_secs(86_400);
 /// Maximum time for the reply to a command. Some adapters send no replies.
 const REPLY: Duration = Duration::from_millis(200);
@@ -43,7 +43,7 @@ impl SerialLine for Box<dyn SerialPort> {
 pub(crate) struct Adapter<L: SerialLine> {
     line: L,
     decoder: Decoder,
-    /// True if only the beginning of the last frame was written to the line.
+    /// True if the line of the last frame was written only in part and was not ended yet.
     is_cut: bool,
 }
 
@@ -77,8 +77,8 @@ impl<L: SerialLine> Adapter<L> {
         self.command(b"O\r", "the adapter refuses to open the channel")
     }
 
-    /// Discards received bytes until the adapter sends nothing for [`SILENCE`]. Stops after about five times
-    /// [`SILENCE`].
+    /// Discards received bytes until the adapter sends nothing for [`SILENCE`]. Even if more bytes arrive,
+    /// stops after at most about six times [`SILENCE`].
     fn discard(&mut self) -> io::Result<()> {
         let end = Instant::now() + 5 * SILENCE;
         while self.read(SILENCE)? > 0 && Instant::now() < end {}
@@ -106,7 +106,7 @@ impl<L: SerialLine> Adapter<L> {
         }
     }
 
-    /// Reads received bytes. Waits for at most `patience` for the first one. Returns the number of bytes.
+    /// Reads received bytes. Waits for the first one until `patience` has passed. Returns the number of bytes, or 0 if none arrived.
     fn read(&mut self, patience: Duration) -> io::Result<usize> {
         let mut buffer = [0; 1024];
         self.line.limit(patience)?;
@@ -138,7 +138,7 @@ impl<L: SerialLine> Adapter<L> {
         Ok(written)
     }
 
-    /// Ends the line of a frame that was written only in part, so that the adapter refuses the incomplete frame.
+    /// Ends the line of a frame that was written only in part, so that the adapter refuses the frame if it is incomplete.
     /// Returns `false` if the serial line accepted no byte until `end`.
     fn end_line(&mut self, end: Option<Instant>) -> io::Result<bool> {
         if self.is_cut {
@@ -150,7 +150,7 @@ impl<L: SerialLine> Adapter<L> {
 
 impl<L: SerialLine> Drop for Adapter<L> {
     fn drop(&mut self) {
-        // A failure cannot be reported. The adapter then keeps its channel open.
+        // A failure cannot be reported. The adapter may then keep its channel open.
         let _ = self.line.write_all(if self.is_cut { b"\rC\r" } else { b"C\r" });
     }
 }
@@ -166,7 +166,7 @@ impl<L: SerialLine> CanPort for Adapter<L> {
         let text = line(frame);
         let missing = text.len() - self.write(text.as_bytes(), end)?;
         self.is_cut = (1..text.len()).contains(&missing);
-        // If only the carriage return is missing, the next call of `send` or `receive` writes it, and the frame is sent.
+        // If only the carriage return is missing, `send`, `receive` or `drop` writes it later, and the frame is sent.
         Ok(missing <= 1)
     }
 
@@ -177,7 +177,8 @@ impl<L: SerialLine> CanPort for Adapter<L> {
     ) -> io::Result<Option<CanFrame>> {
         let end = Instant::now().checked_add(patience);
         self.end_line(Some(Instant::now()))?;
-        // Number of unread bytes at the end of `patience`. Bytes that arrive later are left for the next call.
+        // Number of bytes that were unread at the end of `patience` and have not been read since. Bytes that arrive later don't extend
+        // the call.
         let mut last = None;
         loop {
             while let Some(frame) = self.decoder.next_frame() {

@@ -10,7 +10,7 @@ use super::session::Run;
 use crate::connection::Connection;
 use crate::failure::Failure;
 
-/// Indices of communication objects that CiA 301 defines and that a read doesn't change.
+/// Indices of the general communication objects of CiA 301. Reading these objects doesn't change them.
 const STANDARD: std::ops::RangeInclusive<u16> = 0x1000..=0x1029;
 
 /// First indices of the lists of PDO parameters and PDO mappings.
@@ -53,7 +53,7 @@ fn check_list<C: Connection>(run: &mut Run<'_, C>, first: u16, declared: &BTreeS
     Ok(())
 }
 
-/// Reads an undeclared object, and reports it if it exists. Returns whether it exists.
+/// Reads sub-index 0 of an undeclared object, and reports the object if it exists. Returns whether it exists; `false` after a timeout.
 fn check_object<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<bool, Failure> {
     check_entry(run, index, 0, "the description doesn't declare this object")
 }
@@ -68,8 +68,8 @@ fn check_entry<C: Connection>(run: &mut Run<'_, C>, index: u16, sub: u8, message
     Ok(true)
 }
 
-/// Checks the number of entries of the declared objects. Skips missing objects, and the error history and mappings, in
-/// which the number of entries changes.
+/// Checks the number of entries of the declared objects with sub-indices. Skips missing objects. Also skips the error history and
+/// mappings, because their number of entries changes.
 fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     let description = run.description;
     for group in &description.device().groups {
@@ -85,7 +85,8 @@ fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Compares the number of entries of an object with the description, and searches for undeclared entries.
+/// Searches for entries above the highest declared sub-index. If there are none, compares the number of entries with the
+/// description, unless it is writable.
 fn check_count<C: Connection>(run: &mut Run<'_, C>, group: &Group, index: u16) -> Result<(), Failure> {
     /// Sub-index of the structure of an object (CiA 301 7.4.5). It isn't an entry.
     const STRUCTURE: u8 = 0xFF;

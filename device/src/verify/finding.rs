@@ -18,11 +18,11 @@ pub enum FindingKind {
     Extra,
     /// A fact of the device differs from the description.
     Different,
-    /// The device didn't transfer the value.
+    /// The device didn't transfer the value of the parameter.
     Unreadable,
-    /// The fact cannot be verified, for example because the parameter must not be read.
+    /// A fact cannot be verified, for example because the parameter must not be read.
     Unverifiable,
-    /// The value differs from the default value. This is not a deviation.
+    /// The value of a writable parameter differs from the default value. This is not a deviation.
     Changed,
 }
 
@@ -50,7 +50,7 @@ impl FindingKind {
         }
     }
 
-    /// Returns whether the device deviates from the description.
+    /// Returns whether findings of this kind are deviations: all except unverifiable facts and changed values.
     #[must_use]
     pub fn is_deviation(self) -> bool {
         !matches!(self, FindingKind::Unverifiable | FindingKind::Changed)
@@ -75,20 +75,21 @@ pub enum Found {
     Readable,
     /// The parameter cannot be read, although it is declared as readable.
     WriteOnly,
-    /// The device has an object that the description doesn't declare. The length of its value is known if it can be read.
+    /// The device has an object or sub-index that the description doesn't declare. The field is the length of its value, if it can be
+    /// read.
     Object(Option<usize>),
     /// No fact that an overlay can state.
     Other,
 }
 
-/// A finding about a parameter, an undeclared object or the whole device.
+/// A finding about a parameter, an object or the whole device.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// Kind of the finding.
     pub kind: FindingKind,
     /// Address of the parameter or object, or `identity` for the identity of a Modbus device.
     pub address: String,
-    /// Path of the parameter, or name of a missing object; empty for an undeclared object and for the whole device.
+    /// Path of the parameter, or name of a missing object; empty for an undeclared object or sub-index and for the whole device.
     pub name: String,
     /// The fact that differs, or the reason for the finding, as text.
     pub message: String,
@@ -112,7 +113,7 @@ impl Finding {
         Self::new(kind, parameter.address_text(), parameter.path(), message.into())
     }
 
-    /// Creates a finding about an object that the description doesn't declare.
+    /// Creates a finding of the kind `Extra` about an object or sub-index that the description doesn't declare.
     pub(super) fn of_object(index: u16, sub_index: u8, message: impl Into<String>) -> Self {
         Self::new(FindingKind::Extra, address::object(index, sub_index), String::new(), message.into())
     }

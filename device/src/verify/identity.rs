@@ -8,10 +8,11 @@ use crate::protection::letters;
 /// Address of the findings in the report.
 const IDENTITY: &str = "identity";
 
-/// Compares vendor and order code. A fact that the description or the device does not state is unverifiable.
+/// Compares the vendor name and the order code that the description states. Reports the identity as unverifiable if the description
+/// states neither, or if the device identification cannot be read. Reports each fact that only the description states as unverifiable.
 pub(super) fn check<C: Connection>(run: &mut Run<'_, C>) {
     let identity = &run.description.device().identity;
-    // The product name of a register table is often that of a series, so only the order code is compared.
+    // The product name of a register table is often that of a series, so the order code is compared instead.
     let facts = [(0, "vendor name", identity.vendor_name.as_str()), (1, "product code", identity.order_code.as_str())];
     let stated = || facts.into_iter().filter(|(_, _, declared)| !letters(declared).is_empty());
     if stated().next().is_none() {
@@ -37,8 +38,8 @@ fn unverifiable<C: Connection>(run: &mut Run<'_, C>, message: String) {
     run.add(Finding::of_device(FindingKind::Unverifiable, IDENTITY, message));
 }
 
-/// Returns whether two names are the same, or one contains the other. Compares only letters and digits, in any case:
-/// `AEC s.r.l.` and `AEC SRL`.
+/// Returns whether two names are the same, or one contains the other. Compares only letters and digits, and ignores case:
+/// `AEC s.r.l.` and `AEC SRL` are the same.
 fn agrees(one: &str, other: &str) -> bool {
     let (one, other) = (letters(one), letters(other));
     one.contains(&other) || other.contains(&one)

@@ -40,7 +40,8 @@ pub(super) fn check<C: Connection>(run: &mut Run<'_, C>, parameter: &Parameter<'
     Ok(())
 }
 
-/// Checks that the device refuses to read a write-only parameter.
+/// Checks that a CANopen device refuses to send the value of a write-only parameter. On Modbus, reports the
+/// parameter as unverifiable.
 fn check_write_only<C: Connection>(run: &mut Run<'_, C>, parameter: &Parameter<'_>) -> Result<(), Failure> {
     // Devices on Modbus can return any value for a write-only register.
     if run.description.network() == Network::Modbus {
@@ -166,7 +167,8 @@ fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) ->
     is_unknown.then(|| different(parameter, "value").compared("one of the listed values", parameter.text(value)))
 }
 
-/// Returns the value that the device must have if the parameter is an identity number, a constant, or the device type.
+/// Returns the value that the description states for an identity number, a constant or the device type. Returns `None` if it states
+/// none, for other parameters, for numbers of entries and for mappings.
 fn expected(parameter: &Parameter<'_>) -> Option<Value> {
     let object = parameter.address().object();
     let identity = &parameter.description().device().identity;
@@ -193,7 +195,8 @@ fn identity_number(identity: &Identity, sub_index: u8) -> Option<u32> {
     }
 }
 
-/// Compares the identity numbers that the description states although it doesn't declare their sub-index of 0x1018.
+/// Compares the vendor ID, the product code and the revision number that the description states although it doesn't declare their
+/// sub-indices of 0x1018.
 pub(super) fn check_identity<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     const IDENTITY: u16 = 0x1018;
     let description = run.description;

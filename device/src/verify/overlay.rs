@@ -10,8 +10,8 @@ impl Report {
     /// Returns an overlay with the deviations of objects that an overlay can express, or `None` if there are none. An overlay cannot
     /// name registers.
     ///
-    /// Each row has the finding as a comment. The length of a value determines its type: an unsigned integer up to 8
-    /// bytes, and `bytes` above. The type of an undeclared object that cannot be read is `?`.
+    /// A comment before each row contains the finding. The length of a value determines its type: an unsigned integer for 1 to
+    /// 8 bytes, and `bytes` for more. The type of an undeclared object that cannot be read, or whose value is empty, is `?`.
     #[must_use]
     pub fn overlay(&self) -> Option<String> {
         let all = self.deviations();
@@ -59,7 +59,7 @@ fn facts(finding: &Finding) -> Option<String> {
     }
 }
 
-/// Returns an unsigned integer type up to 8 bytes, and `bytes` above. Returns `None` for length 0.
+/// Returns an unsigned integer type for 1 to 8 bytes, and `bytes` for more. Returns `None` for 0 bytes.
 fn type_of(bytes: usize) -> Option<String> {
     match bytes {
         0 => None,

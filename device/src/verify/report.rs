@@ -18,7 +18,7 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// Values that differ from the default value. They are not deviations.
     pub changed: Vec<Finding>,
-    /// Number of parameters that were read or whose access rights were confirmed.
+    /// Number of readable parameters that were read, and of write-only parameters whose read was refused as expected.
     pub read: usize,
     /// Number of parameters that were read and are declared as writable. Their write access was not verified, because
     /// nothing is written.
@@ -37,7 +37,7 @@ impl Report {
         }
     }
 
-    /// Returns the deviations: the findings without those that cannot be verified.
+    /// Returns the deviations: the findings except those about unverifiable facts.
     pub fn deviations(&self) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(|finding| finding.kind.is_deviation())
     }

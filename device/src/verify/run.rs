@@ -15,7 +15,7 @@ use crate::failure::Failure;
 ///
 /// # Errors
 ///
-/// Fails if the bus fails, or if five consecutive reads get no reply. Each read has three attempts.
+/// Fails if the bus fails while a value is read, or if five consecutive reads get no reply. Each read has up to three attempts.
 pub fn verify(
     description: &Description,
     connection: &mut impl Connection,

@@ -10,7 +10,7 @@ use crate::description::Description;
 use crate::failure::{retried, Failure};
 use crate::parameter::Parameter;
 
-/// Number of consecutive reads without a reply after which the comparison ends. Each read has three attempts.
+/// Number of consecutive reads without a reply after which the comparison ends. Each of these reads has three attempts.
 const MOST_TIMEOUTS: usize = 5;
 
 /// Options of a comparison.
@@ -29,7 +29,7 @@ pub(super) struct Run<'r, C> {
     pub connection: &'r mut C,
     pub options: &'r Options,
     pub report: Report,
-    /// Indices of the objects that the device doesn't have.
+    /// Indices of the objects that were reported as missing.
     pub missing: BTreeSet<u16>,
     timeouts: usize,
 }
@@ -44,8 +44,8 @@ impl<'r, C: Connection> Run<'r, C> {
         self.report.findings.push(finding);
     }
 
-    /// Reads a parameter. The inner error is a failed read. The outer error ends the comparison, because the bus failed
-    /// or the device doesn't reply any more.
+    /// Reads a parameter. The inner error is the failure of this read only. The outer error ends the comparison, because the
+    /// bus failed or the device doesn't reply any more.
     pub fn read(&mut self, parameter: &Parameter<'_>) -> Result<Result<Vec<u8>, Failure>, Failure> {
         let result = retried(|| parameter.read(self.connection).map(|reading| reading.bytes));
         self.checked(result)

@@ -1,5 +1,5 @@
-//! Backups, restores and comparisons with the CANopen descriptions of the corpus, and a simulated device that behaves
-//! exactly as the description declares.
+//! Backups, restores and comparisons with the CANopen descriptions of the corpus, and a simulated device with the
+//! objects and values that the description declares.
 
 use std::collections::BTreeMap;
 
@@ -35,8 +35,8 @@ impl Mirror {
     }
 }
 
-/// Returns the bytes of the value that the simulated device has: the identity number, the initial value or, if there
-/// is none, a value within the limits.
+/// Returns the bytes of the value that the simulated device has: the first of the identity number, the initial value, the minimum,
+/// the maximum and 0 that fits the type and the limits. If none fits, all bytes are zero.
 fn initial(parameter: &Parameter<'_>) -> Vec<u8> {
     let identity = &parameter.description().device().identity;
     let object = parameter.address().object();
@@ -81,7 +81,7 @@ impl Connection for Mirror {
     }
 }
 
-/// Returns the names of the EDS, DCF and XDD files: a sample, or all files of the corpus if `LEXIBUS_LANE` is `full`.
+/// Returns the names of the EDS, DCF and XDD files: a sample of the corpus, or all if `LEXIBUS_LANE` is `full`.
 fn names() -> Vec<String> {
     if std::env::var("LEXIBUS_LANE").is_ok_and(|lane| lane == "full") {
         let folder = std::fs::read_dir(repository("../shared/corpus/eds")).into_iter().flatten().flatten();

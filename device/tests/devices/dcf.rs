@@ -12,7 +12,8 @@ const EDS: &str =
     [ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
     [2000]\nParameterName=Value\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=0\nPDOMapping=1\n";
 
-/// A device whose 4-byte values are 7 and whose other values are 1.
+/// A device that returns one byte with the value 1 for 0x1800:02 and for sub-index 0 of all objects except 0x2000. For all other
+/// objects and sub-indices, it returns four bytes with the value 7.
 struct Sevens;
 
 impl Connection for Sevens {

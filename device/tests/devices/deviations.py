@@ -1,4 +1,4 @@
-"""Runs a node of the library `canopen` with an EDS and puts deviations into it: python deviations.py TTY EDS NODE-ID.
+"""Runs a node of the library `canopen` with an EDS and adds deviations to the node: python deviations.py TTY EDS NODE-ID.
 
 The CAN bus is a serial line with python-can's `slcan` interface.
 """
@@ -48,7 +48,7 @@ class Node:
             yield from [entry] if isinstance(entry, ODVariable) else entry.values()
 
     def fill(self):
-        """Sets the values that have no default value."""
+        """Sets the variables without a value and a default value: to zeros, or to an empty text or domain."""
         for variable in self.variables():
             if variable.default is None and variable.value is None:
                 text = variable.data_type in (datatypes.VISIBLE_STRING, datatypes.DOMAIN)
@@ -104,7 +104,7 @@ class Node:
         extra(0x1402)
         extra(0x1400, 3)
         self.number(0x1400, 3, 1)
-        # Identity.
+        # Device type and identity.
         different(0x1000, 0x00030191, 4)
         different(0x1018, 0x539, 4, 1)
         different(0x1018, 0x4022, 4, 2)
@@ -122,7 +122,7 @@ class Node:
         refused("unreadable", 0x2020, GENERAL)
         self.slow.add((0x6061, 0))
         deviations.append(("unreadable", "0x6061:00"))
-        # Mappings with a wrong object, too few entries, or a wrong length.
+        # Mappings with a wrong length, too few entries, or a wrong object.
         self.number(0x1A01, 0x60640010, 4, 2)
         deviations.append(("different", "0x1A01:00"))
         self.number(0x1601, 1, 1)

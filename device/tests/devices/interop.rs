@@ -20,7 +20,7 @@ const NODE: u8 = 5;
 const TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Starts a script that simulates a CANopen node at one end of a cable. Returns the cable, the script and the address
-/// of the bus at the other end, or `None` without Python.
+/// of the bus at the other end, or `None` if Python or one of its libraries is missing.
 fn node(script: &str) -> Option<(Cable, Script, BusAddress)> {
     let python = python()?;
     let cable = Cable::open();
@@ -81,7 +81,7 @@ fn check_overlay(report: &Report, bus: &BusAddress) {
     assert_eq!(lengths, 0, "{}\n{overlay}", again.text(false));
 }
 
-/// Chapter of the Modbus table with registers that the server refuses.
+/// Chapter of the Modbus table with registers for which the server refuses reads, writes or both.
 const REFUSED: &str = "What the server refuses";
 
 fn save(description: &Description, connection: &mut impl Connection) -> Backup {
@@ -92,8 +92,8 @@ fn save(description: &Description, connection: &mut impl Connection) -> Backup {
     backup
 }
 
-/// Changes all parameters of a backup, restores the backup from its file, and returns the parameters that did not
-/// accept another value.
+/// Tries to change all unprotected parameters of a backup, and restores the backup from its TOML text. Returns the
+/// unprotected parameters that did not accept another value.
 fn changed_and_restored(description: &Description, connection: &mut impl Connection) -> Vec<String> {
     let saved = save(description, connection);
     let parameters = saved.entries.iter().filter_map(|entry| description.at(entry.address));

@@ -1,4 +1,4 @@
-//! Parameters that must not be read or written: ObjFlags, conditions, commands, outputs, node-ID and bit rate.
+//! Restrictions on reads and writes: ObjFlags, conditions, commands, outputs, node-ID and bit rate.
 
 use std::collections::BTreeMap;
 
@@ -190,7 +190,7 @@ fn a_restore_writes_only_values_that_are_listed_and_unprotected() {
     assert!(plan.execute(&mut device, &mut |_| true).is_complete());
     assert_eq!(names(&description, &device.writes), ["Plain"]);
     assert_eq!(plan.refused.len(), 5, "{plan}");
-    // A restore writes only the protected parameters that the caller names.
+    // Of the protected parameters, a restore writes only those that the caller names.
     let baud = description.find("CAN baud rate").expect("a parameter").address();
     let plan = Plan::new(&description, &saved, Some(1), &[baud]);
     assert_eq!((plan.writes.len(), plan.refused.len()), (2, 4), "{plan}");
@@ -252,7 +252,7 @@ fn registers_that_are_also_commands_of_a_drive_are_protected() {
     assert_eq!(protection("control_word"), Some(Protection::Command));
 }
 
-/// A protected parameter that the user named is written after all others, and the slave address last.
+/// Protected parameters that the user named are written after all unprotected ones, and the slave address last.
 #[test]
 fn the_address_of_the_device_is_written_last() {
     let description = valve();
@@ -310,7 +310,7 @@ fn a_pdo_is_restored_as_a_whole_or_not_at_all() {
     }
 }
 
-/// A device that refuses a mapping entry keeps the PDO disabled.
+/// If the device refuses a mapping entry, the restore leaves the PDO disabled.
 #[test]
 fn a_pdo_with_a_refused_entry_stays_disabled() {
     struct Refusing(Recorder, Address);

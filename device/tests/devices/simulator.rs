@@ -29,8 +29,7 @@ fn save(description: &Description, connection: &mut impl Connection) -> Backup {
     backup(description, connection, &options()).expect("a backup")
 }
 
-/// Writes another valid value to each parameter of the backup that is not protected, and returns how many parameters
-/// accepted it.
+/// Tries to write another valid value to each unprotected parameter of the backup. Returns how many parameters accepted one.
 fn change_all(description: &Description, saved: &Backup, connection: &mut impl Connection) -> usize {
     let parameters = saved.entries.iter().filter_map(|entry| description.at(entry.address));
     let restored = parameters.filter(|parameter| parameter.protection().is_none());
@@ -336,7 +335,8 @@ fn values_of_other_tools_without_a_place_are_left_out() {
     assert!(outcome.is_complete(), "{outcome}");
 }
 
-/// A connection on which one access fails.
+/// A connection on which one access fails. `left` is initially the number of this access, counted from 1. With
+/// [`AccessFault::Broken`], all later accesses fail, too.
 struct Faulty<C> {
     inner: C,
     fault: AccessFault,

@@ -36,8 +36,8 @@ fn compiled(source: Source, network: Network) -> Description {
 const MAPPINGS: [i128; 4] = [0x6041_0010, 0x6064_0020, 0x6040_0010, 0x6081_0020];
 
 /// Returns candidates for another value of an integer. For the COB-ID of a PDO, the only candidate toggles bit 31, which
-/// disables an enabled PDO. For the number of mapped objects, the only candidate is 0. The device then accepts changes
-/// to the other parameters of the PDO.
+/// disables an enabled PDO. For the number of mapped objects, the only candidate is 0. A device can refuse
+/// changes to the mapping unless the PDO is disabled and this number is 0. A candidate that equals the current value is left out.
 fn other_integers(parameter: &Parameter<'_>, number: i128) -> Vec<Value> {
     let object = parameter.address().object().map(|object| (object.index, object.sub_index));
     let numbers = match object {
@@ -49,7 +49,7 @@ fn other_integers(parameter: &Parameter<'_>, number: i128) -> Vec<Value> {
     numbers.into_iter().filter(|other| *other != number).map(Value::Int).collect()
 }
 
-/// Writes another valid value to a parameter. Returns whether the device accepted it.
+/// Tries to write another valid value to a parameter. Returns whether the device accepted one.
 pub fn change(parameter: &Parameter<'_>, node_id: u8, connection: &mut impl Connection) -> bool {
     let Ok(Some(value)) = parameter.read(connection).map(|reading| reading.value) else { return false };
     let candidates = match (parameter.basic(), value) {

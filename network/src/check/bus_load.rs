@@ -7,10 +7,10 @@ use lexibus_codegen::source::Span;
 use super::sync_producers::{fastest, sync_producers, SyncProducer};
 use crate::model::{can_id, Network, NetworkPdo, EXTENDED};
 
-/// Cyclic frames with one CAN-ID from one sender.
+/// Frames of one service from one sender, with their assumed rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traffic {
-    /// Name of the frames: `TPDO 1 of axis1`.
+    /// Name of the frames: ``TPDO 1 of `axis1` ``.
     pub name: String,
     /// Name without the sender: `TPDO 1`.
     pub service: String,
@@ -29,9 +29,9 @@ pub struct Traffic {
 /// Load of a bus by cyclic frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BusLoad {
-    /// All cyclic frames.
+    /// Frames of SYNC, PDOs, heartbeats and node guarding, except those of `unbounded`.
     pub traffic: Vec<Traffic>,
-    /// Names of event-driven PDOs with neither an inhibit time nor an event timer. Their rate is unknown.
+    /// Names of PDOs with a transmission type above 240, and with neither an inhibit time nor an event timer. Their rate is unknown.
     pub unbounded: Vec<String>,
     /// Bit rate in bit/s.
     pub bit_rate: u32,
@@ -116,13 +116,13 @@ pub fn bus_load(network: &Network) -> BusLoad {
     load
 }
 
-/// Returns the number of cycles per second for a time in ms.
+/// Returns the number of cycles per second for a cycle time in ms.
 fn per_second(milliseconds: u16) -> f64 {
     1000.0 / f64::from(milliseconds)
 }
 
-/// Returns the assumed rate of a PDO in frames per second, or `None` if its rate is unknown. The rate of an event-driven PDO follows
-/// from its inhibit time or, without an inhibit time, from its event timer. `sync` is the number of SYNCs per second.
+/// Returns the assumed rate of a PDO in frames per second, or `None` if its rate is unknown. The rate of a PDO that is not synchronous
+/// follows from its inhibit time or, without an inhibit time, from its event timer. `sync` is the number of SYNCs per second.
 fn rate(pdo: &NetworkPdo, sync: f64) -> Option<f64> {
     match (pdo.syncs(), pdo.inhibit_time, pdo.event_timer) {
         (Some(syncs), ..) => Some(sync / f64::from(syncs)),

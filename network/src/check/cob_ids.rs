@@ -1,4 +1,4 @@
-//! CAN-IDs that two senders use, and CAN-IDs that a sender cannot use.
+//! CAN-IDs that two senders use, and CAN-IDs that no PDO or service can use.
 
 use lexibus_codegen::facts::number::hex;
 use std::collections::{BTreeMap, HashSet};
@@ -14,19 +14,19 @@ use crate::model::{can_id, Network, NetworkNode, NetworkPdo, DISABLED};
 /// Bits of a COB-ID that contain the CAN-ID, and the bit that states its length.
 const CAN_ID: u32 = 0x3FFF_FFFF;
 
-/// A sender of messages with a COB-ID that can be configured.
+/// A sender of SYNC, TIME, EMCY or a PDO.
 struct Sender {
     cob_id: u32,
     name: String,
-    /// Location in the network file. Empty for TIME and EMCY if the file does not set the COB-ID, and for SYNC if no known node sends it
-    /// with 0x80.
+    /// Location in the network file. Empty for TIME and EMCY if the file does not set the COB-ID, and for SYNC with the CAN-ID 0x80 if no
+    /// known node sends it.
     span: Span,
     is_pdo: bool,
 }
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
-    // COB-IDs of SYNC, TIME and EMCY that the network file does not set are not checked, because many descriptions state a wrong
-    // COB-ID of EMCY. COB-IDs that the file sets must differ from them.
+    // COB-IDs of SYNC, TIME and EMCY without a location are not checked, because some descriptions state a wrong COB-ID of EMCY. The
+    // CAN-IDs of the other senders must differ from them.
     let (unplaced, placed): (Vec<Sender>, Vec<Sender>) =
         services(network).into_iter().partition(|sender| sender.span.is_empty());
     let mut senders = BTreeMap::new();

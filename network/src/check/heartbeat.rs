@@ -35,7 +35,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports a consumer time that is not longer than the producer time, or too long.
+/// Reports a consumer time that is not longer than the producer time, or longer than `MAX_TIME`.
 fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagnostics: &mut Diagnostics) {
     let (producer, consumer) = (heartbeat.value, consumer_time(heartbeat.value, multiplier.value));
     if producer == 0 {
@@ -53,7 +53,8 @@ fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagn
     }
 }
 
-/// Reports entries of 0x1016 that the configuration writes for nodes that do not exist, that send no heartbeat, or that send it too rarely.
+/// Reports entries of 0x1016 that the configuration writes, if the producer does not exist, sends no heartbeat, or sends its
+/// heartbeat too rarely.
 fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostics) {
     let written: BTreeSet<(u16, u8)> = node.writes.iter().map(|write| write.object).collect();
     for object in written.range((0x1016, 1)..=(0x1016, u8::MAX)) {
@@ -63,7 +64,7 @@ fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostic
             continue;
         }
         let problem = match heartbeat_of(network, producer) {
-            // The master is another program, which can have any node-ID.
+            // If the file has no master, another program is the master. It can have any node-ID.
             None if network.master.is_none() => continue,
             None => format!("no node has the node-ID {producer}"),
             Some((_, _, computed)) if time == computed => continue,
@@ -77,8 +78,8 @@ fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostic
     }
 }
 
-/// Returns the name and the heartbeat producer time of a node or of the master. The last number is the computed consumer time for
-/// the master's heartbeat, which is checked with the master. It is 0 for other nodes.
+/// Returns the name and the heartbeat producer time of a node or of the master. For the master, the last number is the consumer time
+/// that follows from its multiplier; `times` checks this time. For a node, it is 0.
 fn heartbeat_of(network: &Network, id: u8) -> Option<(String, u16, u32)> {
     if let Some(master) = network.master.as_ref().filter(|_| id == network.master_id()) {
         let computed = consumer_time(master.heartbeat.value, master.heartbeat_multiplier.value) & 0xFFFF;

@@ -12,7 +12,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
         network.sent().into_iter().filter(|(_, pdo)| pdo.syncs().is_some()).collect();
     match fastest(&sync_producers(network)) {
         Some(producer) => period(network, producer, &synchronous, diagnostics),
-        // Without a master, the sender of SYNC can be a device that the file does not list.
+        // If the file has no master, the sender of SYNC can be a device that the file does not list.
         None if network.master.is_none() => {}
         None => without_sync(&synchronous, diagnostics),
     }

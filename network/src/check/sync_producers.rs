@@ -9,7 +9,7 @@ const PRODUCER: u32 = 1 << 30;
 
 /// A node that sends SYNC.
 pub(super) struct SyncProducer {
-    /// Name of its frames: `SYNC` of the master, or ``SYNC of `axis1` ``.
+    /// Name of its frames: `SYNC` for the master, or ``SYNC of `axis1` ``.
     pub name: String,
     /// Node-ID of the producer.
     pub sender: u8,

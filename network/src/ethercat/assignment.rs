@@ -55,7 +55,7 @@ fn chosen<'d>(device: &'d Device, names: &At<Vec<At<ObjectName>>>, diagnostics: 
         }
     }
     let is_missing = |pdo: &&Pdo| pdo.mandatory && assigned.iter().all(|(other, _)| !std::ptr::eq(*other, *pdo));
-    // A PDO that was rejected would be reported again.
+    // Otherwise, a rejected PDO could be reported again as missing.
     if assigned.len() == names.len() {
         for pdo in assignable(&device.process_data).filter(is_missing) {
             let message = format!("the mandatory {} is not assigned", shown(pdo));
@@ -121,8 +121,9 @@ fn combined(device: &Device, pdo: &Pdo, others: &[Assigned<'_>], span: Span) -> 
     })
 }
 
-/// Returns the default sync manager of a PDO, or the first one with its direction that the PDO does not exclude. If the description
-/// lists no sync managers, returns the sync manager of another PDO with the same direction.
+/// Returns the default sync manager of a PDO, or `None` if the description lists only other sync managers. A PDO without a default gets
+/// the first sync manager with its direction that it does not exclude or, if the description lists no sync managers, that of another
+/// PDO with the same direction, if any.
 pub(super) fn sync_manager(data: &ProcessData, pdo: &Pdo) -> Option<u8> {
     if pdo.sync_manager.is_some() {
         return pdo.sync_manager.filter(|number| data.has_sync_manager(*number));

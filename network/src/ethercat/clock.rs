@@ -11,7 +11,8 @@ use super::segment::{Clock, ClockSignal, ClockSyncManager};
 /// Bit of `AssignActivate` that activates SYNC0 (register 0x0981, bit 1).
 const SYNC0: u32 = 0x0200;
 
-/// Returns the settings of the mode that the file chooses, or of the default mode. `cycle` is the cycle time in ns.
+/// Returns the settings of the mode that the file chooses, or of the default mode. Returns `None` if there is no such mode. `cycle` is the
+/// cycle time of the segment in ns.
 pub(super) fn resolve(
     device: &Device,
     declared: &DeclaredSubDevice,
@@ -49,8 +50,8 @@ fn unknown(device: &Device, modes: &[ClockMode], name: &str, span: Span) -> Diag
     }
 }
 
-/// Returns the cycle time of SYNC0 as the description states it. If SYNC0 is active and the description states no time and no factor, its
-/// cycle time is that of the segment.
+/// Returns the cycle time of SYNC0 as the description states it. If SYNC0 is active, and the stated time is 0 without a factor, returns
+/// the cycle time of the segment.
 fn cycle_sync0(mode: &ClockMode) -> ClockTime {
     let is_active = mode.assign_activate & SYNC0 != 0;
     match mode.cycle_sync0 {

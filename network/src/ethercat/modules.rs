@@ -9,7 +9,7 @@ use lexibus_codegen::text::similar;
 use super::declared::{DeclaredModule, DeclaredSubDevice};
 use crate::syntax::{At, Scalar};
 
-/// Maximum number of slots: the list of module idents (0xF030) has 255 sub-indices.
+/// Maximum number of slots: the list of module idents (0xF030) has at most 255 entries.
 const MAX_SLOTS: u16 = 255;
 
 /// A module in a slot.
@@ -98,7 +98,7 @@ pub(super) fn plug<'d>(
         Some(modules) => modular.declared_modules(modules, diagnostics),
     };
     plugged.sort_by_key(|plugged| plugged.number);
-    // A module that was rejected would be reported again.
+    // Otherwise, a rejected module could be reported again as missing.
     if declared.modules.as_ref().is_none_or(|modules| modules.len() == plugged.len()) {
         let span = declared.modules.as_ref().map_or(declared.name.span, |modules| modules.span);
         modular.check_minimum(&plugged, span, diagnostics);
@@ -123,7 +123,7 @@ fn accepts(slot: &Slot, module: &Module) -> bool {
 }
 
 impl<'d> Modular<'d> {
-    /// Returns the slots with the number of the first slot of each series.
+    /// Returns each series of slots with the number of its first slot.
     fn series(&self) -> impl Iterator<Item = (u16, &'d Slot)> {
         self.device.slots.iter().scan(0u16, |next, slot| {
             let first = *next;
@@ -201,7 +201,7 @@ impl<'d> Modular<'d> {
         }))
     }
 
-    /// Reports a series of slots with fewer modules than its minimum.
+    /// Reports each series of slots that has fewer modules than its minimum.
     fn check_minimum(&self, plugged: &[Plugged<'_>], span: Span, diagnostics: &mut Diagnostics) {
         for (first, slot) in self.series() {
             let (minimum, maximum) = slot.instances;
@@ -230,7 +230,7 @@ fn is_named(module: &Module, name: &Scalar) -> bool {
     }
 }
 
-/// Formats a module as the file names it.
+/// Formats the name or ident of a module for a diagnostic.
 fn given(name: &Scalar) -> String {
     match name {
         Scalar::Text(text) => format!("`{text}`"),

@@ -41,8 +41,8 @@ fn write(device: &Device, parameter: &DeclaredParameter, writes: &mut Vec<Write>
     *writes = writer.writes;
 }
 
-/// Returns the module that contains the object of a parameter of the SubDevice, if the device does not contain an object with this
-/// address. In all other cases, returns the device.
+/// Returns the first module that contains the index of a parameter of the SubDevice, if the device does not contain this index. In all
+/// other cases, and for a name, returns the device.
 fn owner<'d>(device: &'d Device, modules: &'d [Device], parameter: &DeclaredParameter) -> &'d Device {
     let of_module = match parameter.object.value {
         ObjectName::Address(index, _) if device.object(index).is_none() => {
@@ -53,7 +53,7 @@ fn owner<'d>(device: &'d Device, modules: &'d [Device], parameter: &DeclaredPara
     of_module.unwrap_or(device)
 }
 
-/// Returns a diagnostic for a parameter of the SubDevice whose name only a module has. The help shows the table of the first module that
+/// Returns a diagnostic for a parameter of the SubDevice whose name only modules have. The help shows the table of the first module that
 /// has the name.
 fn misplaced(
     device: &Device,

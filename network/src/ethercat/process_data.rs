@@ -1,4 +1,4 @@
-//! The process data of a SubDevice: PDOs of the device, PDOs of its modules, and padding between groups of modules.
+//! The process data of a SubDevice: PDOs of the device, PDOs of its modules, and padding in front of groups of modules.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::facts::number::hex16;
@@ -58,7 +58,7 @@ impl<'d> Layout<'d> {
     }
 }
 
-/// Returns the process data of a device. The process data of a modular device are sorted by sync manager.
+/// Returns the process data of a device. The process data of a modular device are sorted by sync manager, and contain no elements of 0 bits.
 pub(super) fn place<'d>(device: &'d Device, assigned: &[Assigned<'d>], plugged: &[Plugged<'d>]) -> Vec<Placed<'d>> {
     let mut layout = Layout { placed: Vec::new() };
     if device.slots.is_empty() {
@@ -161,7 +161,7 @@ pub(super) fn check(device: &Device, placed: &[Placed<'_>], span: Span, diagnost
     }
 }
 
-/// Returns the PDOs with the positions of their data, as data for a MainDevice.
+/// Returns the PDOs and padding with their positions, as data for a MainDevice.
 pub(super) fn assigned_pdos(placed: &[Placed<'_>]) -> Vec<AssignedPdo> {
     let shown = |placed: &Placed<'_>| AssignedPdo {
         index: placed.index,

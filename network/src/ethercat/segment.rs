@@ -47,9 +47,9 @@ pub struct SubDevice {
     pub sync_managers: Vec<SyncManager>,
     /// FMMUs of the process data.
     pub fmmus: Vec<Fmmu>,
-    /// Assigned PDOs, in the order of the process data of their sync managers.
+    /// Assigned PDOs and padding. Those of a sync manager are in the order of their data.
     pub pdos: Vec<AssignedPdo>,
-    /// Settings of the distributed clocks; `None` if the description has no modes.
+    /// Settings of the distributed clocks; `None` if the description has no modes or not the declared mode.
     pub dc: Option<Clock>,
 }
 
@@ -156,7 +156,7 @@ pub struct AssignedPdo {
     /// True for padding in front of a group of modules.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_padding: bool,
-    /// Slot of the module that contains the PDO; `None` for a PDO of the SubDevice itself.
+    /// Slot of the module that contains the PDO; `None` for a PDO of the SubDevice itself and for padding.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slot: Option<u16>,
     /// Number of the sync manager.

@@ -83,7 +83,8 @@ impl Startup<'_> {
         due.map(|(command, offsets)| of_init_command(command, offsets, transition)).collect()
     }
 
-    /// Returns the commands that clear the assignment, write the mappings of the assigned PDOs, and write the assignment.
+    /// Returns the commands that clear the assignment, write the mappings of the assigned PDOs, and write the assignment, as far as the
+    /// device allows a MainDevice to write them.
     fn assignment(&self) -> Vec<StartupCommand> {
         let managers = self.device.process_data.sync_managers.iter();
         let managers = managers.filter(|manager| direction(manager.purpose).is_some() && assigns(self.device));
@@ -127,8 +128,8 @@ fn is_writable(pdo: &Pdo) -> bool {
     !pdo.fixed && fits && pdo.is_mapping_known()
 }
 
-/// Returns the commands that write a mapping: clear the mapping, write the entries, write the number of entries. Returns no commands if
-/// the mapping cannot be written.
+/// Returns the commands that write the mapping of a PDO or of padding: clear the mapping, write the entries, write the number of entries.
+/// Returns no commands if the mapping cannot be written.
 fn mapping(placed: &Placed<'_>) -> Vec<StartupCommand> {
     let words: Vec<u32> = match placed.content {
         PlacedContent::Pdo(pdo, offsets) if is_writable(pdo) => {

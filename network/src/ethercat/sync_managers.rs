@@ -29,8 +29,8 @@ fn sync_manager(manager: &ir::SyncManager, placed: &[Placed<'_>]) -> SyncManager
     }
 }
 
-/// Returns an FMMU for each sync manager with process data. Each gets the first free FMMU that the description declares for its purpose.
-/// If there is none, it gets the first free FMMU after the declared ones. The logical addresses are 0.
+/// Returns an FMMU for each sync manager with process data: the first free FMMU that the description declares for the purpose of the sync
+/// manager or, if there is none, the first free FMMU after the declared ones. The logical addresses are 0.
 pub(super) fn fmmus(device: &Device, sync_managers: &[SyncManager]) -> Vec<Fmmu> {
     let declared = device.ethercat.as_ref().map_or(&[][..], |settings| &settings.fmmus);
     let mut fmmus: Vec<Fmmu> = Vec::new();

@@ -152,7 +152,7 @@ static SECTIONS: [&Section; 6] = [&OPTIONS, &MASTER, &NODE, &PDO, &MAPPED, &SDO]
 
 const NAMES: Names = Names { id: "node_id", heartbeat: "heartbeat_producer", mapping: "mapping" };
 
-/// Options that apply to all nodes.
+/// Values of the section `options`, or their defaults.
 struct Defaults {
     dcf_path: Option<At<String>>,
     heartbeat_multiplier: f64,
@@ -212,7 +212,7 @@ fn is_repeatable(reader: &mut Reader<'_>, defaults: &Entry, nodes: usize) -> boo
     is_repeatable
 }
 
-/// Returns a node of the section `nodes`, and adds the entries of `defaults` whose keys the node does not have.
+/// Returns a node of the section `nodes` with the entries of `defaults` whose keys the node does not have.
 fn with_defaults(reader: &mut Reader<'_>, node: &Node, defaults: &[Entry]) -> Node {
     let mut entries = reader.entries(node, NODE.name).to_vec();
     let is_missing = |default: &&Entry| entries.iter().all(|entry| entry.key.value != default.key.value);

@@ -1,4 +1,5 @@
-//! Reads the keys that `network.toml` and `bus.yml` have in common. The names of some of these keys differ.
+//! Reads the keys that `network.toml` and `bus.yml` have in common, some with different names, and the keys that the sections of
+//! `network.toml` have in common.
 
 use std::ops::RangeInclusive;
 
@@ -77,7 +78,7 @@ pub(crate) fn numbered(reader: &mut Reader<'_>, entry: &Entry, what: &str, range
     number
 }
 
-/// Reads the keys of a node that all formats have.
+/// Reads the keys of a node that `network.toml` and `bus.yml` have in common.
 pub(crate) fn node(reader: &mut Reader<'_>, table: Table<'_>, names: &Names, node: &mut DeclaredNode) {
     node.has_node_id = table.get(names.id).is_some();
     node.node_id = reader.integer(table, names.id);

@@ -31,7 +31,7 @@ impl Format {
     }
 }
 
-/// Returns whether a file is a network file: a file with the extension of another format, or a TOML file with the key `nodes` or `segment`.
+/// Returns whether a file is a network file: a TOML file with the key `nodes` or `segment`, or a file with the extension of another format.
 pub fn is_network(source: &Source) -> bool {
     match Format::of_name(source.name()) {
         Some(Format::Toml) => parse_toml(source, FileId(0)).is_ok_and(|root| has_devices(&root)),

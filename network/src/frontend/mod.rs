@@ -1,4 +1,4 @@
-//! Front ends: network files in each format to a [`DeclaredNetwork`](crate::declared::DeclaredNetwork).
+//! Front ends: read network files of each format into a [`DeclaredNetwork`](crate::declared::DeclaredNetwork).
 
 mod bus_yml;
 pub(crate) mod common;

@@ -13,7 +13,7 @@ const U8: Form = Form::Integer(0, 0xFF);
 const U16: Form = Form::Integer(0, 0xFFFF);
 const U32: Form = Form::Integer(0, 0xFFFF_FFFF);
 const NODE_ID: Form = Form::Integer(1, 127);
-/// Maximum length of a version that `lexibus::clients::canopen::Boot` compares.
+/// A version, with the maximum length in bytes that `lexibus::clients::canopen::Boot` compares.
 const VERSION: Form = Form::ShortText(64);
 
 /// The whole file.

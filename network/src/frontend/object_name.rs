@@ -1,4 +1,4 @@
-//! Objects as network files name them: `0x6081`, `0x60C2:1`, `Profile velocity`, `Interpolation time period/Index`.
+//! Objects as `network.toml` names them: `0x6081`, `0x60C2:1`, `Profile velocity`, `Interpolation time period/Index`.
 
 use crate::declared::ObjectName;
 

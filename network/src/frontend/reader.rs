@@ -8,13 +8,13 @@ use lexibus_codegen::text::similar;
 use super::section::{Form, Section};
 use crate::syntax::{At, Content, Entry, Node, Scalar};
 
-/// Maximum number of keys that a message lists.
+/// Maximum number of keys of a section for which a diagnostic lists them.
 const MAX_NAMED: usize = 12;
 
 /// Reads the tables of one file.
 pub(crate) struct Reader<'d> {
     pub diagnostics: &'d mut Diagnostics,
-    /// All sections of the format, in which a misplaced key is looked up.
+    /// Sections of the format in which a misplaced key is looked up.
     pub sections: &'static [&'static Section],
 }
 
@@ -89,7 +89,7 @@ impl Reader<'_> {
             .label(format!("{} has no such key", section.name))
     }
 
-    /// Reports a value of the wrong form.
+    /// Reports a value of the wrong form or out of range.
     pub fn invalid(&mut self, node: &Node, expected: &str) {
         let message = format!("expected {expected}, found {}", node.described());
         self.diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, node.span, message));
@@ -138,7 +138,7 @@ impl Reader<'_> {
         None
     }
 
-    /// Returns `true` or `false`. The integers 0 and 1 have the same meaning.
+    /// Returns `true` or `false`. The integer 1 means `true`, and 0 means `false`.
     pub fn flag(&mut self, table: Table<'_>, key: &str) -> Option<bool> {
         let node = table.get(key)?;
         match node.content {

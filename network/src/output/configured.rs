@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{
 use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo};
 use crate::values::Write;
 
-/// Returns the catalog of a node with its node-ID, configured values, and the PDOs that it uses in the network.
+/// Returns the catalog of a node with the node-ID, the configured values and the PDOs of the network, without disabled PDOs.
 pub fn node_catalog(network: &Network, node: &NetworkNode) -> Catalog {
     let mut catalog = configured(network, node, node.description.catalog().clone());
     let device = &mut catalog.devices[0];
@@ -20,7 +20,7 @@ pub fn node_catalog(network: &Network, node: &NetworkNode) -> Catalog {
             communicate(described, pdo);
         }
     }
-    // A disabled PDO has no COB-ID that a program could use.
+    // A program cannot use a PDO that is disabled or that maps no objects.
     let is_used = |other: &Pdo| {
         let is_same =
             |pdo: &&NetworkPdo| other.direction == pdo.direction && other.mapping_index == pdo.index() + 0x200;
@@ -30,7 +30,7 @@ pub fn node_catalog(network: &Network, node: &NetworkNode) -> Catalog {
     catalog
 }
 
-/// Adds node-ID, bit rate, names and configured values of a node to its catalog.
+/// Adds the node-ID, bit rate, names, serial number and configured values of a node to its catalog.
 pub(super) fn configured(network: &Network, node: &NetworkNode, mut catalog: Catalog) -> Catalog {
     let device = &mut catalog.devices[0];
     let commissioning = device.commissioning.take().unwrap_or_default();
@@ -47,7 +47,8 @@ pub(super) fn configured(network: &Network, node: &NetworkNode, mut catalog: Cat
     catalog
 }
 
-/// Sets the configured value of an item.
+/// Sets the configured value of the item that a write concerns. A write from the description changes nothing, because the item already has
+/// its value.
 fn configure(device: &mut Device, write: &Write) {
     let Some(value) = &write.value else { return };
     let items = device.groups.iter_mut().flat_map(|group| &mut group.items);

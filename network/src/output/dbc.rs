@@ -1,4 +1,4 @@
-//! DBC of all PDOs, with scales, units, limits and names of values.
+//! DBC of the enabled PDOs, with scales, units, limits and names of values.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -15,7 +15,7 @@ use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo, EXTENDED};
 /// Name that a DBC contains if the sender is unknown or there is no receiver.
 const NOBODY: &str = "Vector__XXX";
 
-/// Returns a DBC with a message for each PDO, in Windows-1252.
+/// Returns a DBC in Windows-1252, with a message for each enabled TPDO, and for each CAN-ID that only RPDOs have.
 pub fn dbc(network: &Network) -> Vec<u8> {
     let mut out = Dbc::default();
     let mut names = Names::default();
@@ -35,7 +35,7 @@ pub fn dbc(network: &Network) -> Vec<u8> {
     encoded(&out.text(&nodes))
 }
 
-/// Returns the RPDOs that no node sends. Of several RPDOs with the same CAN-ID, returns the first, because they are one message.
+/// Returns the RPDOs whose CAN-ID no TPDO has. Of several RPDOs with the same CAN-ID, returns the first, because they are one message.
 fn sent_by_others(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
     let mut known: HashSet<u32> = network.pdos(Direction::Transmit).map(|(_, pdo)| pdo.can_id()).collect();
     network.pdos(Direction::Receive).filter(|(_, pdo)| known.insert(pdo.can_id())).collect()
@@ -174,8 +174,8 @@ fn comment(item: &Item, entry: &MappedObject) -> String {
     }
 }
 
-/// Returns factor and offset of the physical value. They are 1 and 0 for a scale that is not linear, because a DBC cannot express
-/// it.
+/// Returns factor and offset of the physical value. They are 1 and 0 if the item has no scale, or a scale that is not linear, which a
+/// DBC cannot express.
 fn scale(item: &Item) -> (f64, f64) {
     match item.quantity.as_ref().and_then(|quantity| quantity.scale.as_ref()) {
         Some(Scale::Linear { factor, offset }) => (*factor, *offset),
@@ -183,7 +183,7 @@ fn scale(item: &Item) -> (f64, f64) {
     }
 }
 
-/// Returns the unit of the physical value. Raw values of a scale that is not linear have no unit.
+/// Returns the unit of the physical value. The unit is empty if the scale is not linear, because the DBC then contains raw values.
 fn unit(item: &Item) -> &str {
     match &item.quantity {
         Some(quantity) if matches!(quantity.scale, None | Some(Scale::Linear { .. })) => shown_unit(quantity),
@@ -191,7 +191,7 @@ fn unit(item: &Item) -> &str {
     }
 }
 
-/// Returns minimum and maximum of the physical value. Returns 0 and 0, which a DBC reads as no limits, unless both are known.
+/// Returns minimum and maximum of the physical value. Returns 0 and 0, which mean no limits in a DBC, unless both are known.
 fn limits(item: &Item, id: u8, factor: f64, offset: f64) -> (f64, f64) {
     let physical = |limit: &Option<Value>| Some(limit.as_ref()?.resolved(id).as_real()? * factor + offset);
     match (physical(&item.limits.low), physical(&item.limits.high)) {

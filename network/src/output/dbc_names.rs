@@ -11,7 +11,7 @@ const MAX_LONG_NAME: usize = 128;
 /// Name of the master.
 pub(super) const MASTER: &str = "master";
 
-/// Names that are not available: that of the master, and keywords of DBC.
+/// Names that are not available: the name of the master, and keywords of DBC.
 const RESERVED: [&str; 3] = [MASTER, "FILTER", "VERSION"];
 
 /// A name in two forms: short (at most [`MAX_NAME`] characters) and long (at most [`MAX_LONG_NAME`] characters). Both forms are equal
@@ -26,8 +26,8 @@ pub(super) struct Name {
 pub(super) struct Names(HashSet<String>);
 
 impl Names {
-    /// Returns the name for a text: letters, digits and `_`. If a name is already in use, a number makes it unique. The long form
-    /// and the short form can have different numbers.
+    /// Returns the name for a text: ASCII letters, digits and `_`. A name that is reserved or already in use gets a number. The long
+    /// form and the short form can have different numbers.
     pub fn unique(&mut self, text: &str) -> Name {
         let whole = identifier(text);
         let long = self.free(&whole, MAX_LONG_NAME);
@@ -35,7 +35,7 @@ impl Names {
         Name { short, long }
     }
 
-    /// Returns a name with at most `longest` characters that is not in use yet.
+    /// Returns a name with at most `longest` characters that is not reserved and not in use yet.
     fn free(&mut self, name: &str, longest: usize) -> String {
         let mut free: String = name.chars().take(longest).collect();
         let mut number = 2;

@@ -2,7 +2,7 @@
 
 use encoding_rs::WINDOWS_1252;
 
-/// Spellings of characters that Windows-1252 does not have.
+/// Spellings of characters that Windows-1252 does not have, and of the backslash.
 const SPELLINGS: [(&str, &str); 21] = [
     ("\u{2126}Ω", "Ohm"),
     ("μ", "µ"),
@@ -37,8 +37,9 @@ const INDICES: &str = "₀₁₂₃₄₅₆₇₈₉₊₋";
 /// The digits and signs of the lists above as normal characters, in the same order.
 const ON_LINE: &str = "0123456789+-";
 
-/// Returns a text as the content of a DBC string, without the quotation marks. Characters that Windows-1252 does not have are
-/// spelled with other characters (`min⁻¹`: `min^-1`, `Ω`: `Ohm`), or become `?`.
+/// Returns a text as the content of a DBC string, without the enclosing quotation marks. Characters that Windows-1252 does not have are
+/// spelled with other characters (`min⁻¹`: `min^-1`, `Ω`: `Ohm`), are left out, or become `?`. Quotation marks, backslashes, whitespace
+/// and control characters are replaced.
 pub(super) fn text(text: &str) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -90,7 +91,7 @@ fn exists(letter: char) -> bool {
     !is_missing
 }
 
-/// Returns a file in Windows-1252. All strings of the file must be results of [`text`].
+/// Returns a file in Windows-1252. All strings of the file must be ASCII, or results of [`text`].
 pub(super) fn encoded(file: &str) -> Vec<u8> {
     WINDOWS_1252.encode(file).0.into_owned()
 }

@@ -8,7 +8,7 @@ use crate::model::Network;
 /// An output file.
 #[derive(Debug)]
 pub struct OutputFile {
-    /// Path of the file in the output folder.
+    /// Path of the file, relative to the output folder.
     pub name: String,
     /// Content of the file.
     pub content: Vec<u8>,
@@ -20,7 +20,7 @@ impl OutputFile {
     }
 }
 
-/// Returns all output files of a network: those of the CANopen nodes, and `segment.json` and `segment.rs` for an EtherCAT segment.
+/// Returns all output files of a network: those of the CANopen network, and `segment.json` and `segment.rs` for an EtherCAT segment.
 pub fn files(network: &Network) -> Vec<OutputFile> {
     let mut files = if network.is_only_segment() { Vec::new() } else { canopen_files(network) };
     if let Some(segment) = &network.segment {
@@ -30,7 +30,7 @@ pub fn files(network: &Network) -> Vec<OutputFile> {
     files
 }
 
-/// Returns the output files of the CANopen nodes: for each node a DCF, a Rust module, and a concise DCF if values are written to the
+/// Returns the output files of the CANopen network: for each node a DCF, a Rust module, and a concise DCF if values are written to the
 /// node; for a master its DCF, and a concise DCF if the master writes values to itself; a DBC; and the Rust module of the network.
 fn canopen_files(network: &Network) -> Vec<OutputFile> {
     let mut files = Vec::new();

@@ -192,7 +192,7 @@ fn domains<'n>(
     record(index, name, ObjectCode::Array, (1..=NODES).map(domain).collect())
 }
 
-/// Returns the communication and mapping objects of all PDOs of the master, the objects that these PDOs map, and the objects that
+/// Returns the communication and mapping objects of the PDOs of the master, the objects that these PDOs map, and the objects that
 /// describe the matching PDOs of the nodes.
 fn pdos(network: &Network) -> Vec<Group> {
     let mut groups = Vec::new();
@@ -253,8 +253,8 @@ fn communication_object(pdo: &NetworkPdo, number: u16) -> Group {
 /// For each mapped object of a node, the address of its data in the master's object dictionary.
 type Places = HashMap<(u16, u8), (u16, u8)>;
 
-/// Returns the object with the data of a PDO. An object of the node that an earlier PDO maps uses the data of that PDO.
-/// Returns `None` if earlier PDOs contain all data.
+/// Returns the object with the data of a PDO. It has no entries for objects of the node that are already in `places`. Returns `None` if
+/// the object would have no entries.
 fn place(node: &NetworkNode, pdo: &NetworkPdo, index: u16, places: &mut Places) -> Option<Group> {
     let is_received = pdo.direction == Direction::Transmit;
     let (access, kind) = if is_received { (Access::ReadWriteOutput, "RPDO") } else { (Access::ReadWriteInput, "TPDO") };

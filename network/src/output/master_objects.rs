@@ -37,7 +37,7 @@ pub(super) fn with_file(mut item: Item, file: &str) -> Item {
     item
 }
 
-/// Makes an item mappable in the direction that its access rights allow.
+/// Makes an item mappable in the directions that its access rights allow.
 pub(super) fn mappable(mut item: Item) -> Item {
     item.mappable = Mappable::by_access(item.access);
     item
@@ -57,7 +57,8 @@ pub(super) fn record(index: u16, name: &str, code: ObjectCode, items: Vec<Item>)
     Group { name: name.into(), items, ..Group::object(index, code) }
 }
 
-/// Creates an array of `count` equal elements. `values` contains sub-indices with their values.
+/// Creates an array of `count` elements with the same type, access rights and default value. `values` contains sub-indices with their
+/// configured values.
 pub(super) fn array(index: u16, fields: Fields<'_>, default: Option<u32>, count: u8, values: &[(u8, u32)]) -> Group {
     let (name, ty, access) = fields;
     let element = |sub_index: u8| {

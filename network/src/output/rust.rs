@@ -15,7 +15,7 @@ use crate::check::bus_load;
 use crate::model::{Network, NetworkNode, KEEP_RUNNING};
 use crate::values::Write;
 
-/// Names that the Rust module of a node must not have. A node with such a name gets its node-ID as a suffix of the module name.
+/// Names that the Rust module of a node must not have. The module of a node with such a name gets the node-ID as a suffix.
 const RESERVED: [&str; 6] = ["boot", "bit_rate", "network_node", "node_id", "duration", "rt"];
 
 /// Returns the Rust files with their names: `network.rs`, and `network/<node>.rs` for each node. `options` are the options of the
@@ -43,7 +43,7 @@ struct Named<'n> {
     ty: &'n str,
 }
 
-/// Returns the bindings of a node's device with the configured values and PDOs of the node.
+/// Returns the bindings of a node's device with the configured values and PDOs of the node. Returns `None` if there are none.
 fn bindings(network: &Network, node: &NetworkNode, ty: &str, options: &RustOptions) -> Option<String> {
     let configuration = node.writes.iter().map(|write| setting(node, write)).collect();
     let options =
@@ -175,7 +175,7 @@ fn boot(network: &Network, named: &Named<'_>) -> String {
     text
 }
 
-/// Timeout in ms for the boot-up message of a node if the network file declares no `boot_time`.
+/// Timeout in ms for the boot-up message of a node if the `boot_time` of the master is 0 or missing.
 const BOOT_TIME: u32 = 5000;
 
 fn error_control(node: &NetworkNode) -> String {
@@ -190,8 +190,8 @@ fn error_control(node: &NetworkNode) -> String {
     }
 }
 
-/// Returns a date that changes if the configuration changes: milliseconds and days for 0x1020. It is computed from the SHA-256 of the
-/// configuration, so that equal configurations give equal dates.
+/// Returns the date of the configuration: milliseconds and days for 0x1020. It is computed from the SHA-256 of the configuration, so that
+/// equal configurations have equal dates, and different configurations almost certainly have different dates.
 fn date(node: &NetworkNode) -> (u32, u16) {
     let entries = node.writes.iter().map(|write| (write.object, write.bytes.as_slice()));
     let digest = Source::new("", super::concise(entries)).sha256().to_owned();

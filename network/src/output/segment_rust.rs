@@ -11,7 +11,7 @@ use crate::ethercat::{
     direction_name, Clock, ClockSignal, Fmmu, Identity, Segment, StartupCommand, SubDevice, SyncManager,
 };
 
-/// Names in the module of the segment that no SubDevice can have.
+/// Names that the Rust module of a SubDevice must not have. The module of a SubDevice with such a name gets the position as a suffix.
 const RESERVED: [&str; 1] = ["command"];
 
 /// Returns a Rust module with the constants of each SubDevice: position, alias, identity, logical addresses, sync managers, FMMUs,

@@ -44,7 +44,8 @@ pub fn summary(segment: &Segment) -> String {
     format!("{subdevices}; {} of outputs, {} of inputs", bytes(segment.output_bytes), bytes(segment.input_bytes))
 }
 
-/// Returns the name of a SubDevice's catalog in a site. A CANopen node of the same file can have the same name.
+/// Returns the name of a SubDevice's catalog in a site. The part `EtherCAT` distinguishes it from the catalog of a CANopen node that has
+/// the same name as the SubDevice.
 fn catalog_name(title: &str, subdevice: &SubDevice) -> String {
     format!("{title}{SEPARATOR}EtherCAT{SEPARATOR}{}", subdevice.name)
 }

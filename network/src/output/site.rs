@@ -19,7 +19,7 @@ use crate::model::{
 };
 use crate::values::Write;
 
-/// Separator between the names of an object and of its entry, or of a network and of its device.
+/// Separator between the names of an object and of its entry, or of a network and of a node.
 pub(super) const SEPARATOR: &str = " / ";
 
 /// Announces the devices of all nodes and SubDevices. Announce all networks of a site before you add the pages of one of them.
@@ -80,7 +80,8 @@ fn shown_node(title: &str, node: &NetworkNode) -> Node {
     }
 }
 
-/// Returns a value as text with its unit, followed by its meaning in parentheses: the name of the value or of the mapped object.
+/// Returns a value as text with its unit. Its meaning, or the name of the mapped object, follows in parentheses if it is known and the
+/// text does not contain it.
 fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     let (value, types) = (value.resolved(node.id), &node.device().types);
     let text = item::value(item, &value, types);

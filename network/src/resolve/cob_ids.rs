@@ -1,5 +1,5 @@
 //! COB-IDs of the PDOs that a file declares. An RPDO can receive a PDO of any other node, so the COB-IDs of all nodes are computed
-//! first.
+//! before the nodes are resolved.
 
 use lexibus_codegen::facts::number::hex;
 use std::collections::{HashMap, HashSet};
@@ -52,7 +52,8 @@ impl CobIds {
         ids
     }
 
-    /// Assigns the COB-ID of another node's TPDO to an RPDO.
+    /// Assigns the COB-ID of another node's TPDO to a PDO. Reports a TPDO that does not exist, or that bit 31 of its COB-ID
+    /// disables.
     fn receive(
         &mut self,
         node: &DescribedNode<'_>,
@@ -73,20 +74,21 @@ impl CobIds {
         });
     }
 
-    /// Returns the COB-ID of a declared PDO. A PDO without a valid COB-ID is disabled.
+    /// Returns the COB-ID of a declared PDO, or [`DISABLED`] if none is assigned.
     pub fn of(&self, node: &str, direction: Direction, number: u16) -> u32 {
         self.0.get(&(node.to_owned(), direction, number)).copied().unwrap_or(DISABLED)
     }
 
-    /// Returns the COB-ID of an enabled TPDO, without the flags of a TPDO.
+    /// Returns the COB-ID of a TPDO, without bit 30. Returns `None` if the TPDO does not exist or has no COB-ID, or if bit 31
+    /// of the COB-ID disables it.
     fn sent(&self, name: &str, number: u16, nodes: &[DescribedNode<'_>]) -> Option<u32> {
         let node = nodes.iter().find(|node| node.name() == name)?;
         let cob_id = self.last(node, Direction::Transmit, number).filter(|cob_id| cob_id & DISABLED == 0)?;
-        // Flags of a TPDO have another meaning in an RPDO.
+        // Bit 30 has a meaning only in the COB-ID of a TPDO.
         Some(cob_id & 0x3FFF_FFFF)
     }
 
-    /// Returns the COB-ID of a PDO after the configuration: that of `parameters`, the declared one, or that of the description.
+    /// Returns the COB-ID of a PDO after the configuration: that of `parameters`, the assigned one, or that of the description.
     fn last(&self, node: &DescribedNode<'_>, direction: Direction, number: u16) -> Option<u32> {
         let values = node.values();
         if node.declares(direction, number) && !values.is_set((communication_index(direction, number), 1)) {
@@ -95,7 +97,7 @@ impl CobIds {
         pdo(values, direction, number).map(|pdo| pdo.cob_id)
     }
 
-    /// Returns the CAN-IDs that are in use: those of SYNC, TIME, EMCY, SDO and of PDOs.
+    /// Returns the CAN-IDs that are in use: those of SYNC, TIME, EMCY, SDOs and PDOs.
     fn used(&self, nodes: &[DescribedNode<'_>], master: Option<&DeclaredMaster>) -> HashSet<u32> {
         let mut used = HashSet::from([0x80]);
         used.extend(master.map(|master| can_id(master.time_cob_id.value)));
@@ -112,7 +114,7 @@ fn key(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Key {
     (node.name().to_owned(), direction(declared), declared.number.value)
 }
 
-/// Returns the COB-IDs of SYNC, TIME, SDO and EMCY of a node. Bit 31 is set if the service is disabled.
+/// Returns the COB-IDs of SYNC, TIME, SDOs and EMCY of a node. Bit 31 is set if an SDO or EMCY is disabled.
 fn services(node: &DescribedNode<'_>) -> Vec<u32> {
     let values = node.values();
     let time = node.declared.time_cob_id.as_ref().map(|time| time.value);
@@ -124,8 +126,8 @@ fn services(node: &DescribedNode<'_>) -> Vec<u32> {
     consumed.chain(sdo.chain([values.number((0x1014, 0))]).flatten()).collect()
 }
 
-/// Returns the COB-ID of a PDO that does not depend on other PDOs: the declared one, that of the description, or that of the predefined
-/// connection set.
+/// Returns the COB-ID of a PDO if it does not depend on other PDOs: the declared COB-ID, that of the description, or that of the
+/// predefined connection set.
 fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let of_description = || {
         let pdo = pdo(node.initial(), direction(declared), declared.number.value)?;
@@ -139,14 +141,14 @@ fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     }
 }
 
-/// Returns the COB-ID of the predefined connection set, which has CAN-IDs for the first four PDOs.
+/// Returns the COB-ID of the predefined connection set, or `None` for PDOs after the fourth.
 fn predefined(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let first = if declared.is_tpdo { 0x80 } else { 0x100 };
     let number = Some(declared.number.value).filter(|number| (1..=4).contains(number))?;
     Some((u32::from(number) * 0x100 + first + u32::from(node.id)) | flags(node, declared))
 }
 
-/// Returns the flags that an automatic COB-ID takes from the description: a device that does not answer RTR can abort the write of
+/// Returns the flags that an assigned COB-ID takes from the description: a device that does not answer RTR can abort the write of
 /// a COB-ID without bit 30 (CiA 301 7.5.2.37).
 fn flags(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> u32 {
     match pdo(node.initial(), direction(declared), declared.number.value) {

@@ -1,4 +1,4 @@
-//! Heartbeat consumers of the nodes (0x1016), which monitor the master.
+//! Heartbeat consumers (0x1016) of the nodes that monitor the master.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Bus;
@@ -7,7 +7,7 @@ use super::writer::Writer;
 use crate::model::{consumer_time, Network, NetworkNode};
 
 /// Configures the heartbeat consumers of all nodes. `consumers` states for each node whether it monitors the master. The writes come
-/// before all others of the network file, as in `dcfgen`, but after those of the description, which they replace.
+/// after those of the description, and before all others of the network file, as in `dcfgen`.
 pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnostics: &mut Diagnostics) {
     let Some(master) = &network.master else { return };
     let time = consumer_time(master.heartbeat.value, master.heartbeat_multiplier.value);
@@ -29,8 +29,8 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
                 }
             }
         } else {
-            // Clears the entries of the description that monitor the master. The master sends no heartbeat, or the network file does
-            // not request the monitoring, or the network file itself sets an entry that monitors the master.
+            // Sets the time to 0 in the entries of the description that monitor the master. The master sends no heartbeat, or the
+            // network file does not request the monitoring, or the network file itself sets an entry that monitors the master.
             for (sub_index, value) in described.iter().filter(monitors) {
                 writer.write((0x1016, *sub_index), value & 0x00FF_0000, span);
             }
@@ -52,7 +52,7 @@ fn entries(node: &NetworkNode) -> (Entries, Entries) {
     subs.map(|sub_index| (sub_index, value(sub_index))).partition(|(sub_index, _)| values.is_set((0x1016, *sub_index)))
 }
 
-/// Returns the sub-index of the entry with the node-ID of the master, or of the first unused entry.
+/// Returns the sub-index of the first entry with the node-ID of the master or, if there is none, of the first unused entry.
 fn free_entry(entries: &[(u8, u32)], master_id: u8) -> Option<u8> {
     let of_master = entries.iter().find(|(_, value)| (value >> 16) as u8 == master_id);
     let is_unused = |value: u32| value & 0xFFFF == 0 || !(1..=127).contains(&((value >> 16) as u8));

@@ -10,7 +10,7 @@ use super::value::basic_type;
 use super::writer::title;
 use crate::model::{MappedObject, NetworkNode, NetworkPdo};
 
-/// Checks the mapping entries that the network file sets, with their last values.
+/// Checks the last values of the mapping entries that the network file sets, up to the number of entries in sub-index 0.
 pub(super) fn check(node: &NetworkNode, diagnostics: &mut Diagnostics) {
     let values = node.values();
     for pdo in &node.pdos {
@@ -27,7 +27,7 @@ pub(super) fn check(node: &NetworkNode, diagnostics: &mut Diagnostics) {
 }
 
 fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) -> Option<Diagnostic> {
-    // An index below 0x1000 is a data type, which leaves a gap.
+    // The index of a gap is the code of a data type.
     if entry.is_gap() {
         return None;
     }
@@ -50,7 +50,7 @@ fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) 
         return found(unmappable(item, object, pdo.direction), label);
     }
     let bits = mapped_bits(item, &device.types)?;
-    // Many devices map a BOOLEAN as a byte.
+    // Some devices map a BOOLEAN as a byte.
     let is_byte = basic_type(device, item, Bus::CanOpen) == Type::Boolean && entry.bits == 8;
     if is_byte || bits == u32::from(entry.bits) {
         return None;

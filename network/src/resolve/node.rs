@@ -25,8 +25,8 @@ const EMCY: u32 = 0x80;
 /// Resolves a node.
 ///
 /// The configured values of the description come first, unless `is_description_written` is false. The order of the other writes is
-/// that of `dcfgen`: heartbeat consumer, TIME, heartbeat producer, node guarding, error behavior, RPDOs, TPDOs, and `parameters` in
-/// the order of the file.
+/// that of `dcfgen`: heartbeat consumer (which `heartbeat::monitor_master` adds), TIME, heartbeat producer, node guarding, error
+/// behavior, RPDOs, TPDOs, and `parameters` in the order of the file.
 pub(super) fn resolve(node: DescribedNode<'_>, cob_ids: &CobIds, diagnostics: &mut Diagnostics) -> NetworkNode {
     let DescribedNode { declared, id, description, parameters } = node;
     let writes = writes(declared, id, &description, cob_ids, parameters, diagnostics);
@@ -62,7 +62,7 @@ pub(super) fn resolve(node: DescribedNode<'_>, cob_ids: &CobIds, diagnostics: &m
     }
 }
 
-/// Returns all values that configure a node, except the entries of 0x1016 that monitor the master. Other nodes and the master use the last value of an object.
+/// Returns the values that configure a node, without the entries of 0x1016 that `heartbeat::monitor_master` adds.
 fn writes(
     declared: &DeclaredNode,
     id: u8,
@@ -125,7 +125,7 @@ fn identity(declared: &DeclaredNode, values: Values<'_>) -> [u32; 4] {
     ]
 }
 
-/// Returns the bits of the node in 0x1F81 (CiA 302-2).
+/// Returns the value of 0x1F81 for the node (CiA 302-2).
 fn assignment(declared: &DeclaredNode, guard_time: u16) -> u32 {
     let flags = [
         (declared.boot, BOOT),

@@ -75,18 +75,19 @@ fn names<'d>(group: &'d Group, item: &'d Item) -> [String; 2] {
     [item.name.to_string(), format!("{}/{}", group.name, item.name)]
 }
 
-/// Returns a name without case, spaces and punctuation, except the slash between object and sub-index.
+/// Returns a name in lower case, with only its letters, digits and slashes.
 fn folded(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric() || *letter == '/').flat_map(char::to_lowercase).collect()
 }
 
-/// Returns all items of a device with their objects and addresses.
+/// Returns all items of a device that have an object address, with their groups and addresses.
 fn all(device: &Device) -> impl Iterator<Item = (&Group, &Item, (u16, u8))> {
     let items = device.groups.iter().flat_map(|group| group.items.iter().map(move |item| (group, item)));
     items.filter_map(|(group, item)| Some((group, item, item.object()?)))
 }
 
-/// Returns the items with a name, and their addresses. If no item has exactly this name, ignores case, spaces and punctuation.
+/// Returns the items with a name, and their addresses. If no item has exactly this name, ignores case, and compares only
+/// letters, digits and slashes.
 pub(crate) fn named<'d>(device: &'d Device, name: &str) -> Vec<(&'d Item, (u16, u8))> {
     let matching = |is_match: &dyn Fn(&str) -> bool| {
         let found = all(device).filter(|(group, item, _)| names(group, item).iter().any(|name| is_match(name)));

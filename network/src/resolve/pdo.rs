@@ -39,8 +39,8 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
     writer.diagnostics.push(Diagnostic::new(&codes::NO_SUCH_PDO, declared.number.span, message).help(help));
 }
 
-/// Configures a PDO as declared: disable the PDO, write the parameters that differ, clear the mapping, write the mapping, enable the
-/// PDO.
+/// Configures a PDO as declared: writes the disabled COB-ID and the parameters if they differ, writes a declared mapping, and enables
+/// the PDO unless the file disables it. If `cob_id` has bit 31, only disables the PDO.
 fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
     let index = pdo.index();
     let span = declared.cob_id.as_ref().map_or(declared.number.span, |cob_id| cob_id.span);
@@ -60,8 +60,8 @@ fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut
 }
 
 /// Writes the declared transmission type, timers and SYNC start value if they differ from the description or if the description
-/// does not state them. The timers and the SYNC start value of an RPDO's sender, and the deadline of a TPDO's receiver, belong to
-/// the master and are not written to the node.
+/// does not state them. The timers and the SYNC start value of an RPDO's sender, and the deadline of a TPDO's receiver, are not
+/// written to the node.
 fn parameters(pdo: &NetworkPdo, declared: &DeclaredPdo, writer: &mut Writer<'_>) {
     let index = pdo.index();
     writer.change((index, 2), declared.transmission.as_ref());
@@ -92,7 +92,8 @@ fn write_mapping(pdo: &NetworkPdo, objects: &At<Vec<At<ObjectName>>>, writer: &m
     }
 }
 
-/// Returns the mapping entry for an object. Reports an object that the device does not have, and one without a fixed length.
+/// Returns the mapping entry for an object. Reports an object that is not found, and an object whose length is unknown
+/// or too long for a mapping entry.
 fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>) -> Option<MappedObject> {
     if let ObjectName::Address(code @ 1..=0x1B, 0) = object.value {
         return dummy(direction, code, object.span, writer);

@@ -36,7 +36,8 @@ pub(super) fn configured(node: &DeclaredNode, values: Values<'_>) -> Vec<Network
     pdos
 }
 
-/// Sets the timers of a PDO that belong to the master: those of the sender of an RPDO, and of the receiver of a TPDO.
+/// Sets the declared values of a PDO that its node does not contain: the timers and the SYNC start value of the sender of an RPDO, and
+/// the deadline of the receiver of a TPDO.
 fn of_master(pdo: &mut NetworkPdo, declared: &DeclaredPdo) {
     fn number<T: Copy + Default>(declared: &Option<At<T>>) -> T {
         declared.as_ref().map_or(T::default(), |declared| declared.value)
@@ -92,7 +93,7 @@ fn multiplexed_name(count: u8) -> Option<&'static str> {
     }
 }
 
-/// Reports the multiplexed PDOs of a node. The master does not exchange them, and the DBC does not contain them.
+/// Reports the enabled multiplexed PDOs of a node. The master does not exchange them, and the DBC does not contain them.
 pub(super) fn report_multiplexed(
     node: &DeclaredNode,
     pdos: &[NetworkPdo],

@@ -16,7 +16,7 @@ use crate::model::{file_stem, Network};
 /// Default bit rate in kbit/s, as in `dcfgen`.
 const BIT_RATE: u16 = 1000;
 
-/// Resolves a declared network. Nodes that cannot be resolved are reported and left out.
+/// Resolves a declared network. Leaves out nodes that cannot be resolved.
 pub fn resolve(source: &Source, declared: DeclaredNetwork, diagnostics: &mut Diagnostics) -> Network {
     check_master(&declared, diagnostics);
     let mut repeated = check_node_ids(&declared, diagnostics);
@@ -60,7 +60,8 @@ fn consumes(nodes: &[DeclaredNode], name: &str) -> bool {
     nodes.iter().any(|node| node.name.value == name && node.consumes_heartbeat)
 }
 
-/// Reports nodes whose output files would have the names of other output files. Returns the locations of the names of these nodes.
+/// Reports nodes whose output files would have the name of an earlier node, `master` or `network`. Ignores case. Returns the locations of
+/// the names of these nodes.
 fn check_names(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
     let mut known = BTreeMap::from([("master".to_owned(), Span::MISSING), ("network".to_owned(), Span::MISSING)]);
     let mut repeated = Vec::new();

@@ -38,7 +38,7 @@ fn declared_type(item: &Item, bus: Bus) -> Type {
     }
 }
 
-/// Converts a declared value. Formulas with `$NODEID` are resolved for the node-ID `id`.
+/// Converts a declared value. Resolves formulas with `$NODEID` for the node-ID `id`; on EtherCAT, they are errors.
 pub(crate) fn convert(device: &Device, item: &Item, bus: Bus, given: &Scalar, id: u8) -> Result<Value, WrongValue> {
     let ty = basic_type(device, item, bus);
     let value = match (given, ty) {
@@ -161,13 +161,13 @@ fn decimal(number: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Returns the names and values of the object's enumeration.
+/// Returns the names and values of the object's enumeration, without reserved and vendor-specific values.
 fn enumeration<'d>(device: &'d Device, item: &Item, bus: Bus) -> Option<impl Iterator<Item = (&'d str, i128)>> {
     let (values, _) = Owner::of_types(&device.types).enumeration(declared_type(item, bus))?;
     Some(values.iter().filter(|value| value.is_named()).map(|value| (value.name.as_str(), value.value)))
 }
 
-/// Returns the value that has this name in the object's enumeration. Ignores case.
+/// Returns the value that has this name in the object's enumeration. Ignores the case of ASCII letters.
 fn named(device: &Device, item: &Item, bus: Bus, text: &str) -> Option<Value> {
     let mut values = enumeration(device, item, bus)?;
     let named = values.find(|(name, _)| name.eq_ignore_ascii_case(text));
@@ -194,7 +194,7 @@ fn bytes(text: &str) -> Option<Vec<u8>> {
     (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(&digits[at..at + 2], 16).ok()).collect()
 }
 
-/// Returns the rule that a value breaks: `below the minimum 0`. Returns `None` if the limits allow the value.
+/// Returns the rule that a value breaks: `below the minimum 0`. Returns `None` if the value breaks no rule.
 pub(crate) fn broken_limit(limits: &Limits, value: &Value, id: u8) -> Option<String> {
     let compared = |limit: &Value| value.compare(&limit.resolved(id));
     let low = limits.low.as_ref().filter(|low| compared(low) == Some(Ordering::Less));

@@ -7,10 +7,11 @@ use super::object::find;
 use crate::declared::{DeclaredNode, ObjectName};
 use crate::syntax::At;
 
-/// Index of the manufacturer hardware version, and of the manufacturer software version.
+/// Indices of the manufacturer hardware version and of the manufacturer software version.
 const VERSIONS: [u16; 2] = [0x1009, 0x100A];
 
-/// Returns the expected hardware version and software version. Reports versions that the device does not have.
+/// Returns the expected hardware version and software version. Reports an expected version if the
+/// device does not have its object.
 pub(super) fn resolve(device: &Device, declared: &DeclaredNode, diagnostics: &mut Diagnostics) -> [Option<String>; 2] {
     let mut versions = [None, None];
     for ((expected, index), version) in declared.versions.iter().zip(VERSIONS).zip(&mut versions) {

@@ -26,7 +26,7 @@ impl Writer<'_> {
         Values { device: self.device, id: self.id, writes: &[] }
     }
 
-    /// Writes a number if it differs from the initial value.
+    /// Writes a number unless the initial value of the object is the same number.
     pub fn change<T: Copy + Into<i128>>(&mut self, object: (u16, u8), value: Option<&At<T>>) {
         let Some(value) = value else { return };
         let number: i128 = value.value.into();
@@ -35,13 +35,15 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes a number to an object. Reports an object that the device does not have, and a value that the object cannot have.
+    /// Writes a number to an object. Reports an object that the device does not have or that cannot be written, and a value that
+    /// the object cannot have.
     pub fn write(&mut self, object: (u16, u8), number: impl Into<i128>, span: Span) {
         let name = At::new(ObjectName::Address(object.0, object.1), span);
         self.parameter(&DeclaredParameter { object: name, value: At::new(Scalar::Integer(number.into()), span) });
     }
 
-    /// Writes a declared value. Reports an object that the device does not have, and a value that the object cannot have.
+    /// Writes a declared value. Reports an object that is not found or that cannot be written, and a value that the object cannot
+    /// have.
     pub fn parameter(&mut self, parameter: &DeclaredParameter) {
         let Some((item, object)) = find(self.device, &parameter.object, self.diagnostics) else { return };
         let span = parameter.value.span;

@@ -44,7 +44,7 @@ pub enum Content {
     Scalar(Scalar),
     /// Elements in their order.
     List(Vec<Node>),
-    /// Keys with values, in the order of the file.
+    /// Keys with values, in their order.
     Table(Vec<Entry>),
 }
 
@@ -73,7 +73,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// Returns the value with its type for diagnostics: `the text "a"`, `the integer 5`.
+    /// Describes the value for diagnostics: `the text "a"`, `the integer 5`.
     pub fn described(&self) -> String {
         match self {
             Scalar::Null => "no value".to_owned(),
@@ -86,7 +86,7 @@ impl Scalar {
 }
 
 impl Node {
-    /// Returns the element for diagnostics: `a table`, `the integer 5`.
+    /// Describes the element for diagnostics: `a table`, `the integer 5`.
     pub fn described(&self) -> String {
         match &self.content {
             Content::Scalar(scalar) => scalar.described(),
@@ -101,6 +101,6 @@ impl Node {
 pub struct SyntaxError {
     /// Location of the error.
     pub span: Span,
-    /// Message in lower case.
+    /// Message for a diagnostic.
     pub message: String,
 }

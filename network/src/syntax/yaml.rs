@@ -1,4 +1,4 @@
-//! Reads YAML as PyYAML does, because the files are written for it: version 1.1, with merge keys.
+//! Reads YAML with the scalar types and merge keys of version 1.1, because the files are written for PyYAML.
 
 use std::collections::hash_map::Entry as Place;
 use std::collections::HashMap;

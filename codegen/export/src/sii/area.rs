@@ -87,7 +87,8 @@ impl Area {
 }
 
 /// Returns the first 14 bytes of the EEPROM: those of the options or, if the options contain none, those of the
-/// description. A station alias in the options replaces the alias in these bytes.
+/// description. Fills missing bytes with zeros. A station alias in the options replaces the alias in these
+/// bytes.
 fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8> {
     let declared = context.settings.eeprom.as_ref().map(|eeprom| eeprom.config_data.clone());
     let declared = declared.filter(|bytes| !bytes.is_empty());

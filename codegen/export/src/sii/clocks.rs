@@ -5,7 +5,7 @@ use lexibus_codegen::ir::ClockMode;
 use super::Context;
 use crate::note::{NoteKind, Notes, Subject};
 
-/// Returns the content of the category, which is empty for a device without distributed clocks.
+/// Returns the content of the category, which is empty for a device without modes of the distributed clocks.
 pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
     let modes = context.settings.clocks.iter().flat_map(|clocks| &clocks.modes);
     let mut bytes = Vec::new();

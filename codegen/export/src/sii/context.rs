@@ -1,4 +1,4 @@
-//! Data that all categories use.
+//! Data that the categories share.
 
 use lexibus_codegen::ir::{Device, EtherCatSettings, Pdo};
 
@@ -6,7 +6,7 @@ use super::options::TrackedOptions;
 use super::texts::Texts;
 use crate::note::Notes;
 
-/// Data that all categories use.
+/// Data that the categories share.
 pub(super) struct Context<'a> {
     pub(super) device: &'a Device,
     pub(super) settings: &'a EtherCatSettings,

@@ -16,16 +16,17 @@ const DEFAULT_SIZE: usize = 2048;
 /// number of words.
 const MAX_CONTENT: usize = 0x2_0000;
 
-/// Category number that follows the last category, and the content of unused bytes.
+/// Category number that follows the last category.
 const END: [u8; 2] = [UNUSED; 2];
+/// Value of unused bytes.
 const UNUSED: u8 = 0xFF;
 
-/// The content of an EEPROM, with notes about facts that were left out or changed.
+/// The content of an EEPROM, and notes on the export.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// The content of the EEPROM.
     pub bytes: Vec<u8>,
-    /// Notes on facts that were left out or changed: one note for each kind, sorted by kind.
+    /// Notes of the export: one for each kind that occurred, sorted by kind.
     pub notes: Vec<Note>,
 }
 
@@ -99,8 +100,8 @@ fn with_detail(
 }
 
 /// Returns the size of the EEPROM from the options or, if the options contain no size, from the description. If the
-/// description has no valid size, returns the smallest power of two that fits the content and is at least the default
-/// size. Returns `None` if this power of two is too large for an EEPROM.
+/// description has no valid size, returns the smallest power of two that is at least the length of the content and
+/// the default size. Returns `None` if this power of two is too large for an EEPROM.
 fn size(context: &mut Context<'_>, needed: usize) -> Option<EepromSize> {
     let declared = context.settings.eeprom.as_ref().and_then(|eeprom| eeprom.byte_size);
     let known = context.options.eeprom_size().or(declared.and_then(EepromSize::new));

@@ -1,4 +1,4 @@
-//! Options for facts that an SII image requires and that can be missing in a source.
+//! Options for facts of an SII image.
 
 use crate::options::{options, OptionValue};
 
@@ -43,7 +43,7 @@ impl OptionValue for Octets {
 pub struct EepromSize(u32);
 
 impl EepromSize {
-    /// Unit of the size word in the configuration area.
+    /// Unit of the size word in the configuration area, in bytes.
     pub(super) const STEP: u32 = 128;
 
     /// Returns the size, or `None` if it is 0, above 4 Mibit or not a multiple of 128 bytes.

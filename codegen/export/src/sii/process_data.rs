@@ -15,7 +15,7 @@ const PART: u32 = 248;
 /// Sync manager number of PDOs that are not assigned to a sync manager by default.
 const UNASSIGNED: u8 = 0xFF;
 
-/// Returns the purposes of the FMMUs, one byte for each FMMU. Adds a note for each purpose and setting that the category
+/// Returns the purposes of the FMMUs, one byte for each FMMU. Notes the purposes and settings that the category
 /// cannot express.
 pub(super) fn fmmus(context: &mut Context<'_>) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -38,8 +38,8 @@ pub(super) fn fmmus(context: &mut Context<'_>) -> Vec<u8> {
     bytes
 }
 
-/// Returns the sync managers, eight bytes for each sync manager. A number without a sync manager becomes an unused sync
-/// manager.
+/// Returns the sync managers, eight bytes for each sync manager. A number without a sync manager, below the
+/// highest number, becomes an unused sync manager.
 pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let assigned = context.device.process_data.assigned_by_default();
@@ -60,7 +60,7 @@ pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
 }
 
 /// Returns the length of a sync manager in bytes. If the description declares no default length, returns the total
-/// length of the PDOs that are assigned by default.
+/// length of the PDOs that are assigned to this sync manager by default, limited to 65535.
 fn length(assigned: &[(&Pdo, u8)], manager: &SyncManager) -> u16 {
     manager.default_size.unwrap_or_else(|| {
         let own = assigned.iter().filter(|(_, number)| *number == manager.number);
@@ -122,7 +122,7 @@ fn flags(pdo: &Pdo) -> u16 {
     flags.iter().filter(|(_, is_set)| *is_set).fold(0, |all, (flag, _)| all | flag)
 }
 
-/// Returns the number of a type in ETG.1000.6, or 0 if the type has no number.
+/// Returns the number of a type in ETG.1000.6, or 0 if the type has no number below 256.
 fn type_code(context: &Context<'_>, ty: Type) -> u8 {
     let without_length = match types::basic(&context.device.types, ty) {
         Type::VisibleString(_) => Type::VisibleString(None),
