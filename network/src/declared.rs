@@ -139,7 +139,7 @@ pub struct DeclaredNode {
     pub boot: bool,
     /// True if the network does not start without the node.
     pub mandatory: bool,
-    /// True if the master may reset the communication of the node in the Operational state.
+    /// True if the master may reset the communication of the node while the node is Operational.
     pub reset_communication: bool,
     /// Program that the master downloads to the node.
     pub software_file: Option<At<String>>,

@@ -207,7 +207,7 @@ pub(crate) fn entry_name(device: &Device, (index, sub_index): (u16, u8), separat
     }
 }
 
-/// Returns a name as a file name: other characters than letters, digits, `-`, `_` and `.` become `_`.
+/// Returns a name as a file name: characters other than letters, digits, `-`, `_` and `.` become `_`.
 pub fn file_stem(name: &str) -> String {
     let is_safe = |letter: char| letter.is_alphanumeric() || matches!(letter, '-' | '_' | '.');
     name.chars().map(|letter| if is_safe(letter) { letter } else { '_' }).collect()

@@ -1,4 +1,4 @@
-//! Checks the times of heartbeats and node guarding.
+//! Checks the times of heartbeats, and reports nodes that use both heartbeat and node guarding.
 
 use std::collections::BTreeSet;
 

@@ -5,7 +5,7 @@ use lexibus_codegen::diagnostics::Diagnostics;
 use super::{bus_load, cob_ids, heartbeat, partners, sync};
 use crate::model::Network;
 
-/// Checks a network, and reports what would not work on the bus.
+/// Checks a network, and reports faults that would occur on the bus.
 pub fn check(network: &Network, diagnostics: &mut Diagnostics) {
     cob_ids::check(network, diagnostics);
     partners::check(network, diagnostics);

@@ -14,7 +14,7 @@ pub(crate) const MAX_ELEMENTS: usize = 1_000_000;
 /// Maximum depth of nested lists and tables, including those that aliases repeat.
 const MAX_DEPTH: usize = 64;
 
-/// Number of bytes of a text after which the text counts as one more element.
+/// Number of bytes of a text that count as one more element.
 const BYTES_OF_ELEMENT: usize = 64;
 
 /// Parses the first document of a YAML file. An empty file is an empty table.
@@ -67,7 +67,7 @@ struct Open {
     start: u32,
     anchor: usize,
     content: Content,
-    /// Key of a table whose value follows.
+    /// Key of a table entry whose value follows.
     key: Option<At<String>>,
     /// Keys of a table, with the positions of their entries.
     keys: HashMap<String, Position>,
@@ -187,7 +187,7 @@ fn error(span: Span, message: impl Into<String>) -> SyntaxError {
     SyntaxError { span, message: message.into() }
 }
 
-/// Returns the number of elements as which a text counts.
+/// Returns how many elements a text counts as.
 fn elements_of(text: &str) -> usize {
     1 + text.len() / BYTES_OF_ELEMENT
 }
@@ -369,7 +369,7 @@ mod tests {
         let (long, copies) = ("x".repeat(10_000), "*a, ".repeat(100_000));
         assert_eq!(message(&format!("a: &a {long}\nb: [{copies}]\n")), many);
         assert_eq!(message(&format!("a: &a {{{long}: 1}}\nb: [{copies}]\n")), many);
-        // 60 copies of 20 000 elements for anchors in anchors.
+        // 60 nested anchors, each with a copy of 20 000 elements.
         let anchors: String = (0..60).map(|level| format!("&b{level} [")).collect();
         assert_eq!(message(&format!("a: {anchors}{}{}\n", "1, ".repeat(20_000), "]".repeat(60))), many);
     }
