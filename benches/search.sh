@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures how long the search of a site needs after each keystroke, elapsed and on the processor: benches/search.sh DESCRIPTION... Set LEXIBUS to the
-# program that writes the site; otherwise, the script builds it. cli/tests/browser/README.md lists the requirements.
+# Measures the elapsed time and the processor time that the search of a site needs after a keystroke: benches/search.sh DESCRIPTION... Set LEXIBUS to
+# the program that writes the site; otherwise, the script builds it. cli/tests/browser/README.md lists the requirements.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if [[ $# == 0 ]]; then echo "benches/search.sh DESCRIPTION..." >&2; exit 2; fi

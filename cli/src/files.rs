@@ -8,7 +8,7 @@ use lexibus_codegen::source::Source;
 
 use super::Failure;
 
-/// Reads a file that the user named.
+/// Reads a file as a source.
 pub(super) fn read(path: &Path) -> Result<Source, Failure> {
     Source::read(path).map_err(|error| Failure::Failed(format!("cannot read {}: {error}", path.display())))
 }

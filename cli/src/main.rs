@@ -108,8 +108,8 @@ enum Failure {
     Usage(String),
     /// The output cannot be written.
     Output(std::io::Error),
-    /// A file or folder cannot be written, or a command that accesses devices failed because of a device, a bus, a value
-    /// or a file.
+    /// The command failed for another reason, such as a file that cannot be read or written, or an error of a device or
+    /// bus.
     Failed(String),
 }
 

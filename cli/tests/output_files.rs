@@ -94,7 +94,7 @@ fn a_full_disk_leaves_the_old_file() {
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file remains");
 }
 
-/// Output that cannot be written has the exit code 1 for every command, without a hint about the arguments.
+/// A command that cannot write its output has the exit code 1, and prints no hint about the arguments.
 #[test]
 fn output_that_cannot_be_written_is_no_wrong_argument() {
     let folder = folder("unwritable");
@@ -138,7 +138,7 @@ fn pages_are_not_written_to_a_foreign_folder() {
     assert!(output.status.success(), "{}", error(&output));
 }
 
-/// Networks whose names differ only in case or punctuation would have the same file.
+/// Pages of networks can have the same file name if the names of the networks differ only in case or punctuation.
 #[test]
 fn the_page_of_a_network_does_not_replace_another() {
     let folder = folder("networks");

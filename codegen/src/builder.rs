@@ -299,9 +299,9 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The input has errors. The text contains the rendered errors.
+    /// The compilation of the input has errors. The text contains the rendered errors.
     Input(String),
-    /// The input describes no device and no module.
+    /// The input describes no device or module for which code is generated.
     Empty {
         /// Path of the input.
         path: PathBuf,

@@ -1,4 +1,4 @@
-//! Pages that do not belong to a device: those of CANopen networks and EtherCAT segments.
+//! Pages of CANopen networks and EtherCAT segments, which do not belong to a device.
 
 use super::addresses::folder_name;
 use super::indexing;
@@ -9,7 +9,7 @@ use super::search::Entry;
 use super::segment::{self, Segment, SubDevice};
 use super::{Page, Site};
 
-/// A page that does not belong to a device.
+/// The page of a CANopen network or EtherCAT segment.
 struct Further<'p> {
     /// Folder of all pages of this kind, relative to the site's folder.
     folder: &'static str,
@@ -53,7 +53,7 @@ impl Site {
         self.further(&page, Content::Segment(&shown))
     }
 
-    /// Returns a page, and adds it to the search and to the list of devices.
+    /// Returns a page. Adds it to the search, and to the pages to which the list of devices links.
     fn further(&mut self, page: &Further<'_>, content: Content<'_>) -> Page {
         let Further { folder, kind, name, title, parts } = page;
         let format = self.format.pages();

@@ -1,4 +1,4 @@
-//! The devices and catalogs in a list of devices.
+//! The devices in a list of devices, and the catalogs in a table of contents.
 
 use std::cmp::Reverse;
 

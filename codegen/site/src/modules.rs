@@ -151,7 +151,7 @@ struct Items<'m> {
     types: &'m [TypeDef],
     /// Rust code that reads and writes each item.
     calls: Option<&'m Calls>,
-    /// API, slot and subslot of a submodule with records.
+    /// API, slot and subslot of a submodule with records; otherwise empty.
     submodule: &'m str,
     /// Default bytes of the records of a submodule, by the position of the record.
     default_bytes: Option<&'m HashMap<u32, Vec<u8>>>,

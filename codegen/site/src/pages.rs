@@ -51,7 +51,7 @@ impl Frameset {
     }
 
     /// Returns the frameset of a page that belongs to no device, such as the page of a network, and the file name of this page. The
-    /// tree contains only this page. Returns `None` if the frameset already has pages.
+    /// frameset links only to this page. Returns `None` if the frameset already has pages.
     pub fn alone(&self, path: &str, title: &str) -> Option<(Frameset, String)> {
         if self.device_pages.count() + self.shared.count() > 0 {
             return None;

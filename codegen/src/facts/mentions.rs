@@ -134,8 +134,8 @@ impl<'d> Mentions<'d> {
         found.flatten()
     }
 
-    /// Returns the field that contains bit `number` of an item. If the meaning of the bit depends on a condition, the number does not determine
-    /// the field.
+    /// Returns the field that contains bit `number` of an item. Ignores fields that depend on a condition, because the number does
+    /// not determine which of them applies.
     fn bit(&self, mention: Mention, number: u32) -> Option<Mention> {
         let Mention::Item(id) = mention else { return None };
         let owner = Owner { types: &self.device.types, groups: &[self.device.groups.as_slice()] };

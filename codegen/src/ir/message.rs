@@ -102,7 +102,7 @@ pub enum Completion {
     /// The command is complete when an item, or a field of a reply, has a certain value.
     Polled {
         /// Name of the item or field, optionally followed by a dot and the name of a bit. Only a reference to an item has an id.
-        /// Replies can have several fields with the same name. Each of them refers to the command in [`MessageValue::completes`].
+        /// Several replies can have a field with this name, so [`MessageValue::completes`] refers to the command instead.
         item: ItemRef,
         /// Mask of the bits to compare; `None` = all bits.
         mask: Option<u64>,
@@ -192,8 +192,8 @@ pub struct MessageValue {
     /// First counted field of the same list, if the value is the number of bytes from this field to the end of the data.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<FieldRef>,
-    /// The command whose completion the value indicates, if the value is in a reply. If several commands poll a value with this
-    /// name, this is the first of them. Set by the stage `resolve`.
+    /// The command whose completion the value indicates, if the value is in a reply and not in a repeated field. If several
+    /// commands poll a value with this name, only the first of them counts. Set by the stage `resolve`.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub completes: Option<PolledCommand>,
 }
@@ -203,7 +203,8 @@ pub struct MessageValue {
 pub struct PolledCommand {
     /// The message of the command. Its completion contains the mask and the expected value.
     pub message: MessageId,
-    /// Position of the compared bits in the bit field that is the type of the value; `None` = the whole value is compared.
+    /// Position of the compared field in the bit field that is the type of the value; `None` = the completion names no bit,
+    /// and its mask determines the compared bits.
     pub bits: Option<u32>,
 }
 
@@ -243,8 +244,8 @@ pub struct Framing {
     pub escaped: Vec<u8>,
     /// Name of the checksum algorithm: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
-    /// Name of the first field that the checksum covers; `None` = the checksum starts at the first byte after `start`. Each request
-    /// with this field has its id in [`Message::check_from`].
+    /// Name of the first field that the checksum covers; `None` = the checksum starts at the first byte after `start`. If the
+    /// request of a message has this field, [`Message::check_from`] is the id of the field.
     pub check_from: Option<CompactString>,
     /// True if bytes of the checksum are escaped.
     pub check_escaped: bool,
@@ -252,8 +253,8 @@ pub struct Framing {
     pub check_seed: u32,
     /// Maximum number of data bytes, without start, end, escape bytes and checksum.
     pub max_data: Option<u16>,
-    /// Name of the request field with the address of the device; `None` = the protocol has no device addresses. Each request with
-    /// this field has its id in [`Message::address`].
+    /// Name of the request field with the address of the device; `None` = the protocol has no device addresses. If the request of
+    /// a message has this field, [`Message::address`] is the id of the field.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub address: Option<CompactString>,
     /// Description of the framing from the source.

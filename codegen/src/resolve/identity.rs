@@ -1,4 +1,5 @@
-//! Identity of a device: numbers that are missing or 0 come from object 0x1018 (CiA 301 7.5.2.21).
+//! Identity of a device without EtherCAT: numbers that are missing or 0 come from object 0x1018 (CiA 301 7.5.2.21), if it
+//! contains them.
 
 use crate::ir::{Device, FactOrigin, Identity, IdentityNumber, Rule, Value};
 use crate::source::Span;

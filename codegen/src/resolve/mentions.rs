@@ -52,7 +52,7 @@ pub(super) fn for_each(device: &mut Device, visit: Visit<'_>) {
     }
 }
 
-/// Visits each reference in an item or type whose target can be an item.
+/// Visits each reference that can refer to an item, first those in items and then those in types.
 pub(super) fn of_items_and_types<'g>(
     groups: impl Iterator<Item = &'g mut Group>,
     types: &mut [TypeDef],

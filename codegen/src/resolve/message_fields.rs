@@ -7,8 +7,9 @@ use crate::ir::{
     CompactString, Completion, Device, FieldId, Message, MessageField, MessageId, MessageValue, PolledCommand, Shape,
 };
 
-/// Sets the ids of the references to fields. A field of a reply can copy a value of the request. Other references are within one
-/// list of fields. The names in the framing refer to a field in each request.
+/// Sets the ids of the references to fields, and the commands of polled values. A field of a reply can copy a value of the
+/// request. References to a counted field or to a count are within one list of fields. The names in the framing refer to values
+/// of each request that has them.
 pub(super) fn run(device: &mut Device) {
     let framing = device.framing.as_deref();
     for message in &mut device.messages {
@@ -22,7 +23,7 @@ pub(super) fn run(device: &mut Device) {
     polled(device);
 }
 
-/// Sets the command of each value in a reply that indicates the completion of a command.
+/// Sets [`MessageValue::completes`] of the values in replies, except values in repeated fields.
 fn polled(device: &mut Device) {
     let commands = Commands::new(&device.messages);
     if commands.0.is_empty() {
@@ -36,7 +37,7 @@ fn polled(device: &mut Device) {
     }
 }
 
-/// The first command that polls each item or field, with the name of the polled bit.
+/// The first command that polls each item or field, with the name of the polled bit, if any.
 struct Commands(HashMap<CompactString, (MessageId, Option<CompactString>)>);
 
 impl Commands {
@@ -53,7 +54,8 @@ impl Commands {
         Commands(all)
     }
 
-    /// Returns the command that polls `value`. Returns `None` if the type of the value does not have the polled bit.
+    /// Returns the first command that polls `value`. Returns `None` if no command polls the value, or if the type of the value does
+    /// not have the bit that the command polls.
     fn of(&self, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
         let (message, bit) = self.0.get(&value.item.name)?;
         let bits = match bit {
@@ -141,7 +143,7 @@ mod tests {
         MessageField::Repeat { count: Some(count.into()), max: None, fields }
     }
 
-    /// Returns the position to which each reference refers, in the order of the fields.
+    /// Returns the position to which each reference refers, or `None` if it is not resolved, in the order of the fields.
     fn targets(fields: &[MessageField]) -> Vec<Option<u32>> {
         let mut all = Vec::new();
         for field in fields {
@@ -181,7 +183,7 @@ mod tests {
         assert_eq!((message.address, message.check_from), (Some(FieldId(0)), Some(FieldId(1))));
         assert_eq!((other.address, other.check_from), (None, None));
         assert_eq!(targets(&message.request), [Some(1)]);
-        // The first field named `speed` in the reply is the copy. A count is in the same list as its repeated fields.
+        // The first field named `speed` in the reply is the copy. The count of a repetition is in the same list as the repetition.
         assert_eq!(targets(&message.reply), [Some(1), Some(1), None, Some(2), Some(0), Some(0), None]);
     }
 

@@ -149,7 +149,7 @@ fn rust_of_a_small_table() {
     insta::assert_snapshot!(text);
 }
 
-/// A command changes only its bits of a control item that can be read. Otherwise, the other bits are 0.
+/// A command changes only its own bits of the control item if the item can be read. Otherwise, it sets the other bits to 0.
 #[test]
 fn walks_state_the_other_bits_of_the_control_item() {
     let walk = |access: &str| {

@@ -83,7 +83,7 @@ fn errors_are_for_people() {
     assert!(error.to_string().contains("missing.eds"), "{error}");
 }
 
-/// A file without errors that describes no device is not called a file with errors.
+/// The error for a file that describes no device does not state that the file has errors.
 #[test]
 fn an_empty_description_has_its_own_error() {
     let input = folder("empty").join("vendor.xml");

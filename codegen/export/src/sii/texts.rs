@@ -42,8 +42,8 @@ impl Texts {
     }
 }
 
-/// Returns a text in ISO 8859-1. Replaces other characters with question marks, shortens the text to 255 bytes, and adds
-/// a note for each of these changes.
+/// Returns a text in ISO 8859-1. Replaces other characters with question marks, and shortens a text of more than 255
+/// bytes. Counts each kind of change once in the notes.
 fn encoded(text: &str, notes: &mut Notes) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut unknown = false;

@@ -13,7 +13,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// A file has a limited number of diagnostics of a code. The counts also include those beyond the limit.
+/// The list of diagnostics contains a limited number for each file and code. The counts also include the others.
 #[test]
 fn info_counts_all_warnings() {
     let count = MAX_SAME_DIAGNOSTICS + 25;

@@ -38,7 +38,7 @@ impl OfRecord<'_> {
         }
     }
 
-    /// Returns the requests for an item at this position of the record. A request writes the whole record.
+    /// Returns the requests for an item at this position of the record. A write request contains the whole record.
     pub(super) fn requests(
         &self,
         item: &Item,

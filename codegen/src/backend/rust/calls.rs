@@ -21,7 +21,7 @@ pub struct RecordUsage {
     /// Code that reads and writes the items. In this code, the variable `records` is a `RecordAccess`, and `address` is
     /// the address of the submodule.
     pub calls: Calls,
-    /// Default bytes of the records, by the position of the record in the submodule; empty if the bytes of a default
-    /// value are unknown.
+    /// Default bytes of the records, by the position of the record in the submodule; empty if they are not
+    /// completely known.
     pub default_bytes: HashMap<u32, Vec<u8>>,
 }

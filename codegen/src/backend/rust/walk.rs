@@ -97,8 +97,8 @@ fn word<'c>(constants: &'c Constants<'_, '_>, reference: &ItemRef) -> Option<Con
 }
 
 /// Returns the documentation of the method. `status`, `control` and `code` are links to the status item, the control
-/// item and the item that contains the error code. `other_bits` states the values of the control item's other bits. If no item
-/// contains the error code, `code` is empty.
+/// item and the item that contains the error code. `other_bits` states whether the other bits of the control item keep their
+/// values or are 0. If no item contains the error code, `code` is empty.
 fn documentation(machine: &StateMachine, status: &str, control: &str, other_bits: &str, code: &str) -> Vec<String> {
     let mut lines = vec![
         format!("Leads the state machine \"{}\" to the state `target`.", docs::escape(&machine.name)),

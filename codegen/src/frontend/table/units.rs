@@ -82,8 +82,8 @@ pub fn usual_unit(text: &str) -> Option<&'static str> {
     ];
     let lower = text.to_lowercase();
     let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
-    // These symbols are recognized in upper case and lower case. The prefixes `m`, `M` and `n` keep their meaning, and `a` is
-    // also a year.
+    // These symbols are recognized regardless of case, except for a first letter `m`, `M` or `n`, which can be a prefix. `a` is
+    // not recognized because it can also mean a year.
     let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
     let prefix = |text: &str| text.chars().next().filter(|first| matches!(first, 'm' | 'M' | 'n'));
     let is_same = |symbol: &str| symbol.to_lowercase() == lower && prefix(symbol) == prefix(text) && text != "a";

@@ -22,7 +22,7 @@ const LENGTH: Problem =
     "a length is not an unsigned integer of whole bytes, or counts from a field after a field of variable length";
 const COUNT: Problem = "the number of repetitions is not a separate unsigned integer before the repeated fields";
 
-/// The steps of a request or reply, with the offsets of its fields.
+/// The steps of a request or reply, and the fixed offsets of fields.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,

@@ -52,7 +52,8 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// Returns the byte position at which the checksum starts, from the first request that contains the first checked field.
+/// Returns the byte position at which the checksum starts: the offset of the first checked field in the first request in
+/// which this offset is fixed.
 fn check_start(shaped: &[Shaped<'_>]) -> Option<u32> {
     shaped.iter().find_map(|shape| shape.request.byte_offset(shape.message.check_from?))
 }

@@ -79,7 +79,7 @@ struct Named<'a> {
     position: u32,
     group: &'a Group,
     record: &'a Record,
-    /// Name of the struct without its ending.
+    /// Name of the struct without the ending `Record`.
     name: String,
 }
 
@@ -88,9 +88,10 @@ pub(super) struct RecordStruct<'a> {
     /// Position of the record in the submodule.
     pub position: u32,
     pub name: String,
-    /// Default bytes of the record; empty if the bytes of a default value are unknown.
+    /// Default bytes of the record; empty if an item has no field, or if a default value does not have the kind of its
+    /// field.
     pub default_bytes: Vec<u8>,
-    /// The position of each item that has a field, the item, and the name of the field.
+    /// For each changeable field: the position of its item, the item, and the name of the field.
     pub fields: Vec<(u32, &'a Item, String)>,
 }
 
@@ -100,7 +101,7 @@ pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &
     named_records(groups).into_iter().map(model).collect()
 }
 
-/// Returns the structs of a submodule's records.
+/// Returns the structs that are generated for a submodule's records.
 pub(super) fn structs<'a>(groups: &'a [Group], values: &'a Values<'a>) -> Vec<RecordStruct<'a>> {
     let found = |Named { position, group, record, name }| {
         let parameters = parameters(group, record, values);

@@ -23,8 +23,8 @@ pub(in crate::backend::rust) fn usage_of_records(catalog: &Catalog) -> HashMap<S
     all.collect()
 }
 
-/// Returns the lines of code for each item of a record. A write sends the whole record, so it reads the other fields
-/// before.
+/// Returns the lines of code for each item with a changeable field. A write sends the whole record, so it first reads
+/// the other changeable fields, if any.
 fn calls<'r>(record: &'r RecordStruct<'_>, submodule: &'r str) -> impl Iterator<Item = (ItemId, Vec<String>)> + 'r {
     let path = format!("submodules::{submodule}::{}", record.name);
     record.fields.iter().map(move |(item, of_item, field)| {

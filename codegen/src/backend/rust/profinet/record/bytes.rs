@@ -22,7 +22,8 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
-/// Returns whether a field can contain the default value of its item.
+/// Returns whether the default value of an item has the kind of its field: text or bytes for a byte string, and a number
+/// or Boolean for any other field. Also returns true if the item has no default value.
 pub(super) fn has_bytes(Parameter { item, field, .. }: &Parameter<'_>) -> bool {
     item.default.as_ref().is_none_or(|default| match (field.byte_string(), default) {
         (Some(_), default) => matches!(default, Value::Text(_) | Value::Bytes(_)),
