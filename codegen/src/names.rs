@@ -7,9 +7,9 @@
 //! gets a suffix: its address, or its position if it has no address. With addresses, the order of elements does not affect
 //! identifiers. A new element then changes only the identifiers of elements with the same name.
 
+use crate::collections::HashMap;
+use crate::collections::HashSet;
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::collections::HashSet;
 
 use crate::limits::MAX_IDENTIFIER;
 
@@ -80,7 +80,7 @@ pub fn distinct<'s>(
     reserved: &[&str],
     case: Case,
 ) -> Vec<String> {
-    let mut count: HashMap<&str, usize> = HashMap::with_capacity(plain.len());
+    let mut count: HashMap<&str, usize> = HashMap::with_capacity_and_hasher(plain.len(), Default::default());
     for name in plain {
         *count.entry(name).or_default() += 1;
     }
@@ -90,7 +90,7 @@ pub fn distinct<'s>(
         plain.iter().filter(|name| count[name.as_str()] == 1 && !is_reserved(name)).cloned().collect();
     let mut names = Vec::with_capacity(plain.len());
     // For each name that is not unique even with its suffix: the last number that was appended.
-    let mut numbers: HashMap<String, u32> = HashMap::new();
+    let mut numbers: HashMap<String, u32> = HashMap::default();
     for (suffix, name) in suffixes.zip(plain) {
         if count[name.as_str()] == 1 && !is_reserved(name) {
             names.push(name.clone());

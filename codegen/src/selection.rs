@@ -5,10 +5,11 @@
 
 pub mod arguments;
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::str::FromStr;
 
+use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, Module, ProcessData, Submodule};
 use crate::resolve::removal;
@@ -166,7 +167,7 @@ fn keep_latest(catalog: &Catalog, found: &mut Vec<usize>) {
         let name = if device.identity.product_code.is_some() { "" } else { device.name.as_str() };
         (device.identity.product_code, name)
     };
-    let mut latest: HashMap<_, Option<u32>> = HashMap::new();
+    let mut latest: HashMap<_, Option<u32>> = HashMap::default();
     for &at in &*found {
         let highest = latest.entry(product(at)).or_default();
         *highest = (*highest).max(catalog.devices[at].identity.revision_number);

@@ -1,7 +1,6 @@
 //! Makes names unique.
 
-use std::collections::{HashMap, HashSet};
-
+use crate::collections::{HashMap, HashSet};
 use crate::ir::CompactString;
 
 /// A set of used names, which makes further names unique.

@@ -1,8 +1,9 @@
 //! Conditions: values that the item of a condition cannot have, and modes of operation for which no bits are defined.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use super::context::Context;
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::reserved;
 use crate::ir::{stated, Condition, ItemRef, Shape, TypeDef, Value};

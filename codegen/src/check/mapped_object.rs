@@ -1,8 +1,8 @@
 //! Comparison of the entries of PDO mappings with the mapped items.
 
 use std::cell::OnceCell;
-use std::collections::HashSet;
 
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{stated, AxisStep, Device, Direction, Entries, Item, Mappable};

@@ -1,9 +1,8 @@
 //! Duplicate names of objects, sub-indices, bits and values.
 
-use std::collections::HashMap;
-
 use super::bit_fields::are_distinct;
 use super::context::Context;
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::apart;
 use crate::ir::{stated, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
@@ -13,7 +12,7 @@ use crate::text::brief;
 /// Reports objects, sub-indices, bits and values that share a name.
 pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     let device = context.device;
-    let mut names = HashMap::new();
+    let mut names = HashMap::default();
     for group in &device.groups {
         if let GroupKind::Object { index, .. } = group.kind {
             once(&mut names, &group.name, group.name_at.or(group.origin.span), "another object", diagnostics);
@@ -68,7 +67,7 @@ fn repeated<'v, V>(
     name: impl Fn(&'v V) -> &'v str,
     apart: impl Fn(&V, &V) -> bool,
 ) -> Option<(&'v V, &'v V)> {
-    let mut seen: HashMap<&str, &V> = HashMap::new();
+    let mut seen: HashMap<&str, &V> = HashMap::default();
     for element in list.filter(|element| !name(element).is_empty()) {
         match seen.get(name(element)) {
             Some(first) if !apart(first, element) => return Some((*first, element)),
@@ -79,7 +78,7 @@ fn repeated<'v, V>(
 }
 
 fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
-    let mut names = HashMap::new();
+    let mut names = HashMap::default();
     let other = format!("another sub-index of 0x{index:04X}");
     for item in group.items.iter().filter(has_meaning) {
         once(&mut names, &item.name, name_span(item), &other, diagnostics);

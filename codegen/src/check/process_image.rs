@@ -1,8 +1,7 @@
 //! Default PDO assignment of EtherCAT slaves: missing sync managers, conflicts, lengths and excluded PDOs.
 
-use std::collections::HashSet;
-
 use super::context::{Context, PdoOwner};
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
 use crate::text::count_of;

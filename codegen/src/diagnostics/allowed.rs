@@ -1,8 +1,7 @@
 //! Spans of a source in which diagnostics are allowed.
 
-use std::collections::HashMap;
-
 use super::Code;
+use crate::collections::HashMap;
 use crate::source::{FileId, Span};
 
 /// Spans in which a code is not reported, sorted for each file and code. As the end of each span, the list stores the

@@ -1,11 +1,12 @@
 //! The diagnostics of a compilation, limited by levels, allowed spans and a maximum number per code and file.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
 
 use super::allowed::Allowed;
 use super::diagnostic::closing;
 use super::{Class, Code, Diagnostic, ErrorSpans, Levels, Severity};
+use crate::collections::{HashMap, HashSet};
 use crate::limits::MAX_SAME_DIAGNOSTICS;
 use crate::source::{FileId, Span};
 
@@ -77,7 +78,7 @@ impl Diagnostics {
     /// Removes repeated diagnostics from the list, starting at index `first`. A repeated diagnostic has the same code, span and
     /// message as an earlier one.
     pub(crate) fn forget_repeated(&mut self, first: usize) {
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = HashSet::default();
         let tail = self.list.split_off(first.min(self.list.len()));
         let is_new =
             |diagnostic: &Diagnostic| seen.insert((diagnostic.code, diagnostic.span, hash(&diagnostic.message)));

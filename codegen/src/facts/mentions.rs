@@ -1,8 +1,7 @@
 //! Items, objects, messages and states that the texts of code tables mention.
 
-use std::collections::{HashMap, HashSet};
-
 use super::referrers::Part;
+use crate::collections::{HashMap, HashSet};
 use crate::ir::owner::Owner;
 use crate::ir::{BitFieldEntry, CodeRow, CodeTable, Device, Documentation, ItemId, Shape};
 

@@ -1,9 +1,8 @@
 //! PDOs: names (by number on CANopen, by index on EtherCAT), changeable mappings, and objects that can be mapped.
 
-use std::collections::HashMap;
-
 use super::number::hex16;
 use super::types;
+use crate::collections::HashMap;
 use crate::ir::{
     Coe, Device, Direction, Group, Item, Mappable, ObjectBuses, Pdo, PdoEntryKind, Type, TypeDef, MAX_PDO_SUBS,
 };
@@ -43,7 +42,7 @@ pub fn title(pdo: &Pdo, buses: ObjectBuses) -> String {
 /// Returns the objects that PDOs map, with the directions of these PDOs. Objects in this map can be mapped, even if the
 /// description does not state that they are mappable.
 pub fn mapped_objects(pdos: &[Pdo]) -> HashMap<(u16, u8), Mappable> {
-    let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
+    let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::default();
     for pdo in pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
             let mappable = mapped.entry((entry.index, entry.sub_index)).or_default();

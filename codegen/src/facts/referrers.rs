@@ -1,7 +1,6 @@
 //! References to items from other elements of a device.
 
-use std::collections::HashMap;
-
+use crate::collections::HashMap;
 use crate::ir::owner::Owner;
 use crate::ir::{
     BitFieldEntry, BitMeaning, Condition, Device, EnumValue, Item, ItemId, ItemRef, MessageId, ProcedureId, Shape,

@@ -9,11 +9,15 @@ const REPLACEMENT: char = '\u{FFFD}';
 /// Reports bytes that do not match the encoding of the XML declaration or byte order mark.
 pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let Some((message, read_as)) = mismatch(source) else { return };
-    let is_meant = |letter: char| if read_as.is_some() { !letter.is_ascii() } else { letter == REPLACEMENT };
+    let text = source.text();
+    let affected = match read_as {
+        Some(_) => text.bytes().position(|byte| !byte.is_ascii()),
+        None => text.find(REPLACEMENT),
+    };
     // A file that contains only ASCII characters is not reported, because it has the same bytes in the declared
     // encoding and in UTF-8. A file in UTF-16 is always reported, because even its first character has different bytes.
-    let found = source.text().char_indices().find(|(_, letter)| is_meant(*letter));
-    let found = found.or_else(|| source.text().char_indices().next().filter(|_| source.encoding() == Encoding::Utf16));
+    let affected = affected.or_else(|| (source.encoding() == Encoding::Utf16).then_some(0));
+    let found = affected.and_then(|at| Some((at, text[at..].chars().next()?)));
     let Some((at, letter)) = found else { return };
     let span = Span::new(file, at as u32, (at + letter.len_utf8()) as u32);
     let label = match read_as {

@@ -1,9 +1,10 @@
 //! Lookup tables for items.
 
 use std::cell::OnceCell;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use super::{Group, Item, ItemId};
+use crate::collections::HashMap;
 
 /// Lookup table of items by index and sub-index, including registers with an object address.
 ///
@@ -45,7 +46,7 @@ impl<'a> Entries<'a> {
 
     fn registers(&self) -> &HashMap<(u16, u8), ItemId> {
         self.registers.get_or_init(|| {
-            let mut registers = HashMap::new();
+            let mut registers = HashMap::default();
             let chapters = (0..).zip(self.groups).take_while(|(_, group)| group.index().is_none());
             for (id, item) in chapters.flat_map(|(position, group)| group.items_at(position)) {
                 if let Some(object) = item.object() {
@@ -75,7 +76,7 @@ impl<'a> ItemNames<'a> {
     /// Returns the first item with this name.
     pub fn by_name(&self, name: &str) -> Option<&'a Item> {
         let names = self.names.get_or_init(|| {
-            let mut names = HashMap::new();
+            let mut names = HashMap::default();
             for item in self.groups.iter().flat_map(|group| &group.items) {
                 names.entry(item.name.as_str()).or_insert(item);
             }

@@ -1,9 +1,9 @@
 //! Access to the items and types of a device, a module, or all submodules of a catalog.
 
 use std::cell::OnceCell;
-use std::collections::HashMap;
 
 use super::{EnumValue, Group, Item, ItemId, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
+use crate::collections::HashMap;
 use crate::source::Span;
 
 /// Maximum number of definitions that the search for an underlying type follows.
@@ -126,7 +126,7 @@ impl<'a> TypeUses<'a> {
 
     fn uses(&self) -> &HashMap<TypeId, Span> {
         self.uses.get_or_init(|| {
-            let mut first = HashMap::new();
+            let mut first = HashMap::default();
             for item in self.owner.items() {
                 if let Type::Named(id) = item.ty {
                     first.entry(id).or_insert(item.at.ty.or(item.origin.span));
@@ -162,7 +162,7 @@ impl<'a> Index<'a> {
             let single =
                 self.owner.identified().filter(|(group, ..)| group.index().is_some() && group.items.len() == 1);
             let single = single.map(|(group, id, _)| (group.name.as_str(), id));
-            let mut names = HashMap::new();
+            let mut names = HashMap::default();
             for (name, id) in items.chain(single).filter(|(name, _)| !name.is_empty()) {
                 names.entry(name).or_insert(id);
             }

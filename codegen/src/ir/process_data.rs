@@ -1,8 +1,7 @@
 //! Cyclic data with exact bit positions.
 
-use std::collections::HashMap;
-
 use super::{CompactString, Documentation, Doubts, Extensions, ItemId, ObjectBuses, Texts, Type, Value};
+use crate::collections::HashMap;
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.

@@ -1,9 +1,8 @@
 //! Corrects the signs of values in conditions. If the item of a condition is signed, a bit pattern with a set sign bit becomes a
 //! negative number.
 
-use std::collections::HashMap;
-
 use super::mentions::for_each_condition;
+use crate::collections::HashMap;
 use crate::ir::owner::Owner;
 use crate::ir::{Condition, Device, ItemId, Value};
 
@@ -13,7 +12,7 @@ pub(super) fn run(device: &mut Device) {
     let can_be_negative = |condition: &Condition| {
         condition.mask.is_none() && condition.values.iter().any(|value| value.as_int() > Some(0))
     };
-    let mut signed: HashMap<ItemId, Option<u32>> = HashMap::new();
+    let mut signed: HashMap<ItemId, Option<u32>> = HashMap::default();
     for_each(device, &mut |condition| {
         signed.extend(condition.item.id.filter(|_| can_be_negative(condition)).map(|id| (id, None)))
     });

@@ -1,7 +1,6 @@
 //! Resolves the references to fields of messages.
 
-use std::collections::HashMap;
-
+use crate::collections::HashMap;
 use crate::ir::owner::Owner;
 use crate::ir::{
     CompactString, Completion, Device, FieldId, Message, MessageField, MessageId, MessageValue, PolledCommand, Shape,
@@ -42,7 +41,7 @@ struct Commands(HashMap<CompactString, (MessageId, Option<CompactString>)>);
 
 impl Commands {
     fn new(messages: &[Message]) -> Self {
-        let mut all = HashMap::new();
+        let mut all = HashMap::default();
         for (id, message) in (0..).map(MessageId).zip(messages) {
             let Completion::Polled { item, .. } = &message.completion else { continue };
             let (field, bit) = match item.split_once('.') {

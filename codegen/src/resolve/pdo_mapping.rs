@@ -1,8 +1,7 @@
 //! PDOs from the mapping objects of a CANopen dictionary, with exact bit positions (CiA 301 7.5.2.36, 7.5.2.38).
 
-use std::collections::{HashMap, HashSet};
-
 use super::pdo_entries::entry_name;
+use crate::collections::{HashMap, HashSet};
 use crate::ir::{
     Device, Direction, Entries, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value,
 };

@@ -1,8 +1,7 @@
 //! Resolves references: sets the id of each reference to the position of the element with its name.
 
-use std::collections::HashMap;
-
 use super::mentions::{for_each, for_each_quantity, of_items_and_types, window_sides, Mention};
+use crate::collections::HashMap;
 use crate::ir::owner::{Index, Owner};
 use crate::ir::{
     Binding, Catalog, CommandId, CompactString, Device, DeviceStateId, ElementId, Entries, FamilyId, GivenId, Group,
@@ -20,7 +19,7 @@ pub(super) fn device(device: &mut Device) -> bool {
     images(device);
     parameter_spaces(device);
     models_and_given_numbers(device);
-    let mut names = HashMap::new();
+    let mut names = HashMap::default();
     for_each(device, &mut |mention| collect(&mut names, &mention));
     if names.is_empty() {
         return false;
@@ -43,7 +42,7 @@ pub(super) fn families(catalog: &mut Catalog) {
 /// Resolves the references of a module. In the ids of a module, the groups are numbered consecutively: first the fixed objects,
 /// then the other groups.
 pub(super) fn module(module: &mut Module) {
-    let mut names = HashMap::new();
+    let mut names = HashMap::default();
     let Module { fixed_objects, groups, types, process_data, .. } = module;
     mapped_items(&mut process_data.pdos, groups, fixed_objects.len() as u32);
     of_items_and_types(fixed_objects.iter_mut().chain(&mut *groups), types, &mut |mention| {
@@ -66,7 +65,7 @@ impl Positions {
     }
 
     fn of<'n>(named: impl Iterator<Item = (u32, &'n CompactString)>) -> Self {
-        let mut positions = HashMap::new();
+        let mut positions = HashMap::default();
         for (position, name) in named {
             positions.entry(name.clone()).or_insert(position);
         }
@@ -134,7 +133,7 @@ fn machines(device: &mut Device) {
     }
     let messages = Positions::new(device.messages.iter().map(|message| &message.name));
     device.machines.iter_mut().for_each(|each| machine(each, &messages));
-    let mut states = HashMap::new();
+    let mut states = HashMap::default();
     for (machine, definition) in (0..).zip(&device.machines) {
         for (state, pattern) in (0..).map(StateId).zip(&definition.states) {
             states.entry(pattern.name.clone()).or_insert(DeviceStateId { machine, state });

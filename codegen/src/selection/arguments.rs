@@ -1,7 +1,7 @@
 //! Arguments that select a single device or module of a file.
 
+use crate::collections::HashMap;
 use crate::facts::number::hex32;
-use std::collections::HashMap;
 
 use super::{device_names, module_names, number, DeviceFilter};
 use crate::ir::{Device, Module};
@@ -55,7 +55,7 @@ struct Index {
 
 impl Index {
     fn new<'n>(elements: impl Iterator<Item = (Option<u32>, Vec<&'n str>)>) -> Self {
-        let mut index = Index { names: HashMap::new(), numbers: HashMap::new() };
+        let mut index = Index { names: HashMap::default(), numbers: HashMap::default() };
         for (at, (number, names)) in elements.enumerate() {
             for name in names {
                 index.names.entry(name.to_lowercase()).or_default().push(at);

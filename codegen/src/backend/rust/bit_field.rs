@@ -1,7 +1,5 @@
 //! Bit fields: integers with named bits.
 
-use std::collections::HashSet;
-
 use super::code::{call, seq, Doc};
 use super::context::Context;
 use super::doc_table;
@@ -13,6 +11,7 @@ use super::method_names::{method_allow, unused_name};
 use super::naming::types::{value_names, NamedType, View};
 use super::options::{Presence, RustOptions};
 use super::value_type::native;
+use crate::collections::HashSet;
 use crate::facts::number::hex;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Value};
 use crate::names::{self, Case, NameRequest};
@@ -340,7 +339,7 @@ impl Fields<'_, '_> {
         let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
         // If the meaning of a bit depends on the firmware version, the bit can have two fields with the same name. A
         // suffix with the position makes the names of these fields unique.
-        let mut seen = HashSet::new();
+        let mut seen = HashSet::default();
         let name_requests: Vec<NameRequest<'_>> = entries
             .iter()
             .enumerate()

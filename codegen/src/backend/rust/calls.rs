@@ -1,7 +1,6 @@
 //! Code that uses the generated code, for documentation.
 
-use std::collections::HashMap;
-
+use crate::collections::HashMap;
 use crate::ir::{ItemId, ObjectBuses};
 
 /// Rust calls that read and write each item, such as `device.identity().vendor_id().read()?`.

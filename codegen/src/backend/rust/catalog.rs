@@ -1,7 +1,5 @@
 //! Generates the Rust code for the devices and modules of a file.
 
-use std::collections::{HashMap, HashSet};
-
 use super::code::Code;
 use super::definitions::Definitions;
 use super::device_names::module_name;
@@ -9,6 +7,7 @@ use super::ethercat::ModulePaths;
 use super::model::Model;
 use super::options::RustOptions;
 use super::{docs, header, print};
+use crate::collections::{HashMap, HashSet};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
 
@@ -91,7 +90,7 @@ fn reachable(catalog: &Catalog) -> Vec<(ModuleId, &Module)> {
 }
 
 fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
-    let mut same_number: HashMap<u32, usize> = HashMap::new();
+    let mut same_number: HashMap<u32, usize> = HashMap::default();
     for (_, module) in modules {
         *same_number.entry(module.number).or_default() += 1;
     }
@@ -112,8 +111,8 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
 /// revision number, the suffix ends with the position of the device.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
-    let mut seen = HashSet::new();
-    let mut same_revision: HashMap<(&str, Option<u32>), usize> = HashMap::new();
+    let mut seen = HashSet::default();
+    let mut same_revision: HashMap<(&str, Option<u32>), usize> = HashMap::default();
     for (device, name) in devices.iter().zip(&names) {
         *same_revision.entry((name, device.identity.revision_number)).or_default() += 1;
     }

@@ -1,11 +1,12 @@
 //! Enumerations for the codes of code tables. With these enumerations, programs match alarms by name.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use super::doc_table;
 use super::docs;
 use super::docs::WORDS;
 use super::options::RustOptions;
+use crate::collections::HashSet;
 use crate::facts::code;
 use crate::facts::number::hex;
 use crate::ir::{CodeRow, CodeTable, Manual};
@@ -53,7 +54,7 @@ type Span = (i64, i64);
 /// Returns the enumeration for `table`, without its name. Returns `None` if no row has a valid range of codes within
 /// `i64`.
 pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOptions) -> Option<CodeTypeModel> {
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     // If several rows describe the same code or range, for example for different models, the first row determines the
     // name of the variant.
     let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|row_span| seen.insert(*row_span))?, row));

@@ -1,8 +1,6 @@
 //! Shares definitions between the devices and modules of a file. The first device or module with a definition contains
 //! the code of the definition, and the others re-export it.
 
-use std::collections::HashMap;
-
 use super::bit_field::BitFieldModel;
 use super::code::Code;
 use super::handle;
@@ -12,6 +10,7 @@ use super::naming::handles::is_cased;
 use super::objects::ObjectModel;
 use super::print;
 use super::reexport::{Reexport, Section};
+use crate::collections::HashMap;
 
 /// The definitions of all devices and modules that were processed so far.
 pub(super) struct Definitions {
@@ -26,14 +25,14 @@ pub(super) struct Definitions {
 impl Definitions {
     /// Creates an empty set of definitions. `runtime` is the path of the runtime crate in the code of the definitions.
     pub fn new(runtime: &str) -> Self {
-        Definitions { runtime: runtime.to_owned(), numbers: HashMap::new(), homes: Vec::new() }
+        Definitions { runtime: runtime.to_owned(), numbers: HashMap::default(), homes: Vec::new() }
     }
 
     /// Replaces each definition of `model` with a re-export if an earlier device or module contains the same
     /// definition. `module` is the module name of `model`.
     pub fn share(&mut self, model: &mut Model, module: &str) {
         model.is_one_of_several = true;
-        let mut device = Device { all: self, module, numbers: HashMap::new(), reexports: Vec::new() };
+        let mut device = Device { all: self, module, numbers: HashMap::default(), reexports: Vec::new() };
         device.share_types(model);
         device.share_codes(model);
         device.share_objects(model);

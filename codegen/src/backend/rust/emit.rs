@@ -1,7 +1,5 @@
 //! Entry points of the back end: generated modules, calls and names.
 
-use std::collections::HashMap;
-
 use super::calls::{Calls, RecordUsage, Usage};
 use super::code::Code;
 use super::context::Context;
@@ -10,6 +8,7 @@ use super::model::Model;
 use super::scope::Scope;
 use super::RustOptions;
 use super::{catalog, device_names, model, objects, print, quantity};
+use crate::collections::HashMap;
 use crate::ir::{Catalog, Device, FileInfo, Item, ModuleId, Scale, SubmoduleId};
 
 /// Version of the interface between generated code and the runtime. The version must equal
@@ -80,7 +79,7 @@ pub fn usage_of_records(catalog: &Catalog) -> HashMap<SubmoduleId, RecordUsage> 
     #[cfg(not(feature = "gsdml"))]
     {
         let _ = catalog;
-        HashMap::new()
+        HashMap::default()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Enumerations: named values of an integer.
 
+use crate::collections::HashSet;
 use crate::facts::number::hex;
-use std::collections::HashSet;
 
 use super::context::Context;
 use super::doc_table;
@@ -63,7 +63,7 @@ pub(super) fn model(
         _ => &[],
     };
     let (low, high) = named.ty.integer_range().unwrap_or_default();
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     let values: Vec<&EnumValue> = all
         .iter()
         .filter(|value| value.last.is_none() && (low..=high).contains(&value.value) && seen.insert(value.value))

@@ -2,8 +2,6 @@
 //!
 //! Paths are relative, so they stay valid if the generated module is moved.
 
-use std::collections::HashMap;
-
 use super::located::Located;
 use super::naming::composites::NamedComposite;
 use super::naming::handles::{is_cased, HandleNames, NamedItem};
@@ -11,6 +9,7 @@ use super::naming::pdos::{NamedField, NamedPdo};
 use super::naming::Names;
 use super::options::RustOptions;
 use super::scope::Scope;
+use crate::collections::HashMap;
 use crate::ir::{Device, ElementId, ItemId, MessageId, PdoEntryKind, Type};
 
 /// The module that contains a doc comment. Links in the comment are relative to this module.

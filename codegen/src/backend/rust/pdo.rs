@@ -2,8 +2,8 @@
 //! device.
 
 use super::literal;
+use crate::collections::{HashMap, HashSet};
 use crate::facts::number::{hex, hex16, hex8};
-use std::collections::{HashMap, HashSet};
 
 use super::code::{call, list, seq, Break, Data, Doc};
 use super::context::Context;

@@ -1,8 +1,8 @@
 //! The input of `lexibus::pdo!`: PDOs with a changeable mapping, their limits, and the items that can be mapped.
 
 use super::literal;
+use crate::collections::HashMap;
 use crate::facts::number::{hex, hex16};
-use std::collections::HashMap;
 
 use super::code::{seq, slice, Doc};
 use super::context::Context;

@@ -1,9 +1,9 @@
 //! The state to which a new program leads a state machine, and the path of the device to this state.
 
-use std::collections::HashMap;
 use std::fmt;
 
 use super::machine::{MachineModel, StepModel};
+use crate::collections::HashMap;
 use crate::ir::StateMachine;
 
 /// Names of states in which a device operates, in order of preference: states without motion come first. The state
@@ -95,7 +95,7 @@ impl<'m> Path<'m> {
 
 /// Returns the number of transitions from each state to the target. States without a path to the target are left out.
 fn distances<'m>(steps: &[&'m StepModel], target: &'m str) -> HashMap<&'m str, usize> {
-    let mut distances = HashMap::from([(target, 0)]);
+    let mut distances = HashMap::from_iter([(target, 0)]);
     for distance in 1..=steps.len() {
         let is_before = |step: &&&StepModel| distances.get(step.to.as_str()) == Some(&(distance - 1));
         let before: Vec<&str> = steps.iter().filter(is_before).map(|step| step.from.as_str()).collect();

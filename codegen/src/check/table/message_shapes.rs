@@ -1,8 +1,9 @@
 //! Reports messages, framings and parameters for which no code is generated, with the reason.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use crate::check::context::Context;
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Framing, MessageId, Type};
 use crate::resolve::messages::{

@@ -1,10 +1,9 @@
 //! Checks that row names exist, are not hyphenated at the edge of a table column, and are not descriptions. Also checks
 //! that no two registers of a chapter have names that differ only in upper and lower case.
 
-use std::collections::HashMap;
-
 use crate::check::context::Context;
 use crate::check::names::{has_meaning, name_span};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{CompactString, Device, Group, GroupKind, Item};
 use crate::source::Span;
@@ -49,7 +48,7 @@ fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, d
 }
 
 fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
-    let mut names = HashMap::new();
+    let mut names = HashMap::default();
     for item in &group.items {
         let at = name_span(item);
         case_only(&mut names, item, diagnostics);

@@ -1,17 +1,16 @@
 //! Checks that the numbers of items fit into the windows, and that the items of a window are integers. Also checks that
 //! windows can transfer the values of items that have no other address.
 
-use std::collections::HashSet;
-
 use super::windows::{behind, windows};
 use crate::check::context::Context;
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{Binding, Item, Type};
 use crate::text::brief;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let mut reported = HashSet::new();
+    let mut reported = HashSet::default();
     for item in behind(context) {
         for window in windows(item) {
             for side in [&window.read, &window.write].into_iter().flatten() {

@@ -1,16 +1,17 @@
 //! Checks that windows are wide enough for the values, and that procedures write the value before the number.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use super::windows::{behind, windows};
 use crate::check::context::Context;
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{stated, Binding, Bus, CompactString, Item, Procedure, Step, WindowSide};
 use crate::text::brief;
 
 pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
-    let (mut narrow, mut seen) = (HashSet::new(), HashSet::new());
+    let (mut narrow, mut seen) = (HashSet::default(), HashSet::default());
     for item in behind(context) {
         width(context, item, &mut narrow, diagnostics);
         for side in windows(item).filter_map(|window| window.write.as_ref()).filter(|side| seen.insert(*side)) {

@@ -1,11 +1,10 @@
 //! Reads a file section by section.
 
-use std::collections::HashMap;
-
 use super::object::ObjectSections;
 use super::reader::Reader;
 use super::sections::{classify, Refinement, SectionKind};
 use super::{header, lists, modules, sections};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::object::define_type;
 use crate::ir::{Catalog, Device, Extensions};
@@ -160,7 +159,7 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKin
 /// Reports sections that CiA 306 does not define. Stores their entries as extensions of the device, with keys such as
 /// `section/key`. Also stores the entries of sections about undescribed objects.
 fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
-    let mut seen: HashMap<String, &Section> = HashMap::new();
+    let mut seen: HashMap<String, &Section> = HashMap::default();
     for section in unknown {
         let name = reader.doc.name(section);
         // CiA 306-1 defines the section [Tools], which lists software tools, so this section is not reported.

@@ -2,12 +2,12 @@
 //! the whole array on the first element.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
 use super::entries::Entry;
 use super::info_value::{Form, RawInfo, RawValue};
 use super::object::RawSub;
 use super::types::Types;
+use crate::collections::HashMap;
 use crate::frontend::xml::Given;
 
 /// Selects the field to set: the default value, the minimum or the maximum.
@@ -23,7 +23,7 @@ pub(super) fn split<'a>(
     of_entry: &[Option<usize>],
     subs: &mut [RawSub<'a>],
 ) -> HashMap<usize, RawInfo<'a>> {
-    let mut parts: HashMap<usize, RawInfo<'a>> = HashMap::new();
+    let mut parts: HashMap<usize, RawInfo<'a>> = HashMap::default();
     for (first, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.element == Some(1)) {
         // Only the elements that directly follow the first element, and have no sub-item in the object, get a part of
         // the value.

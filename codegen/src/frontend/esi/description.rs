@@ -1,7 +1,6 @@
 //! Contents of a device description, and its references to other files.
 
-use std::collections::HashSet;
-
+use crate::collections::HashSet;
 use crate::frontend::xml::Given;
 use crate::ir::{Catalog, CodeTable, PdoEntry};
 use crate::source::Span;

@@ -1,12 +1,13 @@
 //! Reads the diagnosis messages of a device, module or file.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use compact_str::CompactString;
 
 use super::budget::Cost;
 use super::data_type::enum_value;
 use super::reader::{Names, Reader};
+use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::frontend::xml::Read;
 use crate::ir::{Buses, CodeRow, CodeTable, Documentation, LocalText, SharedList, Value};

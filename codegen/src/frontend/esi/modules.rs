@@ -1,6 +1,6 @@
 //! Reads modules, and finds the slots into which they fit.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use compact_str::format_compact;
 
@@ -11,6 +11,7 @@ use super::mailbox;
 use super::pdos::Pdos;
 use super::profile::Profiles;
 use super::reader::{Names, Reader};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Read;
 use crate::ir::{
@@ -146,7 +147,7 @@ struct Known<'m> {
 
 impl<'m> Known<'m> {
     fn new(modules: &'m [Module], diagnostics: &mut Diagnostics) -> Self {
-        let mut known = Known { by_ident: HashMap::new(), by_class: HashMap::new(), count: modules.len() };
+        let mut known = Known { by_ident: HashMap::default(), by_class: HashMap::default(), count: modules.len() };
         for (at, module) in modules.iter().enumerate() {
             let same = known.by_ident.entry(module.number).or_default();
             let first = same.first().and_then(|&first| modules.get(first as usize));

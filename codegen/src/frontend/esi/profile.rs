@@ -1,11 +1,10 @@
 //! Reads profiles: their numbers, dictionaries and diagnosis messages.
 
-use std::collections::HashSet;
-
 use super::description::{OtherFiles, Reference, Target};
 use super::diagnosis;
 use super::dictionary::Dictionary;
 use super::reader::Reader;
+use crate::collections::HashSet;
 use crate::frontend::xml::Read;
 use crate::ir::CodeTable;
 use crate::syntax::xml::Tag;

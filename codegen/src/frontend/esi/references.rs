@@ -1,6 +1,6 @@
 //! Reads files that a description refers to: further descriptions, dictionaries, diagnosis messages.
 
-use std::collections::{HashMap, HashSet, VecDeque};
+use std::collections::VecDeque;
 use std::path::Path;
 
 use super::budget::Budget;
@@ -9,6 +9,7 @@ use super::description::{Description, EntryType, Owner, Reference, Target};
 use super::document::document;
 use super::lower::check_length;
 use super::types::guessed;
+use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
@@ -30,7 +31,7 @@ impl Content {
         let dictionary = dictionary.map_or(Cost::text(0), |device| cost_of(device, length));
         let items = catalog.code_tables.iter().map(|table| table.rows.len()).sum();
         let messages = Cost { items, bytes: length + catalog.code_tables.len() * size_of::<CodeTable>() };
-        Content { catalog, dictionary, messages, is_copied: false, owners: HashSet::new() }
+        Content { catalog, dictionary, messages, is_copied: false, owners: HashSet::default() }
     }
 }
 
@@ -44,7 +45,7 @@ pub(super) fn follow(
 ) {
     let main_name = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     // Content of each file for later references; `None` if later references cannot use the file.
-    let mut files: HashMap<String, Option<Content>> = HashMap::new();
+    let mut files: HashMap<String, Option<Content>> = HashMap::default();
     // A description with devices does not use the devices of referenced files. A description without devices may be a
     // list of other files, so it uses their devices.
     let only_modules = !description.catalog.devices.is_empty();
@@ -103,7 +104,7 @@ fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
             _ => None,
         };
         let Some((types, data)) = found else { continue };
-        let mut by_name = HashMap::with_capacity(types.len());
+        let mut by_name = HashMap::with_capacity_and_hasher(types.len(), Default::default());
         for (at, def) in types.iter().enumerate() {
             by_name.entry(def.name.as_str()).or_insert((TypeId(at as u32), def));
         }

@@ -6,9 +6,9 @@
 
 use std::borrow::Cow;
 use std::cell::Cell;
-use std::collections::HashMap;
 
 use super::budget::Cost;
+use crate::collections::HashMap;
 use crate::diagnostics::Diagnostics;
 use crate::source::{FileId, Origin};
 use crate::syntax::xml::{Cursor, Error, Event};
@@ -32,7 +32,7 @@ impl<'a> Templates<'a> {
     /// Finds the templates of a file before the file is read, because a template may come after the devices that use it. Ignores
     /// syntax errors, which the main reader reports.
     pub fn of(text: &'a str, file: FileId) -> Self {
-        let mut templates = Templates { text, by_name: HashMap::new() };
+        let mut templates = Templates { text, by_name: HashMap::default() };
         // Newer files have no templates, so a fast text search avoids a second parse of these files.
         if memchr::memmem::find(text.as_bytes(), b"RefName").is_some() {
             let _ = templates.find(file);

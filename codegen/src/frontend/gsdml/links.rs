@@ -1,8 +1,8 @@
 //! Identifiers of elements, and references to these elements. A reference may come before the element.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{Catalog, ModuleId, ModuleUse, SlotNumbers, SubmoduleId, SubmoduleUse};

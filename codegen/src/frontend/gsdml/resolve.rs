@@ -1,12 +1,12 @@
 //! Replaces the placeholders in names and descriptions with texts.
 
 use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
 
 use compact_str::{format_compact, CompactString};
 
 use super::text_list::TextList;
 use super::text_references::TextReferences;
+use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{
@@ -132,7 +132,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
         diagnostics: &'d mut Diagnostics,
     ) -> Self {
         let budget = limits::MAX_TEXT_COPIES_PER_BYTE.saturating_mul(length).max(limits::MIN_TEXT_COPIES);
-        Resolver { list, references, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
+        Resolver { list, references, diagnostics, suffixed: HashMap::default(), missing: HashSet::default(), budget }
     }
 
     /// Replaces the placeholder in `name` with its text, or with the text identifier if the text is missing or the budget

@@ -1,11 +1,11 @@
 //! Reads the text list at the end of a file.
 
 use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
 
 use compact_str::{format_compact, CompactString};
 
 use super::reader::Reader;
+use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{Extension, Extensions, LocalText, Texts};
@@ -217,7 +217,7 @@ impl<'a> TextList<'a> {
         let mut texts = Vec::new();
         // A language with two lists usually has each text twice, so repeated texts are removed.
         let is_repeated = self.seen.len() < self.languages.len();
-        let mut seen = HashSet::new();
+        let mut seen = HashSet::default();
         let mut chain = entry.translations;
         while let Some(translation) = chain.and_then(|(at, _)| self.translations.get(at)) {
             let language = self.languages.get(translation.language).cloned().unwrap_or_default();

@@ -1,10 +1,10 @@
 //! Types of the catalog: named numbers and strings of GSDML, and the enumerations in the value list.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
 use super::data_type::{DataType, NumberType, PairType, StringType};
 use super::links::unresolved;
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{CompactString, Documentation, EnumValue, Field, Scale, Shape, Type, TypeDef, TypeId};

@@ -1,11 +1,12 @@
 //! Reads tables of codes, such as alarms, emergency codes and abort codes.
 
-use std::collections::hash_map::{Entry, HashMap};
+use std::collections::hash_map::Entry;
 
 use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
 use super::tree::Reader;
 use super::{buses, notation, value};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, SubjectKind, Type, Value};
 use crate::text::brief;

@@ -1,7 +1,5 @@
 //! Units, enumerations and bit fields to which rows refer by name.
 
-use std::collections::HashMap;
-
 use compact_str::{format_compact, CompactString};
 
 use super::at::{At, TextOr};
@@ -14,6 +12,7 @@ use super::references::References;
 use super::tree::Reader;
 use super::words::ACCESSES;
 use super::{lints, notation, types, value};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, SubjectKind, Trigger, Type, TypeDef, TypeId, Zone,

@@ -1,12 +1,13 @@
 //! Reads fixed process images: the positions of items and of additional fields in the cyclic data.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use super::at::At;
 use super::format::{field_row, ImageField, ImageTable, Row};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{process, types};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Binding, CompactString, Device, Direction, Group, GroupKind, ImageBinding, Item, ObjectCode, PdoEntry,
@@ -40,7 +41,7 @@ enum ItemPosition {
 
 impl Images {
     pub fn new(device: &Device) -> Self {
-        let mut images = Images { groups: Vec::new(), positions: HashMap::new() };
+        let mut images = Images { groups: Vec::new(), positions: HashMap::default() };
         for (at, group) in device.groups.iter().enumerate() {
             images.know(group, |item| ItemPosition::Device(at, item));
         }

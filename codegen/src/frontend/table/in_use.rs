@@ -1,11 +1,12 @@
 //! Finds items with the same name, the same address, overlapping registers, or overlapping bits of a register.
 
 use std::collections::hash_map::Entry;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use compact_str::{format_compact, CompactString};
 
 use super::tree::Reader;
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};

@@ -1,7 +1,6 @@
 //! Limits the size of the state machines of a device. A transition from a list of states is copied for each of these
 //! states. The state names of a matrix are copied for each row, and a note for each cell that refers to it.
 
-use std::collections::HashMap;
 use std::fmt::Debug;
 
 use super::at::{At, TextOr};
@@ -9,6 +8,7 @@ use super::format::{MachineTable, MatrixTable};
 use super::repeats::length;
 use super::states::enumeration;
 use super::tree::Reader;
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Device;
 use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};

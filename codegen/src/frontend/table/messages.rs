@@ -1,7 +1,5 @@
 //! Reads the messages of a command protocol, and the spaces whose parameters they transfer.
 
-use std::collections::HashSet;
-
 use super::at::{At, FlagOr, Literal, TextOr};
 use super::format::{
     field_row, CompletionTable, ExampleTable, FieldTable, MessageTable, NumberOrText, Row, SpaceTable,
@@ -10,6 +8,7 @@ use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{conditions, framing, notation, types, value, Table};
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
@@ -28,7 +27,7 @@ fn text(at: &At<String>) -> CompactString {
 /// Reads the messages of a table, the delimiters and checksum of the frames, and the spaces whose parameters the
 /// messages transfer.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: &mut Rows, device: &mut Device) {
-    let mut names = HashSet::new();
+    let mut names = HashSet::default();
     for table in file.list::<MessageTable>(reader, "messages") {
         rows.allow_at(reader, (table.start, end(&table)), &table.value.allow);
         if device.messages.len() >= limits::MAX_MESSAGES {
@@ -256,7 +255,7 @@ struct Fields<'r, 's, 'd> {
 impl Fields<'_, '_, '_> {
     fn list(&mut self, list: &[At<FieldTable>], depth: usize) -> Vec<MessageField> {
         let mut fields: Vec<MessageField> = Vec::new();
-        let mut before = HashSet::new();
+        let mut before = HashSet::default();
         for field in list {
             let message_field = self.one(field, &before, depth);
             before.extend(field_names(message_field.as_slice()).cloned());

@@ -1,11 +1,10 @@
 //! Reads the state-command matrix of a state machine: the outcome of each command in each state.
 
-use std::collections::HashSet;
-
 use super::at::{At, TextOr};
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
 use super::tree::{cited, Reader};
+use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Availability, CommandOutcomes, Device, Documentation, Doubts, Outcome, Pattern, Reference, StateOutcome, StateRef,
@@ -158,7 +157,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
     if text.trim() == "?" {
         return Vec::new();
     }
-    let (mut found, mut known) = (Vec::new(), HashSet::new());
+    let (mut found, mut known) = (Vec::new(), HashSet::default());
     for one in text.split(" or ").map(str::trim) {
         let outcome = match one {
             "same" => Outcome::Unchanged,

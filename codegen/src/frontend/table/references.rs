@@ -1,12 +1,12 @@
 //! Names that refer to other elements of the table, such as items, models, messages and states.
 
 use std::cell::OnceCell;
-use std::collections::{HashMap, HashSet};
 
 use super::at::At;
 use super::notation;
 use super::numbered::{self, Numbered};
 use super::tree::Reader;
+use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
 use crate::text::brief;
@@ -29,7 +29,7 @@ pub(super) fn resolve<'r>(
     numbered: &[Numbered],
 ) {
     let known = Known::new(device);
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     for (name, kind) in references {
         // The names in a unit or space occur again for each row that uses the unit or space, but are checked only once.
         if !seen.insert((name.start, name.value.as_str(), kind)) {
@@ -74,7 +74,7 @@ impl<'d> Known<'d> {
     fn new(device: &'d Device) -> Self {
         let all = device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
         let groups = device.groups.iter().map(|group| group.name.as_str());
-        let mut chapters: HashMap<&str, Vec<&str>> = HashMap::new();
+        let mut chapters: HashMap<&str, Vec<&str>> = HashMap::default();
         for group in device.groups.iter().filter(|group| group.kind == GroupKind::Chapter) {
             for item in &group.items {
                 chapters.entry(&item.name).or_default().push(&group.name);

@@ -1,7 +1,6 @@
 //! Reads the text of a file into the types of `format`, and reports each error with its span.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::rc::Rc;
 
 use compact_str::CompactString;
@@ -12,6 +11,7 @@ use super::at::{At, Literal};
 use super::format::{Cited, Documented, DoubtTable, Doubted, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
+use crate::collections::HashMap;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
     Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Subject, SubjectKind, Texts,
@@ -403,7 +403,7 @@ pub(super) fn choices<'a>(
     options: &[(At<String>, OptionTable, Node<'a>)],
     chosen: &[(String, String)],
 ) -> HashMap<String, DeValue<'a>> {
-    let mut values = HashMap::new();
+    let mut values = HashMap::default();
     for (name, option, node) in options {
         let by_caller = chosen.iter().rev().find(|(option_name, _)| *option_name == name.value);
         let (choice, span) = match (by_caller, &option.default) {

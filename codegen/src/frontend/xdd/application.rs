@@ -2,10 +2,9 @@
 //!
 //! Values are converted when an object refers to their parameter, because the object may declare the data type.
 
-use std::collections::HashMap;
-
 use super::data_type::{RawType, TypeRef};
 use super::reader::{Lang, Reader, Texts};
+use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Names};
 use crate::ir::{Extension, Extensions};

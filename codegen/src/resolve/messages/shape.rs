@@ -1,9 +1,8 @@
 //! Messages for which code is generated, and the reasons why no code is generated for other messages.
 
-use std::collections::{HashMap, HashSet};
-
 use super::frame::Frame;
 use super::shaper::{self, Side};
+use crate::collections::{HashMap, HashSet};
 use crate::ir::{Device, Message, MessageId};
 
 /// The reason why no code is generated for a message.
@@ -49,7 +48,7 @@ pub(crate) fn shapes(device: &Device) -> Vec<Shaped<'_>> {
 fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
     let selectors: HashSet<MessageId> =
         all.iter().filter(|shaped| shaped.can_select()).map(|shaped| shaped.id).collect();
-    let mut dependents: HashMap<Option<MessageId>, Vec<usize>> = HashMap::new();
+    let mut dependents: HashMap<Option<MessageId>, Vec<usize>> = HashMap::default();
     for (at, shaped) in all.iter().enumerate() {
         if let Some(after) = &shaped.message.after {
             dependents.entry(after.id).or_default().push(at);

@@ -3,9 +3,8 @@
 //! A profile does not change facts that the description states. A profile adds nothing to an item whose type does not match the
 //! type in the profile, or to a missing object. Such differences are not reported.
 
-use std::collections::HashMap;
-
 use super::profile::{Described, Profile, Signal, Telegram};
+use crate::collections::HashMap;
 use crate::ir::object_names::{in_range, item_at, item_name, name_conditions};
 use crate::ir::stated::is_of_profile;
 use crate::ir::{
@@ -35,7 +34,7 @@ type Replaced = HashMap<(u16, u8), (Type, Type)>;
 
 impl<'p> Completion<'p> {
     pub(crate) fn new(profile: &'p Profile) -> Self {
-        Completion { profile, types: Vec::new(), added: HashMap::new() }
+        Completion { profile, types: Vec::new(), added: HashMap::default() }
     }
 
     /// Completes the objects, code tables and state machines of a device. `is_table` returns whether a file is a register table
@@ -87,7 +86,7 @@ impl<'p> Completion<'p> {
         let before = types.len();
         let shifts = self.axes(groups);
         self.start(types);
-        let mut replaced = Replaced::new();
+        let mut replaced = Replaced::default();
         for described in &self.profile.objects {
             let (first, last) = described.indices;
             let is_of_axis = AXIS.contains(&first) && AXIS.contains(&last);

@@ -253,7 +253,7 @@ impl Stored for Doubts {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::HashMap;
+    use crate::collections::HashMap;
     use std::path::Path;
 
     use super::super::apply::STORED;
@@ -298,7 +298,7 @@ mod tests {
 
     #[test]
     fn profiles_have_no_diagnostics() {
-        let mut names: HashMap<String, &str> = HashMap::new();
+        let mut names: HashMap<String, &str> = HashMap::default();
         for name in FILES {
             let text = table(name);
             let found = diagnostics(&text);

@@ -1,12 +1,11 @@
 //! The default process image. For each sync manager, the image contains the PDOs that are assigned by default, in the
 //! order of the assignment.
 
-use std::collections::HashSet;
-
 use super::Assigned;
 use crate::backend::rust::docs;
 use crate::backend::rust::method_names::{method_allow, unused_name};
 use crate::backend::rust::pdo::{PdoModel, PdoModels};
+use crate::collections::HashSet;
 use crate::ir::Direction;
 use crate::names::{self, Case, NameRequest};
 

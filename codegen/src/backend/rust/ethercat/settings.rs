@@ -1,13 +1,12 @@
 //! The EtherCAT settings of a device as statics and constants.
 
-use std::collections::HashMap;
-
 use super::super::code::{Data, Doc};
 use super::super::literal;
 use super::super::pdo::{PdoModel, PdoModels};
 use super::assigned::assigned_by_default;
 use super::ImageModel;
 use super::{descriptor, image, startup};
+use crate::collections::HashMap;
 use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId};
 
 /// The description of a device for an EtherCAT master, ready to be printed.

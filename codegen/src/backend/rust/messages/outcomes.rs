@@ -1,7 +1,5 @@
 //! Effects of messages in each state of the device: the rows of the manual's table of commands and states.
 
-use std::collections::HashMap;
-
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::doc_table;
@@ -9,6 +7,7 @@ use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
 use crate::backend::rust::machine::{self, Variants};
 use crate::backend::rust::named::Types;
+use crate::collections::HashMap;
 use crate::ir::{
     CommandOutcomes, Device, DeviceStateId, MessageId, Outcome, StateId, StateMachine, StateOutcome, StateRef,
 };
@@ -27,7 +26,7 @@ pub(in crate::backend::rust) struct OutcomesModel {
 /// Returns the effects of all messages, keyed by message.
 pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<MessageId, Vec<OutcomesModel>> {
     let machines = || device.machines.iter().enumerate().filter(|(_, machine)| !machine.outcomes.is_empty());
-    let mut all: HashMap<MessageId, Vec<OutcomesModel>> = HashMap::new();
+    let mut all: HashMap<MessageId, Vec<OutcomesModel>> = HashMap::default();
     for (position, machine) in machines() {
         let Some((ty, variants)) = states(context, machine, position, types) else { continue };
         let states = format!("super::types::{ty}");
@@ -71,7 +70,7 @@ fn states(context: &Context<'_>, machine: &StateMachine, position: usize, types:
 
 /// Returns the path of each state of each machine.
 pub(super) fn links(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<DeviceStateId, String> {
-    let mut links = HashMap::new();
+    let mut links = HashMap::default();
     for (position, machine) in device.machines.iter().enumerate() {
         let Some((ty, variants)) = states(context, machine, position, types) else { continue };
         links.extend(variants.into_iter().map(|(state, variant)| {

@@ -1,7 +1,5 @@
 //! Models of a message protocol and of its messages.
 
-use std::collections::{HashMap, HashSet};
-
 use super::super::code::{call, seq, Doc};
 use super::super::context::Context;
 use super::super::docs::{self, WORDS};
@@ -13,6 +11,7 @@ use super::outcomes::OutcomesModel;
 use super::rules::{RuleModel, Rules};
 use super::{completion, device, field, framing, outcomes, parameters, steps};
 use super::{CallModel, DefaultModel, Field, ParametersModel, Statements};
+use crate::collections::{HashMap, HashSet};
 use crate::ir::{Completion, DeviceStateId, DeviceStateRef, Message, MessageId};
 use crate::resolve::messages::{self, Shaped, Step};
 
@@ -333,7 +332,7 @@ fn completion(completion: &Completion) -> Doc {
 /// Returns the requests that can be distinguished by their bytes. If the bytes of several requests have the same form,
 /// only the first of these requests is returned.
 fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     let requests = messages.iter().filter_map(|message| message.request.as_ref());
     let first = requests.filter(|request| seen.insert(&request.code.read));
     first.map(|request| (request.name.clone(), request.borrows)).collect()

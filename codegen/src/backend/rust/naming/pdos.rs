@@ -1,11 +1,11 @@
 //! Names of PDOs and their fields.
 
 use std::borrow::Cow;
-use std::collections::{HashMap, HashSet};
 
 use super::handles::HandleNames;
 use crate::backend::rust::reachable::is_module;
 use crate::backend::rust::scope::{ObjectBus, Scope};
+use crate::collections::{HashMap, HashSet};
 use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind};
 use crate::names::{self, Case, NameRequest};
 
@@ -48,14 +48,14 @@ fn fields<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>, pdo: &'a Pdo) -> Vec
     let of_entry = |entry: &PdoEntry| entry.item.and_then(|id| handles.of_entry(id));
     let short: Vec<String> =
         entries.iter().map(|entry| of_entry(entry).map_or_else(|| whole(entry), str::to_owned)).collect();
-    let mut count: HashMap<&str, usize> = HashMap::new();
+    let mut count: HashMap<&str, usize> = HashMap::default();
     for name in &short {
         *count.entry(name).or_default() += 1;
     }
     let named = entries.iter().zip(&short);
     let plain: Vec<String> =
         named.map(|(entry, short)| if count[short.as_str()] > 1 { whole(entry) } else { short.clone() }).collect();
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     let suffix = |entry: &&PdoEntry| {
         let is_again = !seen.insert((entry.index, entry.sub_index));
         let position = if is_again { format!("_{}", entry.bit_offset) } else { String::new() };
@@ -102,7 +102,7 @@ fn struct_names(scope: &Scope<'_>) -> Vec<String> {
 /// Returns names such as `RxPdo1`. If several PDOs have the same number, the next names are `RxPdo1_2`, and so on. PDOs
 /// have the same number, for example, if a register table and the object dictionary describe the same PDO.
 fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
-    let mut seen: HashMap<String, usize> = HashMap::new();
+    let mut seen: HashMap<String, usize> = HashMap::default();
     let name = |pdo: &Pdo| {
         let name = format!("{}{}", prefix(pdo.direction), pdo.number);
         let count = seen.entry(name.clone()).or_default();
@@ -118,7 +118,7 @@ fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
 
 /// Returns names that are based on the PDO names in the description. None of the names is in `numbers`.
 fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: &[String]) -> Vec<String> {
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     let name_requests: Vec<NameRequest<'_>> = scope
         .pdos
         .iter()

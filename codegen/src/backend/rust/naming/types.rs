@@ -1,12 +1,11 @@
 //! Types of the description that have names in generated code: enumerations, bit fields and their views, states and
 //! commands.
 
-use std::collections::{HashMap, HashSet};
-
 use super::handles::HandleNames;
 use super::machines::{self, NamedMachine};
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::ValueType;
+use crate::collections::{HashMap, HashSet};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Message, Shape, StateMachine, Type, TypeDef, Value};
 use crate::names::{self, Case, NameRequest};
 
@@ -149,7 +148,7 @@ struct NameCounts<'a> {
 
 impl<'a> NameCounts<'a> {
     fn new(scope: &Scope<'_>, types: impl Iterator<Item = &'a TypeDef>) -> Self {
-        let mut counts = NameCounts { by_name: HashMap::new(), by_base: HashMap::new() };
+        let mut counts = NameCounts { by_name: HashMap::default(), by_base: HashMap::default() };
         for definition in types {
             *counts.by_name.entry(&definition.name).or_default() += 1;
             *counts.by_base.entry((&definition.name, base_type(scope, definition))).or_default() += 1;
@@ -182,8 +181,8 @@ fn used<'a>(scope: &Scope<'_>, handles: &HandleNames<'_>) -> TypeNames<'a> {
     let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
     let fields = scope.device.into_iter().flat_map(|device| device.messages.iter().flat_map(Message::values));
-    let mut seen = HashSet::new();
-    let (mut enumerations, mut bit_fields, mut in_fields) = (Vec::new(), Vec::new(), HashSet::new());
+    let mut seen = HashSet::default();
+    let (mut enumerations, mut bit_fields, mut in_fields) = (Vec::new(), Vec::new(), HashSet::default());
     for ty in items.chain(entries).chain(fields.map(|value| value.item.ty)) {
         let Some((position, definition)) = scope.resolve(ty).1.filter(|(position, _)| seen.insert(*position)) else {
             continue;

@@ -1,11 +1,10 @@
 //! Rust code that reads and writes the items of parameter records, for documentation.
 
-use std::collections::HashMap;
-
 use super::record::{self, RecordStruct};
 use super::scope::Scope;
 use super::RustOptions;
 use crate::backend::rust::calls::RecordUsage;
+use crate::collections::HashMap;
 use crate::ir::{Catalog, ItemId, SubmoduleId};
 
 /// Returns the usage of the records of each submodule for which code is generated.

@@ -1,13 +1,13 @@
 //! Enumerations, which contain the named values of fields (`ValueItem`).
 
 use std::collections::BTreeMap;
-use std::collections::HashSet;
 
 use super::docs;
 use super::types::resolve;
 use super::RustOptions;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::value_type::native;
+use crate::collections::HashSet;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
 use crate::names::{self, Case, NameRequest};
 
@@ -104,7 +104,7 @@ fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&
         other => other,
     };
     let (low, high) = base.integer_range()?;
-    let mut seen = HashSet::new();
+    let mut seen = HashSet::default();
     let fits =
         |value: &&EnumValue| value.last.is_none() && (low..=high).contains(&value.value) && seen.insert(value.value);
     let values: Vec<&EnumValue> = values.iter().filter(fits).collect();

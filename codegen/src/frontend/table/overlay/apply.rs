@@ -1,7 +1,5 @@
 //! Applies an overlay to the devices and modules that it selects.
 
-use std::collections::{HashMap, HashSet};
-
 use super::super::definitions::DefinitionKind;
 use super::super::file::resolve;
 use super::super::format::AppliesTable;
@@ -10,6 +8,7 @@ use super::super::tree::Reader;
 use super::super::{code_tables, device, machines};
 use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
+use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
@@ -47,7 +46,7 @@ impl<'o> Applied<'o> {
     fn new(overlay: &'o Overlay) -> Self {
         let effects = vec![RowEffect::NoMatch; overlay.patch.rows.len()];
         let patcher = RowPatcher { overlay, rows: overlay.patch.filler() };
-        Applied { patcher, effects, used: HashSet::new(), names: Vec::new() }
+        Applied { patcher, effects, used: HashSet::default(), names: Vec::new() }
     }
 
     fn run(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog) {
@@ -79,7 +78,7 @@ impl<'o> Applied<'o> {
         let Catalog { devices, submodules, types, .. } = catalog;
         let mut count = 0;
         // Several devices may share a submodule, which must be changed only once.
-        let mut done = HashSet::new();
+        let mut done = HashSet::default();
         for device in devices.iter_mut().filter(|device| is_for(device, applies)) {
             count += 1;
             self.device(reader, device);
@@ -382,7 +381,7 @@ struct OtherDevices {
 
 impl OtherDevices {
     fn new(catalog: &Catalog, applies: &AppliesTable) -> Self {
-        let mut others = OtherDevices { modules: HashMap::new(), submodules: HashMap::new() };
+        let mut others = OtherDevices { modules: HashMap::default(), submodules: HashMap::default() };
         for device in catalog.devices.iter().filter(|device| !is_for(device, applies)) {
             others.submodules(&device.submodules, device);
             for plugged in &device.modules {
@@ -419,7 +418,8 @@ fn merge(tables: &mut Vec<CodeTable>, change: &Change) {
         return;
     };
     let rows = table.rows.to_mut();
-    let mut known: HashMap<(i128, Option<i128>), usize> = HashMap::with_capacity(rows.len());
+    let mut known: HashMap<(i128, Option<i128>), usize> =
+        HashMap::with_capacity_and_hasher(rows.len(), Default::default());
     for (position, row) in rows.iter().enumerate() {
         known.entry((row.code, row.last)).or_insert(position);
     }
