@@ -28,13 +28,14 @@ impl Network {
 pub enum Address {
     /// Index and sub-index in the object dictionary.
     Object(Object),
-    /// Modbus register.
+    /// Modbus registers, coils or discrete inputs.
     Register(Register),
 }
 
 impl Address {
-    /// Returns the address of an item on a network, with the binding that contains it. `ty` is the basic type of the
-    /// item. Returns `None` if the item doesn't exist on the network, or only behind a window.
+    /// Returns the first address of an item on a network, and the binding of this address. `ty` is the basic type of the
+    /// item. Returns `None` if the item has no address on the network, for example because it is only accessible through a
+    /// window.
     pub(crate) fn of(item: &Item, ty: Type, network: Network) -> Option<(Self, &Binding)> {
         item.bindings.iter().find_map(|binding| match (binding, network) {
             (Binding::Object { buses, index, sub_index }, Network::CanOpen) if buses.canopen => {
@@ -45,7 +46,7 @@ impl Address {
         })
     }
 
-    /// Returns the object, if the address is in an object dictionary.
+    /// Returns the object, or `None` for a Modbus address.
     #[must_use]
     pub fn object(self) -> Option<Object> {
         match self {
@@ -71,7 +72,7 @@ fn register(binding: &RegisterBinding, ty: Type) -> Register {
     } else if binding.low_word_first && binding.count > 1 {
         register = register.ordered(WordOrder::LowFirst);
     }
-    // Each register of a Unicode text contains the code of one character, whose low byte comes first in the value.
+    // Each register of a Unicode text contains one UTF-16 code unit. In the value, the low byte of a code unit comes first.
     if binding.bytes_swapped != matches!(ty, Type::UnicodeString(_)) {
         register = register.swapped();
     }

@@ -35,7 +35,7 @@ pub enum BusAddress {
     /// `tcp:HOST` or `tcp:HOST:PORT`: Modbus TCP. The default port is 502.
     Tcp(String),
     /// `rtu:PATH` or `rtu:PATH@19200-8E1`: Modbus RTU. The default is 19,200 bit/s with 8 data bits, even parity and one
-    /// stop bit (MODBUS over Serial Line V1.02, 2.5.1).
+    /// stop bit (MODBUS over Serial Line V1.02, 2.5.1 and 3.2).
     Rtu {
         /// Path of the serial line.
         path: String,
@@ -84,7 +84,8 @@ impl FromStr for BusAddress {
     }
 }
 
-/// Parses a bit rate: `500`, `500k`, `1M`. Returns the bit rate in kbit/s, or `None` if slcan has no command for it.
+/// Parses a bit rate: `500`, `500k`, `1M`. Returns the bit rate in kbit/s, or `None` if the text isn't a bit rate for which
+/// slcan has a command.
 fn kilobits(text: &str) -> Option<u16> {
     let number = match text.strip_suffix('M') {
         Some(number) => number.parse::<u16>().ok()?.checked_mul(1000)?,
@@ -130,15 +131,15 @@ impl BusAddress {
     }
 
     /// Connects to a device. `address` is the node-ID on CANopen, or the server address on Modbus. `timeout` is the
-    /// maximum time for a reply. No message is sent to the device.
+    /// maximum time for a reply. No request is sent to the device.
     ///
-    /// On Modbus, the connection uses only the functions and request lengths that `description` states, or those of the
-    /// Modbus specification if it states none. The memory for the lists of functions is never freed.
+    /// On Modbus, reads and writes use only the functions and request lengths that `description` states. For a table without
+    /// such a statement, they use those of the Modbus specification. The memory for the lists of functions is never freed.
     ///
     /// # Errors
     ///
-    /// Fails if the bus cannot be opened, if this build doesn't support it, or if `address` isn't a node-ID from 1 to
-    /// 127 or is 0 on Modbus RTU.
+    /// Fails if the bus cannot be opened, or if this build doesn't support it. Also fails if `address` isn't in the range 1
+    /// to 127 on CANopen, or is 0 on Modbus RTU.
     pub fn connect(
         &self,
         description: &Description,

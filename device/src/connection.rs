@@ -23,15 +23,15 @@ pub trait Connection {
     ///
     /// # Errors
     ///
-    /// Returns the reason why the device or the bus didn't transfer the value.
+    /// Returns the reason why the value was not transferred.
     fn read(&mut self, address: Address, length: usize) -> Result<Vec<u8>, Failure>;
 
     /// Writes the value at `address`.
     ///
     /// # Errors
     ///
-    /// Returns the reason why the device or the bus didn't transfer the value. After a timeout or a bus failure, the
-    /// device may have accepted the value.
+    /// Returns the reason why the value was not transferred. After a timeout or a bus failure, the device may have accepted
+    /// the value.
     fn write(&mut self, address: Address, data: &[u8]) -> Result<(), Failure>;
 
     /// Reads the basic device identification of a Modbus device (function 43): the IDs of the objects, with their
@@ -39,8 +39,8 @@ pub trait Connection {
     ///
     /// # Errors
     ///
-    /// Fails if the device or the connection doesn't support the function, if the bus fails, or if the device doesn't
-    /// reply. The default implementation always fails.
+    /// Fails if the connection doesn't support the function, if the bus fails, or if the device refuses the request or sends
+    /// no valid reply. The default implementation always fails.
     fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
         Err(Failure::Unsupported("the connection cannot read the device identification".to_owned()))
     }
@@ -82,7 +82,7 @@ impl<C: Connection + ?Sized> Connection for Box<C> {
     }
 }
 
-/// Connection to a CANopen device over any client of the runtime, such as [`Node`](lexibus::clients::canopen::Node).
+/// Connection to a CANopen device over a client of the runtime, such as [`Node`](lexibus::clients::canopen::Node).
 #[derive(Clone, Debug)]
 pub struct CanOpenConnection<C> {
     client: C,
@@ -108,7 +108,7 @@ impl<C> CanOpenConnection<C> {
 /// Length of the buffer for the first attempt to read a value. By default, [`Node`](lexibus::clients::canopen::Node)
 /// reads values up to this length without a block transfer, which some devices don't support.
 const SHORT: usize = 900;
-/// Maximum length of a value.
+/// Maximum length of a value that can be read.
 const LONG: usize = 1 << 20;
 
 impl<C> Connection for CanOpenConnection<C>

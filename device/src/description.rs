@@ -27,11 +27,11 @@ pub struct Description {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DescriptionError {
-    /// The file has errors. The text contains the first error.
+    /// The file has errors or isn't a device description. The text contains the reason.
     Invalid(String),
-    /// The file describes no device.
+    /// The catalog contains no device.
     NoDevice,
-    /// The file describes several devices. The list contains their names.
+    /// The catalog contains several devices. The list contains their names.
     SeveralDevices(Vec<String>),
     /// The device has no parameter on this network.
     NotOnNetwork(Network),
@@ -57,10 +57,10 @@ impl Error for DescriptionError {}
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FindError {
-    /// No parameter has this name or address. The second field is a similar name or path, if there is one.
+    /// No parameter has this name, path or address. The second field is a similar name or path, if there is one.
     Unknown(String, Option<String>),
     /// The address belongs to an object of an axis after the first one. The fields are the address, the number of this
-    /// axis, and the corresponding object of the first axis.
+    /// axis, and the corresponding parameter of the first axis.
     OtherAxis(String, u8, String),
     /// Several parameters have this name or path. The list contains the addresses and paths of at most eight of them.
     Ambiguous(String, Vec<String>),
@@ -155,20 +155,20 @@ impl Description {
         self.network
     }
 
-    /// Returns the name of the description file.
+    /// Returns the name of the description file; empty if the catalog names no file.
     #[must_use]
     pub fn file_name(&self) -> &str {
         self.catalog.files.first().map_or("", |file| &file.name)
     }
 
-    /// Returns the format of the description file.
+    /// Returns the format of the description file, or `None` if the catalog names no file.
     #[must_use]
     pub fn format(&self) -> Option<Format> {
         self.catalog.files.first().map(|file| file.format)
     }
 
-    /// Returns the parameters that the device has on the network, in the order of the description. Definitions of data
-    /// types, NULL objects and reserved entries are not parameters.
+    /// Returns the parameters that the device has on the network, in the order of the [groups](Device::groups). Definitions
+    /// of data types, NULL objects and reserved entries are left out.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter<'_>> {
         let groups = self.device().groups.iter().filter(|group| is_data(group));
         groups.flat_map(|group| {
@@ -177,7 +177,7 @@ impl Description {
         })
     }
 
-    /// Returns the parameter at an address.
+    /// Returns the parameter at an address. A reserved entry of an object is returned too.
     #[must_use]
     pub fn at(&self, address: Address) -> Option<Parameter<'_>> {
         match address {
@@ -190,7 +190,7 @@ impl Description {
         self.parameters().find(|parameter| parameter.address() == address)
     }
 
-    /// Returns the parameter at an index and sub-index.
+    /// Returns the parameter at an index and sub-index. A reserved entry is returned too.
     pub(crate) fn object(&self, index: u16, sub_index: u8) -> Option<Parameter<'_>> {
         let group = self.device().object(index).filter(|group| is_data(group));
         match group {
@@ -203,12 +203,13 @@ impl Description {
     ///
     /// - the name of the parameter, in any case: `Profile velocity`;
     /// - the name of the object or chapter, a slash and the name of the parameter: `Identity object/Vendor-ID`;
-    /// - index and sub-index: `0x6081`, `0x1018:1`;
-    /// - the wire address of a register: `101`, or with its table `input register 101`, `coil 3`.
+    /// - index and sub-index in hexadecimal: `0x6081`, `0x1018:1`;
+    /// - the address that [`Parameter::address_text`] returns: `input register 101`, `coil 3`, or, for a holding register,
+    ///   `register 101` or `101`.
     ///
     /// # Errors
     ///
-    /// Fails if no parameter or several parameters match.
+    /// Fails if no parameter matches, or if several parameters have this name or path.
     pub fn find(&self, text: &str) -> Result<Parameter<'_>, FindError> {
         let text = text.trim();
         if let Some(parameter) = self.by_address(text) {
@@ -239,7 +240,7 @@ impl Description {
     }
 
     /// If the object belongs to an axis after the first one, returns the number of this axis and the corresponding
-    /// object of the first axis.
+    /// parameter of the first axis. Otherwise, returns `None`.
     fn of_other_axis(&self, (index, sub_index): (u16, u8)) -> Option<(u8, Parameter<'_>)> {
         let axes = self.device().axes.as_ref().filter(|_| self.network == Network::CanOpen)?;
         let first = |step: u16, axis: u8| index.checked_sub(step.checked_mul(axis.into())?);

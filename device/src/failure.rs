@@ -12,11 +12,11 @@ pub enum Failure {
     Abort(AbortCode),
     /// The device refused the Modbus request with this exception code.
     Exception(u8),
-    /// The device didn't reply in time, or replied with Modbus exception 5 or 11. It may have executed the request.
+    /// The device didn't reply in time, or the reply was Modbus exception 5 or 11. The device may have executed the request.
     Timeout,
     /// The client or the device doesn't support this access. For example, the value is too long for a Modbus request.
     Unsupported(String),
-    /// The bus or the client failed.
+    /// The bus cannot be used, or the bus or the client failed.
     Bus(String),
 }
 

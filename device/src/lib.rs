@@ -1,7 +1,8 @@
 //! Compares a device on a bus with its description, and reads, writes, saves and restores its values by name.
 //!
-//! The description can have any format that Lexibus reads. No Rust code is generated for it: a [`Description`] lists
-//! the [`Parameter`]s that the device has on a bus, and a [`Connection`] transfers their bytes.
+//! The description is an EDS, DCF, XDD or XDC file, or a register table. No Rust code is generated for it: a
+//! [`Description`] lists the [`Parameter`]s that the device has on a bus, and a [`Connection`] transfers the bytes of their
+//! values.
 //!
 //! ```
 //! use lexibus::sim::Device;
@@ -30,22 +31,22 @@
 //!
 //! | subject | items |
 //! |---|---|
-//! | a description on a bus | [`Description`], [`Parameter`], [`Address`] |
+//! | the description of a device on a bus | [`Description`], [`Parameter`], [`Address`] |
 //! | buses | [`Connection`], [`CanOpenConnection`], [`ModbusConnection`], [`BusAddress`] |
 //! | read and write by name | [`Parameter::read`], [`Write`] |
 //! | comparison with the description | [`verify`] |
 //! | save and restore | [`backup`], [`restore`] |
 //! | nodes of a bus | [`scan`] |
-//! | traffic by name | [`monitor`], [`trace`] |
+//! | traffic by name, recorded traces | [`monitor`], [`trace`] |
 //!
 //! # Safety of the machine
 //!
-//! - Only [`Write::execute`], [`restore::Plan::execute`] and [`Connection::write`] write values to a device.
-//! - No function sends NMT commands. No function stores parameters (0x1010) or restores default parameters (0x1011)
-//!   unless the caller names this parameter.
-//! - A restore writes a value that commands a motion or starts an action only if the caller names its parameter
-//!   ([`Protection`]).
-//! - A restore reports which values were written, even after an error.
+//! - Only [`Write::execute`], [`restore::Plan::execute`] and [`Connection::write`] write values to a device. The caller can
+//!   also write with the client of a connection, or send any frame over an [`AnyPort`].
+//! - No function sends an NMT command of its own accord. No function writes object 0x1010 (store parameters) or 0x1011
+//!   (restore default parameters) unless the caller names it.
+//! - A restore writes a [protected](Protection) parameter, such as a controlword, only if the caller names it.
+//! - The [outcome](restore::Outcome) of a restore lists the state of every write, even after an error.
 //!
 //! # Features
 //!

@@ -78,8 +78,8 @@ impl<'d> Parameter<'d> {
         facts::entry_name(self.item, self.group)
     }
 
-    /// Returns the name of the object or chapter, a slash and the name. For an object without sub-indices, returns the
-    /// name.
+    /// Returns the name of the object or chapter, a slash and the name of the parameter. If the object or chapter has no
+    /// name or the same name, returns only the name of the parameter.
     #[must_use]
     pub fn path(&self) -> String {
         let name = self.name();
@@ -168,7 +168,7 @@ impl<'d> Parameter<'d> {
     #[must_use]
     pub fn text(&self, value: &Value) -> String {
         let text = facts::value(self.item, value, self.types());
-        // The text of a COB-ID or of a mapped object already explains its bits.
+        // The text of a COB-ID, of a value with a special meaning or of a mapping needs no names of bits.
         let is_explained =
             PLAIN.is_named(self.item, value) || self.address.object().is_some_and(|object| is_mapping(object.index));
         if let Some(meaning) = facts::meaning(self.ty(), value, self.types()).filter(|_| !is_explained) {
@@ -200,7 +200,7 @@ impl<'d> Parameter<'d> {
     }
 
     /// Returns the reason why a value is outside the limits, or `None` if it is within the limits. Limits whose minimum
-    /// is above the maximum are ignored. `node_id` replaces `$NODEID` in a limit.
+    /// is above the maximum are ignored. `node_id` replaces `$NODEID` in a minimum or maximum.
     #[must_use]
     pub fn excluded(&self, value: &Value, node_id: Option<u8>) -> Option<String> {
         let resolve = |limit: &Option<Value>| match (limit, node_id) {
@@ -209,7 +209,7 @@ impl<'d> Parameter<'d> {
         };
         let limits = self.limits();
         let limits = Limits { low: resolve(&limits.low), high: resolve(&limits.high), allowed: limits.allowed.clone() };
-        // A minimum above the maximum is a mistake of the description.
+        // A minimum above the maximum is a mistake in the description.
         if limits.are_swapped(self.basic()) {
             return None;
         }
@@ -220,7 +220,7 @@ impl<'d> Parameter<'d> {
     ///
     /// # Errors
     ///
-    /// Returns the reason why the device or the bus didn't transfer the value.
+    /// Returns the reason why the value was not transferred.
     pub fn read(&self, connection: &mut impl Connection) -> Result<Reading<'d>, Failure> {
         let bytes = connection.read(self.address, self.read_length())?;
         Ok(Reading { parameter: *self, value: self.decode(&bytes), bytes })
@@ -246,7 +246,8 @@ pub struct Reading<'d> {
 }
 
 impl fmt::Display for Reading<'_> {
-    /// Writes the value as [`Parameter::text`] does, or the bytes if they are not a value of the type.
+    /// Writes the value as [`Parameter::text`] does. Writes the bytes in hexadecimal if the value consists of bytes, or if
+    /// they are not a value of the type.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.value {
             Some(Value::Bytes(bytes)) => f.write_str(&lexibus_codegen::facts::number::bytes(bytes)),

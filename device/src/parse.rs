@@ -16,10 +16,10 @@ const RAW: &str = "raw";
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ParseError {
-    /// The text isn't a value of the type. The fields are the text and the type.
+    /// The text isn't a value of the type. The fields are the text, with or without its unit, and the type.
     NoValue(String, String),
-    /// The parameter has a scale factor, so a number needs the unit or `raw`. The field is the unit of the parameter,
-    /// which may be empty.
+    /// The value is scaled, so a number needs the unit or `raw`. The field is the unit of the parameter, which may be
+    /// empty.
     UnitNeeded(String),
     /// The unit isn't that of the parameter. The fields are the unit of the parameter, which may be empty, and the
     /// given unit.
@@ -60,8 +60,8 @@ impl Parameter<'_> {
     ///
     /// # Errors
     ///
-    /// Fails if the text isn't a value of the parameter's type, if the unit is missing or wrong, or if a physical value
-    /// cannot be converted to a raw value.
+    /// Fails if the text doesn't have the form of a value of the parameter's type, if the unit is missing or wrong, or if a
+    /// physical value cannot be converted to a raw value. [`Write::new`](crate::Write::new) checks the range of the value.
     pub fn parse(&self, text: &str) -> Result<Value, ParseError> {
         let basic = self.basic();
         match basic {

@@ -18,7 +18,7 @@ pub struct AnyPort(Box<dyn CanPort<Error = Failure>>);
 pub type NodeConnection = CanOpenConnection<Node<Buffered<AnyPort, KEPT>>>;
 
 impl AnyPort {
-    /// Wraps a CAN interface of the runtime.
+    /// Wraps a CAN interface.
     pub fn new(port: impl CanPort<Error: std::fmt::Display> + 'static) -> Self {
         Self(Box::new(Converted(port)))
     }

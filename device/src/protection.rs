@@ -1,4 +1,4 @@
-//! Parameters that are not read, or not restored, unless the caller names them.
+//! Reasons why parameters are not read or not restored by default.
 
 use std::fmt;
 
@@ -21,11 +21,13 @@ const REFUSES_READ: u32 = 2;
 pub enum Protection {
     /// The parameter refuses writes during a download (bit 0 of ObjFlags, CiA 306).
     RefusesDownload,
-    /// A write starts an action. For example, the device stores parameters or starts a program download.
+    /// A write can start an action. For example, the device stores parameters or starts a program download.
     Command,
-    /// The parameter commands the state, the mode or a motion of the device.
+    /// The parameter commands the state, the mode or a motion of the device, or the touch probe or an output of a CiA 402
+    /// drive.
     Control,
-    /// The parameter is an output: a coil, a value that RPDOs transfer, or an output of a CiA 401 device.
+    /// The parameter is an output: a coil, a process output, a value that is mapped into an RPDO by default, or an output of
+    /// a CiA 401 device.
     Output,
     /// The parameter sets the node-ID or the address of the device.
     NodeId,
@@ -60,7 +62,7 @@ impl fmt::Display for Protection {
     }
 }
 
-/// The reason why a parameter isn't read unless the caller names it.
+/// The reason not to read a parameter by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum ReadRefusal {
@@ -96,7 +98,8 @@ impl Parameter<'_> {
         self.group().flags | self.item().flags
     }
 
-    /// Returns the reason why functions that read many parameters don't read this one, or `None` if they read it.
+    /// Returns the reason not to read the parameter by default, or `None` if there is none. On CANopen, a
+    /// [comparison](crate::verify) reads write-only parameters nevertheless, to check their access rights.
     #[must_use]
     pub fn read_refusal(&self) -> Option<ReadRefusal> {
         match () {
@@ -155,8 +158,9 @@ impl Parameter<'_> {
         device.machines.iter().any(is_controlled) || is_of_drive()
     }
 
-    /// Returns whether the parameter is a coil or a process output, or RPDOs transfer its value by default. An item of
-    /// a Modbus device can also be an object on another bus, so its object is checked too.
+    /// Returns whether the parameter is a coil. For an item with an object, also returns true if the object is a process
+    /// output, is mapped into an RPDO by default, or is an output of a CiA 401 device. An item of a Modbus device can have
+    /// an object too, on another bus.
     fn is_output(&self, device: &Device) -> bool {
         let is_coil = matches!(self.address(), Address::Register(register) if register.table == RegisterTable::Coil);
         let Some(object) = self.item().object() else { return is_coil };
@@ -191,7 +195,8 @@ impl Parameter<'_> {
         NAMES.iter().any(|known| name.contains(known))
     }
 
-    /// Returns the name of a value, if the type names it.
+    /// Returns the name of an enumeration value, or the active flags and the fields of a bit field. Returns `None` if there
+    /// are none.
     #[must_use]
     pub fn meaning(&self, value: &lexibus_codegen::ir::Value) -> Option<String> {
         meaning(self.ty(), value, &self.description().device().types)
@@ -209,15 +214,15 @@ fn stores_others(device: &Device, item: &Item) -> bool {
     })
 }
 
-/// Returns whether an object of the communication profile is a command: the error history (0x1003), store and restore
-/// parameters (0x1010, 0x1011), the stored EDS, operating system commands and the debugger (0x1021 to 0x1026), and the
-/// objects of the program download and of the NMT master that start an action (CiA 301 7.5.2, CiA 302).
+/// Returns whether an object of the communication profile counts as a command: the error history (0x1003), store and restore
+/// parameters (0x1010, 0x1011), the stored EDS, operating system commands and the debugger (0x1021 to 0x1026), and objects
+/// of the configuration manager, of the program download and of the NMT master (CiA 301 7.5.2, CiA 302).
 fn is_command_object(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1010 | 0x1011 | 0x1021..=0x1026 | 0x1F25 | 0x1F50..=0x1F57 | 0x1F82 | 0x1F8A..=0x1F91)
 }
 
-/// Returns whether an object of a CiA 402 drive commands the state, the mode, a motion or an output. The indices of
-/// each further axis are 0x800 higher (CiA 402-2).
+/// Returns whether an object of a CiA 402 drive commands the state, the mode, a motion, the touch probe or an output. The
+/// indices of each further axis are 0x800 higher (CiA 402-2).
 fn is_drive_command(index: u16) -> bool {
     /// Mode of operation, offsets of position, velocity and torque, interpolation data, touch probe function, digital
     /// outputs.

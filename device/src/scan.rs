@@ -16,7 +16,7 @@ use crate::monitor::state_name;
 pub struct FoundNode {
     /// Node-ID.
     pub node_id: u8,
-    /// NMT state, if a heartbeat arrived during the search.
+    /// NMT state in the last heartbeat or boot-up message that arrived before the identities were read, if there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
     /// Device type (object 0x1000).
@@ -66,7 +66,8 @@ impl FoundNode {
 ///
 /// # Errors
 ///
-/// Fails if the bus fails, or if a request cannot be sent within `timeout`.
+/// Fails if the bus fails during these requests, or if one of them cannot be sent within `timeout`. A failure while an
+/// identity is read doesn't end the search.
 pub fn scan<P>(port: &mut P, timeout: Duration) -> Result<Vec<FoundNode>, Failure>
 where
     P: CanPort,
@@ -124,7 +125,8 @@ fn bus(error: impl std::fmt::Display) -> Failure {
     Failure::Bus(error.to_string())
 }
 
-/// Reads the identity of a node. Values that cannot be read are `None`.
+/// Reads the identity of a node. A value is `None` if it cannot be read, if a number doesn't have 4 bytes, or if the name is
+/// empty.
 fn identity<P>(node: &mut Node<P>) -> FoundNode
 where
     P: CanPort,

@@ -51,7 +51,7 @@ pub struct Decoder {
 }
 
 impl Decoder {
-    /// Adds received bytes. Lines that are not frames, such as replies to commands and damaged lines, are skipped.
+    /// Adds received bytes. Lines that are not valid frames, such as replies to commands, are skipped.
     pub fn push(&mut self, bytes: &[u8]) {
         const BELL: u8 = 7;
         for &byte in bytes {
@@ -157,8 +157,8 @@ mod tests {
     fn other_lines_are_skipped() {
         let mut decoder = Decoder::default();
         decoder.push(b"\x07\rz\rZ\rV1013\rt12\rtXYZ0\rt1239\rt12320A\rt8000\r");
-        // These lines are not frames: they have wrong length codes, signs, additional digits, wrong time stamps or
-        // other bytes.
+        // The next lines are not frames: they have wrong CAN-IDs, wrong length codes, signs, additional digits, wrong time
+        // stamps or other bytes, or end with a bell.
         decoder.push(
             b"t12390102030405060708\xff\rt1239010203040506070809\rr1239\rr123F\rt+120\rt1231+1\rt12310\rt1231012\r",
         );
@@ -204,7 +204,8 @@ mod tests {
             prop_assert_eq!(decoded(lower.as_bytes()), [frame]);
         }
 
-        /// If a line is changed, the decoder rejects it or decodes it as another frame, possibly with a time stamp.
+        /// If a line is changed, the decoder rejects it or decodes exactly the frame that the changed line contains, possibly
+        /// with a time stamp.
         #[test]
         fn a_changed_line_is_rejected_or_another_frame(
             frame in frames(),

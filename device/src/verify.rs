@@ -1,7 +1,7 @@
 //! Comparison of a device with its description.
 //!
 //! [`verify`] only reads. It reports parameters that the device lacks, objects that the description doesn't declare,
-//! differences, and parameters that cannot be read. Facts that only a write would show are listed as unverifiable.
+//! differences, parameters that cannot be read, and facts that cannot be verified. Write access isn't verified.
 //!
 //! ```
 //! use lexibus::sim::Device;

@@ -19,7 +19,7 @@ pub struct Write<'d> {
     bytes: Vec<u8>,
 }
 
-/// The reason why a value isn't written.
+/// The reason why a write failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -35,7 +35,7 @@ pub enum WriteError {
     /// The description allows writing only while a condition holds, and the condition doesn't hold or cannot be
     /// checked.
     Condition(String),
-    /// The device or the bus didn't transfer the value.
+    /// The write failed, or a value that a condition needs could not be read.
     Failed(Failure),
 }
 
@@ -77,11 +77,12 @@ impl<'d> Write<'d> {
         Self::new(parameter, parameter.parse(text)?, node_id)
     }
 
-    /// Checks the access rights, the type and the limits of a value. Nothing is sent.
+    /// Checks a value against the access rights, the type, the limits and the writable values of the parameter. Nothing is
+    /// sent.
     ///
     /// # Errors
     ///
-    /// Fails if the description doesn't allow this value.
+    /// Fails if the description doesn't allow this value, or if the value depends on the node-ID and `node_id` is `None`.
     pub fn new(parameter: Parameter<'d>, value: Value, node_id: Option<u8>) -> Result<Self, WriteError> {
         if !parameter.access().writable() {
             return Err(WriteError::ReadOnly);
@@ -128,7 +129,7 @@ impl<'d> Write<'d> {
     ///
     /// # Errors
     ///
-    /// Fails if a condition doesn't hold, or if an item of a condition cannot be read.
+    /// Fails if a condition doesn't hold or cannot be checked.
     pub fn check_conditions(&self, connection: &mut impl Connection) -> Result<(), WriteError> {
         let conditions = self.parameter.behavior().map_or(&[][..], |behavior| &behavior.write_when);
         conditions.iter().try_for_each(|condition| self.check_condition(condition, connection))
@@ -157,8 +158,7 @@ impl<'d> Write<'d> {
     ///
     /// # Errors
     ///
-    /// Returns the errors of [`check_conditions`](Self::check_conditions), or the reason why the device or the bus didn't
-    /// transfer the value.
+    /// Returns the errors of [`check_conditions`](Self::check_conditions), or the reason why the value was not transferred.
     pub fn execute(&self, connection: &mut impl Connection) -> Result<(), WriteError> {
         self.check_conditions(connection)?;
         Ok(connection.write(self.parameter.address(), &self.bytes)?)

@@ -30,7 +30,7 @@ impl<L: sync::Client> Connection for LineConnection<L> {
     fn identification(&mut self) -> Result<Vec<(u8, String)>, Failure> {
         let unsupported = |reason: &str| Failure::Unsupported(reason.to_owned());
         let (mut objects, mut first) = (Vec::new(), 0);
-        // Each reply contains at least one object, so three requests are enough.
+        // Each valid reply contains at least one object, so three requests are enough.
         for _ in 0..BASIC {
             // Function 43, read device identification, basic (MODBUS Application Protocol V1.1b3, 6.21).
             let request = Request::try_from(Bytes::copy_from_slice(&[0x2B, 0x0E, 0x01, first]));

@@ -8,7 +8,7 @@ use crate::address::{Address, Network};
 use crate::failure::Failure;
 use crate::Connection;
 
-/// Connection to a Modbus device over any client of the runtime.
+/// Connection to a Modbus device over a client of the runtime.
 #[derive(Clone, Debug)]
 pub struct ModbusConnection<C> {
     client: C,

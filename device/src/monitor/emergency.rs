@@ -1,4 +1,4 @@
-//! Names of emergency messages.
+//! Events of emergency messages.
 
 use lexibus::Emergency;
 use lexibus_codegen::facts::number::{bytes, hex16, hex8};
@@ -7,7 +7,7 @@ use lexibus_codegen::ir::CodeRow;
 use super::event::{Event, EventKind};
 use crate::description::Description;
 
-/// Returns the event of an emergency message. The text contains the name of the error code if the description has one.
+/// Returns the event of an emergency message. The text contains the name of an error code other than 0 if the description has one.
 pub(super) fn event(node: u8, message: &Emergency, description: Option<&Description>) -> Event {
     let name = description.and_then(|description| name(message.code, description));
     let name = name.map(|name| format!(" ({name})")).unwrap_or_default();

@@ -20,8 +20,8 @@ pub struct Interpreter<'d> {
 }
 
 impl<'d> Interpreter<'d> {
-    /// Creates an interpreter for nodes with these node-IDs and descriptions. PDOs of other nodes are not interpreted,
-    /// and their other messages are shown without names.
+    /// Creates an interpreter for nodes with these node-IDs and descriptions. PDOs of other nodes are not interpreted.
+    /// Events of their other messages contain no names of parameters and error codes.
     pub fn new(nodes: impl IntoIterator<Item = (u8, &'d Description)>) -> Self {
         let nodes: Vec<_> = nodes.into_iter().collect();
         let pdos = Pdos::new(&nodes);

@@ -11,7 +11,7 @@ use crate::parameter::Parameter;
 /// Bits of a COB-ID that are not part of the identifier: bit 31 (disabled) and bit 30 (no RTR).
 const FLAGS: u32 = 0xC000_0000;
 
-/// The PDOs of all nodes that have a description.
+/// The PDOs of all nodes that have a description, except PDOs without a valid COB-ID.
 #[derive(Debug)]
 pub(super) struct Pdos<'d> {
     /// COB-ID, node-ID, name and fields of each PDO.
@@ -55,7 +55,7 @@ impl<'d> Pdos<'d> {
 
 impl<'d> Known<'d> {
     /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if
-    /// the PDO has no valid COB-ID, or the COB-ID 0.
+    /// the PDO has no valid COB-ID, or if the identifier in the COB-ID is 0.
     fn new(node: u8, description: &'d Description, pdo: &Pdo) -> Option<Self> {
         let communication = pdo.communication.as_ref()?;
         let item = description.object(communication.index, 1).map(|parameter| parameter.item());

@@ -1,4 +1,4 @@
-//! Names of SDO messages on the default channels (CiA 301 7.2.4.3).
+//! Events of SDO messages on the default channels (CiA 301 7.2.4.3).
 
 use lexibus::clients::canopen::CanFrame;
 use lexibus::{AbortCode, Object};

@@ -106,7 +106,7 @@ impl<L: SerialLine> Adapter<L> {
         }
     }
 
-    /// Reads received bytes. Waits for the first one until `patience` has passed. Returns the number of bytes, or 0 if none arrived.
+    /// Reads received bytes. Waits about `patience` at most for the first one. Returns the number of bytes, or 0 if none was read.
     fn read(&mut self, patience: Duration) -> io::Result<usize> {
         let mut buffer = [0; 1024];
         self.line.limit(patience)?;

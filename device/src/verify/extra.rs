@@ -86,7 +86,7 @@ fn check_entries<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
 }
 
 /// Searches for entries above the highest declared sub-index. If there are none, compares the number of entries with the
-/// description, unless it is writable.
+/// description, unless this number is writable.
 fn check_count<C: Connection>(run: &mut Run<'_, C>, group: &Group, index: u16) -> Result<(), Failure> {
     /// Sub-index of the structure of an object (CiA 301 7.4.5). It isn't an entry.
     const STRUCTURE: u8 = 0xFF;

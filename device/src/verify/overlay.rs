@@ -7,8 +7,8 @@ use super::report::Report;
 use crate::quote::quoted;
 
 impl Report {
-    /// Returns an overlay with the deviations of objects that an overlay can express, or `None` if there are none. An overlay cannot
-    /// name registers.
+    /// Returns an overlay with the deviations of objects that an overlay can express, or `None` if there are none. Deviations of
+    /// registers are left out.
     ///
     /// A comment before each row contains the finding. The length of a value determines its type: an unsigned integer for 1 to
     /// 8 bytes, and `bytes` for more. The type of an undeclared object that cannot be read, or whose value is empty, is `?`.
@@ -33,8 +33,8 @@ impl Report {
     }
 }
 
-/// Returns the address of an object as a key: `0x2000` for sub-index 0, `"0x1018:1"` for others. Returns `None` for a register, which
-/// an overlay of objects cannot name.
+/// Returns the address of an object as a key: `0x2000` for sub-index 0, `"0x1018:1"` for others. Returns `None` for a register or for
+/// the identity of a Modbus device.
 fn key(address: &str) -> Option<String> {
     let (index, sub_index) = address.split_once(':')?;
     match u8::from_str_radix(sub_index, 16).ok()? {
