@@ -5,7 +5,7 @@ use std::fmt;
 
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::facts::address;
-use lexibus_codegen::ir::{AxisStep, Catalog, Device, Format, Group, ObjectCode};
+use lexibus_codegen::ir::{AxisStep, Binding, Catalog, Device, Format, Group, ObjectCode};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::text::similar;
 
@@ -204,8 +204,8 @@ impl Description {
     /// - the name of the parameter, in any case: `Profile velocity`;
     /// - the name of the object or chapter, a slash and the name of the parameter: `Identity object/Vendor-ID`;
     /// - index and sub-index in hexadecimal: `0x6081`, `0x1018:1`;
-    /// - the address that [`Parameter::address_text`] returns: `input register 101`, `coil 3`, or, for a holding register,
-    ///   `register 101` or `101`.
+    /// - table and wire address, in decimal or hexadecimal: `input register 101`, `coil 3`, `register 0x2710`, or, for a holding
+    ///   register, only `101`. The first bit of a part follows a point: `register 101.3`.
     ///
     /// # Errors
     ///
@@ -261,11 +261,14 @@ impl Description {
                 self.object(index, sub_index)
             }
             Network::Modbus => {
-                let is_at = |parameter: &Parameter<'_>| {
-                    let full = address::number(parameter.binding());
-                    full.eq_ignore_ascii_case(text) || full.strip_prefix("register ") == Some(text)
-                };
-                self.parameters().find(is_at)
+                let (table, register, bit) = register_address(text)?;
+                self.parameters().find(|parameter| match parameter.binding() {
+                    Binding::Register(binding) => {
+                        (binding.address, binding.bit_offset) == (register, bit)
+                            && address::table(binding.space).eq_ignore_ascii_case(table)
+                    }
+                    _ => false,
+                })
             }
         }
     }
@@ -279,6 +282,17 @@ fn object_address(text: &str) -> Option<(u16, u8)> {
     Some((index, u8::from_str_radix(sub_index, 16).ok()?))
 }
 
+/// Parses the table, the wire address and the first bit of a Modbus address: `input register 101`, `0x2710`, `register 7.3`.
+fn register_address(text: &str) -> Option<(&str, u16, Option<u8>)> {
+    let (table, number) = text.rsplit_once(' ').unwrap_or(("register", text));
+    let (number, bit) = number.split_once('.').map_or((number, None), |(number, bit)| (number, Some(bit)));
+    let register = match hexadecimal(number) {
+        Some(digits) => u16::from_str_radix(digits, 16).ok()?,
+        None => number.parse().ok()?,
+    };
+    Some((table.trim_end(), register, bit.map(str::parse).transpose().ok()?))
+}
+
 fn hexadecimal(text: &str) -> Option<&str> {
     text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
 }
@@ -286,4 +300,46 @@ fn hexadecimal(text: &str) -> Option<&str> {
 /// Returns whether a group contains values. Definitions of data types and NULL objects contain none.
 fn is_data(group: &Group) -> bool {
     !matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::described;
+
+    #[test]
+    fn registers_have_decimal_and_hexadecimal_addresses() {
+        const TABLE: &str = r#"
+lexibus = 1
+[device]
+name = "Meter"
+buses = ["modbus"]
+[spaces.register]
+modbus = { table = "holding", first = 0 }
+[spaces.input]
+modbus = { table = "input", first = 0 }
+[[chapters]]
+title = "Values"
+space = "register"
+defaults = { access = "ro", type = "u16" }
+[chapters.registers]
+Far = { reg = 10000 }
+Near = { reg = 10 }
+Part = { reg = 11, part = 4, type = "bool" }
+[[chapters]]
+title = "Inputs"
+space = "input"
+defaults = { access = "ro", type = "u16" }
+[chapters.registers]
+Input = { reg = 10 }
+"#;
+        let meter = described(Source::new("meter.toml", TABLE.into()), Network::Modbus);
+        let name = |text: &str| meter.find(text).map(|parameter| parameter.name()).unwrap_or_default();
+        for text in ["10000", "0x2710", "register 10000", "Register 0x2710"] {
+            assert_eq!(name(text), "Far", "{text}");
+        }
+        assert_eq!(["10", "register 0xA", "10.0", "coil 10", "70000"].map(name), ["Near", "Near", "", "", ""]);
+        assert_eq!(["register 11.4", "11.4", "11"].map(name), ["Part", "Part", ""]);
+        assert_eq!(["input register 10", "Input Register 0x0A"].map(name), ["Input", "Input"]);
+    }
 }

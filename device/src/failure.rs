@@ -12,8 +12,11 @@ pub enum Failure {
     Abort(AbortCode),
     /// The device refused the Modbus request with this exception code.
     Exception(u8),
-    /// The device didn't reply in time, or the reply was Modbus exception 5 or 11. The device may have executed the request.
+    /// The device didn't reply in time. The device may have executed the request.
     Timeout,
+    /// The reply was Modbus exception 5 (acknowledge) or 11 (gateway target device failed to respond). The device may have
+    /// executed the request.
+    Unconfirmed(u8),
     /// The client or the device doesn't support this access. For example, the value is too long for a Modbus request.
     Unsupported(String),
     /// The bus cannot be used, or the bus or the client failed.
@@ -25,6 +28,12 @@ impl Failure {
     #[must_use]
     pub fn is_refusal(&self) -> bool {
         matches!(self, Failure::Abort(_) | Failure::Exception(_) | Failure::Unsupported(_))
+    }
+
+    /// Returns whether the device may have executed the request without confirming it.
+    #[must_use]
+    pub fn is_timeout(&self) -> bool {
+        matches!(self, Failure::Timeout | Failure::Unconfirmed(_))
     }
 
     /// Returns whether the device reports that it has no such object, sub-index or register.
@@ -57,6 +66,9 @@ impl fmt::Display for Failure {
                 write!(f, "the device refused the request: Modbus exception {code} ({})", exception(*code))
             }
             Failure::Timeout => f.write_str("no reply within the timeout"),
+            Failure::Unconfirmed(code) => {
+                write!(f, "the request is not confirmed: Modbus exception {code} ({})", exception(*code))
+            }
             Failure::Unsupported(text) | Failure::Bus(text) => f.write_str(text),
         }
     }
@@ -68,7 +80,7 @@ impl Error for Failure {}
 pub(crate) fn retried<T>(mut read: impl FnMut() -> Result<T, Failure>) -> Result<T, Failure> {
     for _ in 1..3 {
         match read() {
-            Err(Failure::Timeout) => {}
+            Err(failure) if failure.is_timeout() => {}
             result => return result,
         }
     }

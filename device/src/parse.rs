@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use lexibus_codegen::facts::types;
+use lexibus_codegen::facts::{encoding, types};
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Type, Value};
 
@@ -54,7 +54,7 @@ impl Error for ParseError {}
 
 impl Parameter<'_> {
     /// Parses a value: a number with the unit of the parameter, a raw value (`1550 raw`), a hexadecimal number, the name
-    /// of a value, a formula with `$NODEID`, a text, or bytes in hexadecimal.
+    /// of a value, a formula with `$NODEID`, a text, a time (`2 d 500 ms`), or bytes in hexadecimal.
     ///
     /// If the type is an integer, a physical value is rounded to the nearest raw value.
     ///
@@ -69,7 +69,11 @@ impl Parameter<'_> {
             Type::Boolean | Type::Integer(_) | Type::Unsigned(_) | Type::Real32 | Type::Real64 => {
                 self.named(text.trim()).map_or_else(|| self.number(text.trim()), Ok)
             }
-            _ => bytes(text).ok_or_else(|| self.no_value(text)),
+            Type::TimeOfDay | Type::TimeDifference => {
+                let value = bytes(text).and_then(|bytes| encoding::value(&bytes, basic));
+                time(text).or(value).ok_or_else(|| self.no_value(text))
+            }
+            _ => bytes(text).map(Value::Bytes).ok_or_else(|| self.no_value(text)),
         }
     }
 
@@ -153,18 +157,24 @@ fn formula(text: &str) -> Option<Value> {
     }
 }
 
+/// Parses a time: `2 d 500 ms`.
+fn time(text: &str) -> Option<Value> {
+    let (days, milliseconds) = text.trim().strip_suffix("ms")?.split_once('d')?;
+    Some(Value::Time { milliseconds: milliseconds.trim().parse().ok()?, days: days.trim().parse().ok()? })
+}
+
 /// Parses bytes in hexadecimal, with or without spaces: `0A 1B`.
-fn bytes(text: &str) -> Option<Value> {
+fn bytes(text: &str) -> Option<Vec<u8>> {
     let digits: Vec<char> = text.chars().filter(|letter| !letter.is_whitespace()).collect();
     let byte = |pair: &[char]| u8::from_str_radix(&pair.iter().collect::<String>(), 16).ok();
     let is_complete = digits.len().is_multiple_of(2) && digits.iter().all(char::is_ascii_hexdigit);
-    is_complete.then(|| digits.chunks(2).map(byte).collect::<Option<Vec<u8>>>())?.map(Value::Bytes)
+    is_complete.then(|| digits.chunks(2).map(byte).collect())?
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{pump, table};
+    use crate::testing::{clock, pump, table};
 
     #[test]
     fn numbers_need_their_unit_if_they_are_scaled() {
@@ -204,13 +214,28 @@ mod tests {
     }
 
     #[test]
+    fn times_are_days_and_milliseconds_or_six_bytes() {
+        let description = clock();
+        let parameter = description.find("Running time").expect("a parameter");
+        let time = Value::Time { milliseconds: 500, days: 2 };
+        assert_eq!(parameter.text(&time), "2 d 500 ms");
+        for text in ["2 d 500 ms", "2d500ms", "F4 01 00 00 02 00"] {
+            let write = crate::Write::parse(parameter, text, None).expect("a write");
+            assert_eq!((write.value(), write.bytes()), (&time, &[0xF4, 1, 0, 0, 2, 0][..]), "{text}");
+        }
+        for text in ["500 ms", "2 d", "-1 d 5 ms", "F4 01 00 00 02"] {
+            assert!(matches!(parameter.parse(text), Err(ParseError::NoValue(..))), "{text}");
+        }
+    }
+
+    #[test]
     fn formulas_texts_and_bytes() {
         let description = pump();
         let of = |name: &str, text: &str| description.find(name).expect("a parameter").parse(text);
         assert_eq!(of("0x1800:1", "$NODEID+0x180"), Ok(Value::NodeId(0x180)));
         assert_eq!(of("0x1800:1", "$NODEID"), Ok(Value::NodeId(0)));
         assert_eq!(of("0x1800:1", "0x40000185"), Ok(Value::Int(0x4000_0185)));
-        assert_eq!(bytes("0A1b ff"), Some(Value::Bytes(vec![0x0A, 0x1B, 0xFF])));
+        assert_eq!(bytes("0A1b ff"), Some(vec![0x0A, 0x1B, 0xFF]));
         assert_eq!(bytes("0A1"), None);
         assert_eq!(bytes("+A"), None);
     }

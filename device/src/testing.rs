@@ -28,6 +28,15 @@ Period = { reg = 7, type = "f64", unit = "Hz", scale = { reciprocal = 2.0 } }
 1 = "automatic"
 "#;
 
+const CLOCK: &str = "\
+[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n[1000]\nParameterName=Device type\nDataType=0x0007\nAccessType=ro\n\
+[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n[2000]\nParameterName=Running time\nDataType=0x000D\nAccessType=rw\n";
+
+/// Returns the description of a CANopen device with an object of the type TIME_DIFFERENCE.
+pub(crate) fn clock() -> Description {
+    described(Source::new("clock.eds", CLOCK.into()), Network::CanOpen)
+}
+
 /// Returns the description of a register table with scaled values, values with units, and an enumeration.
 pub(crate) fn table() -> Description {
     described(Source::new("heater.toml", TABLE.into()), Network::Modbus)

@@ -53,7 +53,7 @@ fn register_address(register: &RegisterBinding, item: &Item, tables: &[ModbusTab
 }
 
 /// Returns the name of an element of a Modbus table.
-fn table(space: RegisterSpace) -> &'static str {
+pub fn table(space: RegisterSpace) -> &'static str {
     match space {
         RegisterSpace::Coil => "coil",
         RegisterSpace::DiscreteInput => "discrete input",

@@ -32,11 +32,10 @@ pub trait ModbusFailure {
     fn into_failure(self) -> Failure;
 }
 
-/// Returns the failure for an exception code. The codes 5 (acknowledge) and 11 (gateway target device failed to
-/// respond) count as a timeout, because the device may have executed the request.
+/// Returns the failure for an exception code. After the codes 5 and 11, the device may have executed the request.
 fn exception_of(code: u8) -> Failure {
     match code {
-        5 | 11 => Failure::Timeout,
+        5 | 11 => Failure::Unconfirmed(code),
         code => Failure::Exception(code),
     }
 }

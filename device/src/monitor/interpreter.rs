@@ -3,6 +3,7 @@
 use lexibus::clients::canopen::{CanFrame, NmtCommand, NmtState};
 use lexibus::{Emergency, NodeId, TimeOfDay};
 
+use super::block::Blocks;
 use super::emergency;
 use super::event::{Event, EventKind};
 use super::process::Pdos;
@@ -17,6 +18,7 @@ const SYNC: u32 = 0x080;
 pub struct Interpreter<'d> {
     nodes: Vec<(u8, &'d Description)>,
     pdos: Pdos<'d>,
+    pub(super) blocks: Blocks,
 }
 
 impl<'d> Interpreter<'d> {
@@ -25,7 +27,7 @@ impl<'d> Interpreter<'d> {
     pub fn new(nodes: impl IntoIterator<Item = (u8, &'d Description)>) -> Self {
         let nodes: Vec<_> = nodes.into_iter().collect();
         let pdos = Pdos::new(&nodes);
-        Self { nodes, pdos }
+        Self { nodes, pdos, blocks: Blocks::default() }
     }
 
     /// Returns the description of a node.
@@ -33,7 +35,7 @@ impl<'d> Interpreter<'d> {
         self.nodes.iter().find(|(id, _)| *id == node).map(|(_, description)| *description)
     }
 
-    /// Returns the event of a frame. Returns `None` for remote frames, and for frames that are neither a PDO that a description
+    /// Returns the event of the next frame. Returns `None` for remote frames, and for frames that are neither a PDO that a description
     /// declares nor an NMT, heartbeat, SYNC, TIME, emergency, SDO or LSS message with its default COB-ID.
     pub fn interpret(&mut self, frame: &CanFrame) -> Option<Event> {
         if frame.is_remote() {

@@ -148,8 +148,7 @@ fn wrong_value(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) ->
     let fits = |value: &Value| parameter.encode(value, node_id.or(Some(1))).is_some();
     if let Some(expected) = expected(parameter).filter(fits) {
         let expected = node_id.map_or_else(|| expected.clone(), |node_id| expected.resolved(node_id));
-        let is_known = !matches!(expected, Value::NodeId(_) | Value::Raw(_));
-        return (is_known && !is_same(&expected, value))
+        return differs(&expected, value)
             .then(|| different(parameter, "value").compared(parameter.text(&expected), parameter.text(value)));
     }
     let sentinels = parameter.item().quantity.as_deref().map_or(&[][..], |quantity| &quantity.sentinels);
@@ -229,10 +228,16 @@ pub(super) fn is_same(one: &Value, other: &Value) -> bool {
         || matches!((one, other), (Value::Real(one), Value::Real(other)) if is_close(*one, *other))
 }
 
+/// Returns whether a value differs from a declared value. A formula whose node-ID is unknown and a text that was not converted
+/// are not compared.
+fn differs(declared: &Value, value: &Value) -> bool {
+    !matches!(declared, Value::NodeId(_) | Value::Raw(_)) && !is_same(declared, value)
+}
+
 /// Returns a finding if the value of a writable parameter differs from its default value.
 fn changed(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) -> Option<Finding> {
     let default = parameter.default().filter(|_| parameter.access().writable())?;
     let default = node_id.map_or_else(|| default.clone(), |node_id| default.resolved(node_id));
     let finding = Finding::of(parameter, FindingKind::Changed, "value");
-    (!is_same(&default, value)).then(|| finding.compared(parameter.text(&default), parameter.text(value)))
+    differs(&default, value).then(|| finding.compared(parameter.text(&default), parameter.text(value)))
 }

@@ -60,10 +60,10 @@ impl<'r, C: Connection> Run<'r, C> {
 
     fn checked(&mut self, result: Result<Vec<u8>, Failure>) -> Result<Result<Vec<u8>, Failure>, Failure> {
         match &result {
-            Err(Failure::Timeout) => {
+            Err(failure) if failure.is_timeout() => {
                 self.timeouts += 1;
                 if self.timeouts >= MOST_TIMEOUTS {
-                    return Err(Failure::Timeout);
+                    return Err(failure.clone());
                 }
             }
             Err(Failure::Bus(text)) => return Err(Failure::Bus(text.clone())),

@@ -59,6 +59,63 @@ fn frames_have_names() {
     shown(&drive, (0x606, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]), "node 6: SDO upload of 0x1000:00");
 }
 
+/// Interprets SDO messages of node 5 in turn.
+#[track_caller]
+fn exchange(interpreter: &mut Interpreter<'_>, messages: &[(u32, [u8; 8], &str)]) {
+    for (id, data, expected) in messages {
+        let event = interpreter.interpret(&CanFrame::new(*id, data).expect("a frame")).expect("an event");
+        assert_eq!(event.to_string(), format!("node 5: SDO {expected}"));
+    }
+}
+
+#[test]
+fn segments_of_block_transfers_are_not_commands() {
+    let drive = drive();
+    let interpreter = &mut Interpreter::new([(5, &drive)]);
+    // A download with sub-blocks of 33 segments. The sequence numbers 0x20 and 0x21 look like commands.
+    exchange(
+        interpreter,
+        &[
+            (0x605, [0xC6, 0x08, 0x10, 0, 238, 0, 0, 0], "block download of 0x1008:00 Manufacturer device name"),
+            (0x585, [0xA4, 0x08, 0x10, 0, 33, 0, 0, 0], "block download reply of 0x1008:00 Manufacturer device name"),
+        ],
+    );
+    let segments: Vec<_> =
+        (1..=33).map(|sequence| (0x605, [sequence, 0x81, 0x60, 0, 1, 2, 3, 4], "block segment")).collect();
+    exchange(interpreter, &segments);
+    exchange(
+        interpreter,
+        &[
+            // The server received 32 segments, so the client sends the last one again, and one more.
+            (0x585, [0xA2, 32, 33, 0, 0, 0, 0, 0], "block acknowledgement"),
+            (0x605, [1, 0x81, 0x60, 0, 1, 2, 3, 4], "block segment"),
+            (0x605, [0x82, 0x81, 0x60, 0, 1, 2, 3, 4], "block segment"),
+            (0x585, [0xA2, 1, 33, 0, 0, 0, 0, 0], "block acknowledgement"),
+            (0x605, [0x81, 0x81, 0x60, 0, 1, 2, 3, 4], "block segment"),
+            (0x585, [0xA2, 1, 33, 0, 0, 0, 0, 0], "block acknowledgement"),
+            (0x605, [0xC1, 0x34, 0x12, 0, 0, 0, 0, 0], "block end"),
+            (0x585, [0xA1, 0, 0, 0, 0, 0, 0, 0], "block end reply"),
+            (0x605, [0x40, 0x81, 0x60, 0, 0, 0, 0, 0], "upload of 0x6081:00 Profile velocity"),
+        ],
+    );
+    // An upload, and an abort within its segments.
+    exchange(
+        interpreter,
+        &[
+            (0x605, [0xA4, 0x08, 0x10, 0, 127, 0, 0, 0], "block upload of 0x1008:00 Manufacturer device name"),
+            (0x585, [0xC6, 0x08, 0x10, 0, 20, 0, 0, 0], "block upload reply of 0x1008:00 Manufacturer device name"),
+            (0x605, [0xA3, 0, 0, 0, 0, 0, 0, 0], "block start"),
+            (0x585, [0x01, 0x81, 0x60, 0, 1, 2, 3, 4], "block segment"),
+            (
+                0x605,
+                [0x80, 0x08, 0x10, 0, 0, 0, 4, 5],
+                "abort of 0x1008:00 Manufacturer device name: 0x05040000: the transfer timed out",
+            ),
+            (0x585, [0x43, 0x81, 0x60, 0, 0xE8, 3, 0, 0], "upload reply: 0x6081:00 Profile velocity = 1000"),
+        ],
+    );
+}
+
 #[test]
 fn unknown_and_short_frames_have_no_values() {
     let drive = drive();
