@@ -66,7 +66,7 @@
 pub mod backend;
 pub mod builder;
 pub mod check;
-mod collections;
+pub mod collections;
 pub mod compile;
 pub mod diagnostics;
 pub mod etg;

@@ -1,10 +1,9 @@
 //! Data of the PDO builder: the PDOs with a changeable mapping on CANopen and EtherCAT, and the objects that can be mapped.
 
-use std::collections::HashMap;
-
 use serde_json::{json, Value as Json};
 
 use lexibus_codegen::backend::rust::{Calls, Usage};
+use lexibus_codegen::collections::HashMap;
 use lexibus_codegen::facts::{address, pdo};
 use lexibus_codegen::ir::{
     Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntry, Value, MAX_PDO_SUBS,

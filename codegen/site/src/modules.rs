@@ -1,6 +1,5 @@
 //! Pluggable modules and submodules.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
 use super::anchor::Names;
@@ -12,6 +11,7 @@ use super::requests::OfRecord;
 use super::split;
 use super::words;
 use lexibus_codegen::backend::rust::{self, Calls};
+use lexibus_codegen::collections::HashMap;
 use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{address, item, profinet};
 use lexibus_codegen::ir::{
