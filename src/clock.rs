@@ -12,7 +12,8 @@ pub trait Clock {
     fn now(&mut self) -> Option<Duration>;
 
     /// Waits for a moment between two polls of an interface. The default implementation is a hint for the processor that
-    /// the program waits in a loop. Implement this method for a clock that can sleep. [`DefaultClock`] sleeps for 0.1 ms.
+    /// the program waits in a loop. Implement this method for a clock that can sleep. With the feature `std`,
+    /// [`DefaultClock`] sleeps for at least 0.1 ms.
     fn pause(&mut self) {
         spin_loop();
     }

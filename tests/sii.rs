@@ -1,6 +1,6 @@
 //! Tests EEPROM images of EtherCAT slaves with `ethercrab`, which reads the images from simulated SubDevices. The
-//! SubDevices refuse sync managers that differ from their description. The registers that `ethercrab` writes are compared with
-//! the output of the network compiler.
+//! SubDevices refuse sync managers that differ from their description. The settings of sync managers and FMMUs that
+//! `ethercrab` writes are compared with the output of the network compiler.
 
 use std::path::Path;
 

@@ -753,7 +753,7 @@ mod frames {
         assert!(walked.is_err_and(|error| error.is_fault()));
         let waited = CanPort::now(drive.client().port()).unwrap();
         assert!(waited >= DEADLINE && waited < DEADLINE + ms(50), "{waited:?}");
-        // The buffer keeps what arrives in the meantime.
+        // The buffer keeps the frames that arrive during the walk.
         let emergency = drive.client().emergency(ms(0)).unwrap().unwrap();
         assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
     }

@@ -27,14 +27,14 @@
 //!
 //! # Timeouts
 //!
-//! The timeout of a blocking line, by default [`TIMEOUT`], limits the time of each exchange, whether the line is silent
-//! or noise arrives continuously. The line needs a clock, and must know whether a read returns at once (see below). It
-//! then reads only bytes that have arrived. With the feature `std`, the line has a clock, and pauses while it waits.
-//! Without `std`, set a clock with [`SerialLine::with_time`].
+//! The timeout of a blocking line, by default [`TIMEOUT`], limits the wait for each reply, whether the line is silent or
+//! noise arrives continuously. For this, the line needs a clock, and must know whether a read returns at once (see
+//! below). It then reads only bytes that have arrived. With the feature `std`, the line has a clock, and pauses while it
+//! waits. Without `std`, set a clock with [`SerialLine::with_time`].
 //!
-//! Without a clock or this information, a read can block. If no byte arrives, only a timeout of the stream ends the read,
-//! and the exchange returns the error of the stream. Without a clock, only the [number of received bytes](SerialLine) limits an exchange in
-//! which noise arrives continuously.
+//! Without a clock or this information, a read can block. If no byte arrives, only the stream can end the read, for
+//! example with a timeout, and the exchange returns the error of the stream. Without a clock, only the [number of
+//! received bytes](SerialLine) limits an exchange in which noise arrives continuously.
 //!
 //! Async streams have no timeout, so an async line needs a timer. An async exchange on a line without a timer doesn't
 //! compile. Set the timeout of a line as follows:
@@ -103,7 +103,7 @@ pub struct SerialLine<S, F: Framing, const N: usize, T = DefaultClock> {
     timeout: Duration,
     /// True if the reply to the last request may still arrive.
     is_unsettled: bool,
-    /// True if a read of the stream has timed out, which means that reads without a limit don't block forever.
+    /// True if an exchange has failed with a timeout of the stream: reads of this stream don't block forever.
     times_out: bool,
 }
 
@@ -154,7 +154,7 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
     ///
     /// Pass `None` only if the stream has no such information. Then a repeated reply, or a message that the device
     /// sends without a request, is taken for the reply to the next request, unless the protocol detects it. The stream
-    /// also needs a timeout for each read, because the timeout of the line cannot end a read.
+    /// of a blocking line then also needs a timeout for each read, because the timeout of the line cannot end a read.
     pub const fn with_ready(stream: S, framing: F, ready: Option<fn(&mut S) -> bool>) -> Self {
         let line = Line { stream, framing, ready, within: None };
         Self { line, time: DefaultClock, timeout: TIMEOUT, is_unsettled: false, times_out: false }
@@ -209,8 +209,8 @@ impl<S, F: Framing, const N: usize> Line<S, F, N> {
         self.ready.is_some_and(|ready| ready(&mut self.stream))
     }
 
-    /// Waits until a read returns at once, and returns false if the limit expires before. If there is no limit, or if
-    /// the line doesn't know when a read returns, returns true without waiting.
+    /// Waits until a read returns at once. Returns false if the limit expires first. If there is no limit, or if the
+    /// line doesn't know whether a read returns at once, returns true without waiting.
     fn await_byte(&mut self, limit: &mut impl Limit) -> bool {
         while limit.is_set() && self.ready.is_some() && !self.is_ready() {
             if limit.is_over() {
@@ -292,7 +292,7 @@ fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
     matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
 }
 
-/// Limit of the time in which a line waits for bytes.
+/// Limit of the time for which a line waits for bytes.
 trait Limit {
     /// Returns whether there is a limit.
     fn is_set(&self) -> bool;
@@ -332,7 +332,7 @@ impl<T: Clock> Limit for Deadline<'_, T> {
     }
 }
 
-/// The limit of an async line is its timer, which drops the exchange.
+/// No limit: the timer of an async line drops a wait that takes too long.
 struct ByTimer;
 
 impl Limit for ByTimer {
@@ -351,7 +351,8 @@ impl Limit for ByTimer {
 macro_rules! exchanges {
     ($io:ident $call:ident $receive:ident $discard:ident $($async:ident $await:ident)?) => {
         impl<S: $io::Read + $io::Write, F: Framing, const N: usize> Line<S, F, N> {
-            /// Discards waiting bytes, sends a frame, and reads until the reply is complete or the limit expires.
+            /// Discards waiting bytes, sends a frame, and reads until the reply is complete or invalid, too many bytes
+            /// have arrived, or the limit expires.
             $($async)? fn $call(
                 &mut self,
                 frame: &[u8],
@@ -383,7 +384,7 @@ macro_rules! exchanges {
                 Err(Error::Timeout)
             }
 
-            /// Discards bytes up to the end of a frame, or until the limit expires.
+            /// Discards bytes up to the end of a frame, or until the limit expires, but at most [`MOST_NOISE`] bytes.
             $($async)? fn $discard(&mut self, mut limit: impl Limit) -> Result<(), Error<SerialError<S::Error>>> {
                 let (mut decoder, mut data) = (self.decoder(), [0; N]);
                 for _ in 0..MOST_NOISE {

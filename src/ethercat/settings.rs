@@ -1,4 +1,4 @@
-//! Settings of sync managers, FMMUs and distributed clocks, as a master writes them to the registers of a slave.
+//! Settings of the sync managers, FMMUs and distributed clocks of a slave.
 
 use super::Direction;
 

@@ -255,8 +255,8 @@ fn endless_noise_ends_in_time() {
     });
 }
 
-/// Sends requests with random faults for a simulated time, with a pause after each. Returns the numbers of requests and
-/// errors.
+/// Sends requests with random faults for the simulated time `time`, with a pause after each request. Returns the numbers
+/// of requests and errors.
 pub fn soak(time: Duration, mut observe: impl FnMut(Duration)) -> (u32, u32) {
     with_bench(|mut bench| async move {
         let (mut random, start) = (Random::new(31), Instant::now());

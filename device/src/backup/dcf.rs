@@ -38,8 +38,8 @@ impl fmt::Display for DcfError {
 impl Error for DcfError {}
 
 impl Backup {
-    /// Returns the backup as a DCF of the device. The file contains the whole description, and can replace the
-    /// description file.
+    /// Returns the backup as a DCF of the device. The file declares the objects of the description, so it can be used as
+    /// the description file.
     ///
     /// # Errors
     ///
@@ -78,7 +78,8 @@ impl Backup {
         catalog
     }
 
-    /// Reads the DCF again, and returns the values of the backup that it doesn't contain.
+    /// Parses the DCF, and returns the values of the backup that the DCF doesn't contain. Values without a parameter in the
+    /// description are not returned.
     fn lost(&self, text: &str, description: &Description) -> Vec<Skipped> {
         let source = Source::new("backup.dcf", text.as_bytes().to_vec());
         let catalog = check(source, &Options::default()).catalog;

@@ -7,16 +7,16 @@ use lexibus_codegen::ir::Value;
 use super::entry::{Backup, Entry};
 use crate::description::Description;
 
-/// A parameter whose value differs between two backups.
+/// A parameter whose value differs between two backups, or that only one of them contains.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// Address of the parameter as text.
     pub address: String,
     /// Path of the parameter.
     pub name: String,
-    /// Value in the first backup, with its unit; `None` if the first backup doesn't contain the parameter.
+    /// Value in the first backup as text; `None` if the first backup doesn't contain the parameter.
     pub old: Option<String>,
-    /// Value in the second backup, with its unit; `None` if the second backup doesn't contain the parameter.
+    /// Value in the second backup as text; `None` if the second backup doesn't contain the parameter.
     pub new: Option<String>,
 }
 

@@ -14,9 +14,9 @@ use crate::parameter::Parameter;
 pub struct Backup {
     /// Node-ID or Modbus server address of the device.
     pub node_id: Option<u8>,
-    /// Saved values, in the order of the description.
+    /// Saved values, in the order of the description or of the TOML file.
     pub entries: Vec<Entry>,
-    /// Writable parameters that were not saved.
+    /// Writable parameters that were not saved; empty if the backup was not read from a device.
     pub skipped: Vec<Skipped>,
 }
 
@@ -29,7 +29,7 @@ pub struct Entry {
     pub address_text: String,
     /// Path of the parameter.
     pub name: String,
-    /// The value. A value that depends on the node-ID is a formula.
+    /// The value. It can be a formula with `$NODEID`.
     pub value: Value,
 }
 
@@ -76,7 +76,7 @@ impl Backup {
         self.entries.iter().map(|entry| (entry.address, &entry.value)).collect()
     }
 
-    /// Returns whether all parameters that belong to the backup were saved.
+    /// Returns whether no [skipped](Self::skipped) parameter is a [failure](Skipped::is_failure).
     #[must_use]
     pub fn is_complete(&self) -> bool {
         !self.skipped.iter().any(|skipped| skipped.is_failure)

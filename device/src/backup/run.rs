@@ -17,7 +17,7 @@ use crate::protection::Protection;
 pub struct Options {
     /// Node-ID or Modbus server address of the device.
     pub node_id: Option<u8>,
-    /// Addresses of parameters that are saved, although a backup otherwise leaves them out.
+    /// Addresses of writable parameters that are saved, although a backup otherwise leaves them out.
     pub include: Vec<Address>,
 }
 
@@ -28,7 +28,7 @@ pub struct Options {
 ///
 /// # Errors
 ///
-/// Fails if the bus fails, or if the device doesn't reply to three attempts to read a value.
+/// Fails if the bus or the client fails, or if three attempts to read a value time out.
 pub fn backup(
     description: &Description,
     connection: &mut impl Connection,
@@ -86,16 +86,16 @@ fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mu
     Ok(())
 }
 
-/// Returns whether the device can lack the parameter: a mapping entry above the number of mapped objects, an optional
-/// parameter, or a parameter of some models or versions.
+/// Returns whether the device can lack the parameter: an entry of a PDO mapping, an optional parameter, or a parameter of
+/// some models or versions.
 fn is_optional(parameter: &Parameter<'_>) -> bool {
     let is_mapping =
         parameter.address().object().is_some_and(|object| object.sub_index > 0 && pdo::is_mapping(object.index));
     is_mapping || parameter.item().is_optional || parameter.item().availability.is_some()
 }
 
-/// Reads a value, with up to three attempts if the device doesn't reply. Returns `None` if the bytes are not a value of
-/// the type.
+/// Reads a value. After a timeout, reads it again, up to three times in total. Returns `None` if the bytes are not a value
+/// of the type.
 pub(crate) fn read(
     parameter: &Parameter<'_>,
     connection: &mut impl Connection,

@@ -15,16 +15,16 @@ use crate::write::{Write, WriteError};
 pub enum Status {
     /// The device confirmed the write.
     Written,
-    /// The device refused the value, or a condition of the description doesn't hold or cannot be checked. The old value
-    /// remains.
+    /// The device refused the value, the client doesn't support the write, or a condition of the description doesn't hold
+    /// or cannot be checked. The value before this write remains.
     Refused(WriteError),
-    /// The bus failed, the device didn't reply, or it refused a Modbus request for a value of several registers. The
+    /// The bus failed, the write timed out, or the device refused a Modbus request for a value of several registers. The
     /// device has the old value, the new value, or a part of the new value.
     Uncertain(Failure),
-    /// The bus failed or the device didn't reply when a condition of this write was checked. The value was not sent.
+    /// The bus failed or a read timed out when a condition of this write was checked. The value was not sent.
     NotSent(Failure),
-    /// The restore ended before this write, or another write of the same PDO failed. The old value remains, unless an
-    /// earlier write changed it.
+    /// The restore ended before this write, or an earlier write of the same PDO failed. The old value remains, unless
+    /// an earlier write changed it.
     NotWritten,
 }
 
@@ -45,15 +45,16 @@ impl fmt::Display for Status {
 pub struct Outcome<'d> {
     /// The state of every write, in the order of the plan.
     pub states: Vec<(Write<'d>, Status)>,
-    /// Written parameters that have another value afterwards, or whose value the device refuses to return, with the
-    /// value or the failure as text.
+    /// Written parameters that have another value afterwards, or whose read is refused, with the value or the failure as
+    /// text.
     pub mismatches: Vec<(Write<'d>, String)>,
-    /// Number of confirmed values that could not be read back, because the bus failed or the device didn't reply.
+    /// Number of confirmed values that were not read back because of timeouts or bus failures.
     pub unconfirmed: usize,
 }
 
 impl Outcome<'_> {
-    /// Returns whether the device confirmed all writes and has the written values afterwards.
+    /// Returns whether the device confirmed all writes, and there are neither mismatches nor values that were not read
+    /// back because of failures.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.mismatches.is_empty()
@@ -69,7 +70,8 @@ impl Outcome<'_> {
 }
 
 impl fmt::Display for Outcome<'_> {
-    /// Writes one line for each write that was not confirmed and for each mismatch, and then a summary.
+    /// Writes one line for each write that was not confirmed and for each mismatch, then the number of values that were not
+    /// read back, if there are any, and then a summary.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (write, status) in self.states.iter().filter(|(_, status)| *status != Status::Written) {
             writeln!(f, "{write}: {status}")?;
@@ -85,13 +87,13 @@ impl fmt::Display for Outcome<'_> {
 }
 
 impl<'d> Plan<'d> {
-    /// Writes the values, and then reads them back.
+    /// Writes the values, and then reads back the written values that can be read.
     ///
     /// `proceed` is called before each write that is attempted. If it returns false, the restore ends, and the
-    /// remaining values are not written. The restore also ends if the bus fails, if the device doesn't reply, or if it
-    /// refuses a Modbus value of several registers. After any other refusal, the restore continues, but the remaining
-    /// values of the same PDO are not written. After a restore that ended early, the written values are read back too,
-    /// because the device may have restarted.
+    /// remaining values are not written. The restore also ends if the bus fails, if a request times out, or if the device
+    /// refuses a Modbus value of several registers. After any other refusal, or if a condition doesn't hold, the restore
+    /// continues, but the remaining values of the same PDO are not written. After a restore that ended early, the written
+    /// values are read back too, because the device may have restarted.
     pub fn execute(
         &self,
         connection: &mut impl Connection,
@@ -99,7 +101,7 @@ impl<'d> Plan<'d> {
     ) -> Outcome<'d> {
         let mut states = Vec::with_capacity(self.writes.len());
         let mut is_ended = false;
-        // A PDO with a refused value stays disabled, because its mapping would be a mixture of old and new entries.
+        // After a failed write of a PDO, its other values are not written, so that no mixture of old and new values is enabled.
         let mut failed_pdos = BTreeSet::new();
         for write in &self.writes {
             let pdo = write.parameter().address().object().and_then(|object| pdo(object.index));
@@ -136,8 +138,9 @@ fn is_of_several_registers(write: &Write<'_>) -> bool {
     matches!(write.parameter().address(), Address::Register(register) if register.count > 1)
 }
 
-/// Reads the written values back. Returns those that differ from the last write to their address, and the number of
-/// values that could not be read. If a read gets no reply, the device may have restarted, so all values are read again.
+/// Reads back the last written value of each address that can be read. Returns the writes whose value differs or whose
+/// read is refused, and the number of values that were not read because of timeouts or bus failures. After such a failure,
+/// the device may have restarted, so all values are read again, up to three times in total.
 fn read_back<'d>(
     states: &[(Write<'d>, Status)],
     connection: &mut impl Connection,
@@ -158,8 +161,7 @@ fn read_back<'d>(
     result
 }
 
-/// Reads values once. Stops after two reads without a reply or with a bus failure, and counts the remaining values as
-/// not read.
+/// Reads values once. Stops after two timeouts or bus failures, and counts the remaining values as not read.
 fn read_all<'d>(writes: &[&Write<'d>], connection: &mut impl Connection) -> (Vec<(Write<'d>, String)>, usize) {
     const MOST_FAILURES: usize = 2;
     let (mut mismatches, mut failures) = (Vec::new(), 0);

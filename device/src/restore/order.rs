@@ -15,11 +15,10 @@ use crate::write::Write;
 
 /// Returns the writes in the order in which the device gets them. On CANopen, this is the order of CiA 301: disable
 /// PDOs, write the communication parameters and all other parameters, write the mappings and the parameters of PDOs,
-/// enable PDOs. On Modbus, it is the order of the description. Protected parameters that the caller named come after
-/// these, first those that don't set the node-ID or the bit rate.
+/// enable PDOs. On Modbus, it is the order of the description. Protected parameters that the caller named, except objects
+/// of PDOs, come after these, first those that don't set the node-ID or the bit rate.
 ///
-/// A PDO is written as a whole or not at all: if a value of the PDO is missing or was refused, none of its values are
-/// written.
+/// If a step for a PDO sets a writable object that is not in `writes`, none of the values of the PDO are written.
 ///
 /// `writes` contains the checked writes by address. The second list contains the values that this order leaves out.
 pub(super) fn ordered<'d>(
@@ -111,8 +110,8 @@ fn phases(configuration: &Configuration) -> impl Iterator<Item = &Setting> {
     [disable_pdos, communication, parameters, mapping, pdo_parameters, enable_pdos].into_iter().flatten()
 }
 
-/// Converts a setting to a write. Adds the node-ID if the setting is a formula. Returns `None` if the node-ID is
-/// unknown or the bytes are not a value of the type.
+/// Converts a setting to a write. Adds the node-ID if the setting is a formula. Returns `None` if the setting is a formula
+/// and the node-ID is unknown, or if the bytes are not a value of the type.
 fn write<'d>(parameter: Parameter<'d>, setting: &Setting, node_id: Option<u8>) -> Option<Write<'d>> {
     let ty = parameter.basic();
     let value = encoding::value(&setting.bytes, ty)?;

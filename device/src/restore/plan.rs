@@ -20,7 +20,7 @@ pub struct Plan<'d> {
 
 impl<'d> Plan<'d> {
     /// Plans a restore. `node_id` is the node-ID of the device. `include` contains the addresses of the protected
-    /// parameters that are written; all other [protected](crate::Protection) parameters are refused.
+    /// parameters to write; all other [protected](crate::Protection) parameters are refused.
     #[must_use]
     pub fn new(description: &'d Description, backup: &Backup, node_id: Option<u8>, include: &[Address]) -> Self {
         let (mut writes, mut refused) = (BTreeMap::new(), Vec::new());
@@ -35,7 +35,7 @@ impl<'d> Plan<'d> {
             match (protection, Write::new(parameter, entry.value.clone(), node_id)) {
                 (Some(protection), _) => refused.push(Skipped::new(&parameter, protection)),
                 (None, Ok(write)) => drop(writes.insert(entry.address, write)),
-                // Files of configuration tools contain the values of read-only parameters too, so this is no failure.
+                // Files of configuration tools can contain the values of read-only parameters too, so this is no failure.
                 (None, Err(WriteError::ReadOnly)) => refused.push(Skipped::new(&parameter, WriteError::ReadOnly)),
                 (None, Err(error)) => refused.push(Skipped::failed(&parameter, error)),
             }

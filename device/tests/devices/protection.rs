@@ -293,7 +293,7 @@ fn backup_of_pdo(description: &Description, values: &[(&str, &str)]) -> Backup {
     Backup::from_toml(&text, description).expect("a backup")
 }
 
-/// A backup with some values of a PDO must not enable the PDO with the default COB-ID or mapping.
+/// A backup that lacks a value of a PDO must not enable the PDO with the default COB-ID or mapping.
 #[test]
 fn a_pdo_is_restored_as_a_whole_or_not_at_all() {
     let description = dictionary("demo-drive.eds", Network::CanOpen);

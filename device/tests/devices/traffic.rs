@@ -131,7 +131,7 @@ fn a_scan_finds_all_nodes_and_their_descriptions() {
     let mut bus = CanBus::new();
     for node in [1, 5, 127] {
         bus.add(CanNode::new(Device::new(demo_drive::ENTRIES).with_node_id(id(node))));
-        // The period of the heartbeat is shorter than the timeout, and must not extend the search.
+        // The period of the heartbeat is shorter than the timeout. The heartbeats must not extend the search.
         Node::new(&mut bus, id(node)).write(Object::new(0x1017, 0), &10_u16.to_le_bytes()).expect("a write");
     }
     let found = scan(&mut bus, Duration::from_millis(100)).expect("a scan");

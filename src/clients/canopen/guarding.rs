@@ -49,7 +49,7 @@ impl Guarding {
         self.guard_time
     }
 
-    /// Returns the node life time: the guard time multiplied by the life time factor, which is at least 1.
+    /// Returns the node life time: the guard time multiplied by the life time factor. The factor 0 counts as 1.
     #[must_use]
     pub fn life_time(&self) -> Duration {
         self.guard_time.saturating_mul(self.life_time_factor.max(1).into())

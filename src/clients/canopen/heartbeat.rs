@@ -99,8 +99,8 @@ macro_rules! watch {
         impl<P: $Port> Node<P> {
             /// Receives the heartbeats that have arrived, and returns the newest state of the node. Returns `None`
             /// before the first heartbeat. The method does not wait. Call it at intervals that are shorter than the
-            /// consumer heartbeat time. The age of a heartbeat is measured from its [time](super::CanFrame::time), which
-            /// is that of this call if the interface has no timestamps.
+            /// consumer heartbeat time. The age of a heartbeat is measured from its [time](super::CanFrame::time), or
+            /// from this call if the frame has no time.
             ///
             /// A boot-up message is never discarded: if the node has restarted since the last call, this method returns
             /// [`NmtState::BootUp`] once. Until the next heartbeat, the state is then Pre-operational, which a node enters

@@ -66,7 +66,7 @@ pub(super) fn stamp(socket: &impl SocketOptions) {
     let _ = socket.set_recv_timestamp(true);
 }
 
-/// Waits for a frame. Returns the frame and its arrival on the clock of the system.
+/// Waits for a frame. Returns the frame and, if the kernel reports it, the time of its arrival on the system's clock.
 fn read(socket: &CanSocket, patience: Duration) -> io::Result<(socketcan::CanFrame, Option<SystemTime>)> {
     let timeout = PollTimeout::try_from(patience).unwrap_or(PollTimeout::MAX);
     match poll(&mut [PollFd::new(socket.as_fd(), PollFlags::POLLIN)], timeout)? {

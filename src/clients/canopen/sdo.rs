@@ -172,8 +172,8 @@ macro_rules! transfers {
             }
 
             /// Waits for `time`. Meanwhile, the interface receives frames. [`Buffered`](super::Buffered) and
-            /// [`Network`](super::Network) keep these frames. An interface without a buffer loses them, as during a
-            /// transfer.
+            /// [`Network`](super::Network) store these frames as during a transfer. An interface without a buffer loses
+            /// them.
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<P::Error>> {
                 let start = self.port().now();
                 let mut left = time;

@@ -123,8 +123,8 @@ pub enum CycleError {
         subdevice: usize,
         /// State of the SubDevice.
         state: SubDeviceState,
-        /// AL status code of the SubDevice, which is the reason for the state. `None` if the code was not read:
-        /// [`Cycle::check`] doesn't read it.
+        /// AL status code of the SubDevice: its error, or no error. `None` if the code was not read, because
+        /// [`Cycle::check`] doesn't read it, or because the read failed.
         code: Option<AlStatusCode>,
     },
 }
