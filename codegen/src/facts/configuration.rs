@@ -11,7 +11,7 @@ use crate::resolve::{announced_count, is_device_of_number};
 const DISABLED: i128 = 1 << 31;
 
 /// Maximum number of entries of a PDO mapping. Greater values of sub-index 0 select a multiplexed PDO or are reserved (CiA 301 7.5.2.36).
-const MAX_ENTRIES: u8 = 64;
+pub const MAX_ENTRIES: u8 = 64;
 
 /// The values that configure a device, and the objects that are left out. The fields with values are in the order of
 /// the writes.

@@ -63,11 +63,23 @@ impl Backup {
         if table.get("lexibus-backup").and_then(toml::Value::as_integer) != Some(VERSION) {
             return Err(TableError(format!("the file is not a backup: `lexibus-backup = {VERSION}` is missing")));
         }
-        let node_id = table.get("node-id").and_then(toml::Value::as_integer).and_then(|id| u8::try_from(id).ok());
-        let rows = table.get("parameters").and_then(toml::Value::as_array).map_or(&[][..], Vec::as_slice);
+        let node_id = match table.get("node-id") {
+            Some(id) => {
+                let wrong = || TableError("`node-id` must be an integer from 1 to 255".to_owned());
+                Some(address(id).ok_or_else(wrong)?)
+            }
+            None => None,
+        };
+        let rows = table.get("parameters").and_then(toml::Value::as_array);
+        let rows = rows.ok_or_else(|| TableError("the file has no list `parameters`".to_owned()))?;
         let entries = rows.iter().map(|row| entry(row, description)).collect::<Result<_, _>>()?;
         Ok(Self { node_id, entries, skipped: Vec::new() })
     }
+}
+
+/// Returns a node-ID or a Modbus server address.
+fn address(value: &toml::Value) -> Option<u8> {
+    value.as_integer().and_then(|id| u8::try_from(id).ok()).filter(|id| *id > 0)
 }
 
 /// Returns a raw value in the notation of TOML.

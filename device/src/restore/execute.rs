@@ -33,7 +33,9 @@ impl fmt::Display for Status {
         match self {
             Status::Written => f.write_str("written"),
             Status::Refused(reason) => write!(f, "refused: {reason}"),
-            Status::Uncertain(failure) => write!(f, "uncertain, the device has the old or the new value: {failure}"),
+            Status::Uncertain(failure) => {
+                write!(f, "uncertain, the device has the old value, the new value or a part of it: {failure}")
+            }
             Status::NotSent(failure) => write!(f, "not written: {failure}"),
             Status::NotWritten => f.write_str("not written"),
         }

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use lexibus_codegen::facts::configuration::{Configuration, LeftOut, Setting};
+use lexibus_codegen::facts::configuration::{Configuration, LeftOut, Setting, MAX_ENTRIES};
 use lexibus_codegen::facts::encoding;
+use lexibus_codegen::facts::pdo::is_mapping;
 use lexibus_codegen::ir::Value;
 
 use crate::address::{Address, Network};
@@ -18,7 +19,7 @@ use crate::write::Write;
 /// enable PDOs. On Modbus, it is the order of the description. Protected parameters that the caller named, except objects
 /// of PDOs, come after these, first those that don't set the node-ID or the bit rate.
 ///
-/// If a step for a PDO sets a writable object that is not in `writes`, none of the values of the PDO are written.
+/// The values of a PDO are left out if one of them is refused, or if the COB-ID or a mapping entry is missing.
 ///
 /// `writes` contains the checked writes by address. The second list contains the values that this order leaves out.
 pub(super) fn ordered<'d>(
@@ -38,15 +39,10 @@ pub(super) fn ordered<'d>(
     chosen.entries.retain(|entry| writes.contains_key(&entry.address));
     let catalog = chosen.configured(description);
     let configuration = Configuration::of(&catalog.devices[description.position()]).unwrap_or_default();
-    let has = |parameter: &Parameter<'_>| !parameter.access().writable() || writes.contains_key(&parameter.address());
     let settings: Vec<(Parameter<'d>, &Setting)> = phases(&configuration)
         .filter_map(|setting| Some((description.object(setting.object.0, setting.object.1)?, setting)))
         .collect();
-    let incomplete: BTreeSet<u16> = settings
-        .iter()
-        .filter(|(parameter, _)| !has(parameter))
-        .filter_map(|(_, setting)| pdo(setting.object.0))
-        .collect();
+    let incomplete = incomplete_pdos(description, backup, &writes, &settings);
     let is_incomplete = |index: u16| pdo(index).is_some_and(|pdo| incomplete.contains(&pdo));
     let mut ordered = Vec::new();
     for (parameter, setting) in settings.into_iter().filter(|(_, setting)| !is_incomplete(setting.object.0)) {
@@ -62,7 +58,7 @@ pub(super) fn ordered<'d>(
                 &write.parameter(),
                 "a value of the PDO is missing or refused, so the PDO is not changed",
             ));
-        } else if include.contains(&address) {
+        } else if include.contains(&address) && address.object().is_none_or(|object| pdo(object.index).is_none()) {
             ordered.push(write);
         } else {
             left_out.push(Skipped::new(&write.parameter(), reason(&configuration, address)));
@@ -70,6 +66,34 @@ pub(super) fn ordered<'d>(
     }
     ordered.sort_by_key(|write| rank(&write.parameter()));
     (ordered, left_out)
+}
+
+/// Returns the PDOs that are not restored: a value in the backup is refused, `settings` needs a value that the backup lacks,
+/// or a mapped entry has no value. Each PDO is represented by the index of its communication parameters.
+fn incomplete_pdos(
+    description: &Description,
+    backup: &Backup,
+    writes: &BTreeMap<Address, Write<'_>>,
+    settings: &[(Parameter<'_>, &Setting)],
+) -> BTreeSet<u16> {
+    let is_writable = |parameter: &Parameter<'_>| parameter.access().writable();
+    let missing = settings.iter().filter(|(parameter, _)| is_writable(parameter));
+    let missing = missing.filter(|(parameter, _)| !writes.contains_key(&parameter.address()));
+    let missing = missing.map(|(_, setting)| setting.object.0);
+    let refused = backup.entries.iter().map(|entry| entry.address).filter(|address| !writes.contains_key(address));
+    let refused = refused.filter(|address| description.at(*address).is_none_or(|parameter| is_writable(&parameter)));
+    let refused = refused.filter_map(|address| Some(address.object()?.index));
+    let set: BTreeSet<(u16, u8)> = settings.iter().map(|(_, setting)| setting.object).collect();
+    let is_unmapped = |index: u16, sub_index: u8| {
+        let parameter = description.object(index, sub_index);
+        !set.contains(&(index, sub_index)) && parameter.is_none_or(|parameter| is_writable(&parameter))
+    };
+    let unmapped = settings.iter().filter(|(_, setting)| is_mapping(setting.object.0) && setting.object.1 == 0);
+    let unmapped = unmapped.filter_map(|(_, setting)| Some((setting.object.0, *setting.bytes.first()?)));
+    let unmapped = unmapped.filter(|&(index, number)| {
+        number <= MAX_ENTRIES && (1..=number).any(|sub_index| is_unmapped(index, sub_index))
+    });
+    missing.chain(refused).chain(unmapped.map(|(index, _)| index)).filter_map(pdo).collect()
 }
 
 /// Returns the index of the communication parameters of the PDO to which an object belongs, or `None` if it belongs to

@@ -234,6 +234,11 @@ fn files_that_are_no_backups_are_refused() {
     assert!(error("lexibus-backup = 1\nparameters = [{ name = \"Plan\", value = 1 }]").contains("did you mean"));
     let other = "lexibus-backup = 1\nparameters = [{ address = \"0\", name = \"Gain\", value = 1 }]";
     assert!(error(other).contains("states another name for this address: `Gain`"));
+    assert!(error("lexibus-backup = 1").contains("no list `parameters`"));
+    for id in ["0", "300", "\"1\""] {
+        let text = format!("lexibus-backup = 1\nnode-id = {id}\nparameters = []");
+        assert!(error(&text).contains("`node-id` must be an integer from 1 to 255"), "{id}");
+    }
     // The plan refuses a value that doesn't fit the type.
     let text = "lexibus-backup = 1\nparameters = [{ name = \"Plain\", value = 70000 }]";
     let saved = Backup::from_toml(text, &description).expect("a backup");
@@ -308,6 +313,36 @@ fn a_pdo_is_restored_as_a_whole_or_not_at_all() {
         assert_eq!(plan.writes.iter().filter(of_pdo).count(), 0, "{left_out}: {plan}");
         assert!(left_out == 1 || plan.refused.iter().any(|refused| refused.is_failure), "{plan}");
     }
+}
+
+/// A refused value of a PDO, or a mapping entry without a value, leaves the PDO as it is.
+#[test]
+fn a_pdo_with_a_refused_value_or_without_an_entry_is_not_restored() {
+    let description = dictionary("demo-drive.eds", Network::CanOpen);
+    for (address, value) in [("0x1800:02", "300"), ("0x1A00:00", "2")] {
+        let mut values = PDO.to_vec();
+        values.retain(|(other, _)| *other != address);
+        values.push((address, value));
+        let plan = Plan::new(&description, &backup_of_pdo(&description, &values), Some(5), &[]);
+        assert!(plan.writes.is_empty(), "{address}: {plan}");
+        assert!(plan.refused.iter().any(|refused| refused.is_failure), "{plan}");
+    }
+}
+
+/// A mapping entry above the number of mapped objects isn't written, even if it is named.
+#[test]
+fn an_entry_that_is_not_mapped_is_not_written() {
+    let description = dictionary("demo-drive.eds", Network::CanOpen);
+    let values = [
+        ("0x1801:01", "\"$NODEID+0x280\""),
+        ("0x1A01:00", "1"),
+        ("0x1A01:01", "0x60410010"),
+        ("0x1A01:02", "0x60640020"),
+    ];
+    let entry = description.find("0x1A01:02").expect("an object").address();
+    let plan = Plan::new(&description, &backup_of_pdo(&description, &values), Some(5), &[entry]);
+    assert!(!plan.writes.is_empty() && plan.writes.iter().all(|write| write.parameter().address() != entry), "{plan}");
+    assert!(plan.to_string().contains("above the number of mapped objects"), "{plan}");
 }
 
 /// If the device refuses a mapping entry, the restore leaves the PDO disabled.
