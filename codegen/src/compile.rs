@@ -97,7 +97,7 @@ pub fn choice(text: &str) -> Option<(String, String)> {
 
 /// Message for a usable compilation for which [`Compilation::rust`] returns `None`.
 pub const NOTHING_TO_GENERATE: &str =
-    "there is nothing to generate, because the file describes no device and no module";
+    "there is nothing to generate, because the file describes neither a device nor a module, or is a GSDML without an access point";
 
 /// Reads `source` into the IR, without selection, overlays or checks.
 pub fn read(source: Source, options: &Options) -> Compilation {

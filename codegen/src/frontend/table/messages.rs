@@ -104,9 +104,6 @@ fn message(
     references(given, &mut rows.references);
     let availability = availability(given);
     let mut doubts = reader.doubts_of(given, origin);
-    for (fields, tables) in [(&request, &given.request), (&reply, &given.reply)] {
-        counted(reader, fields, tables);
-    }
     let examples = given.examples.iter().map(|frames| example(reader, frames, &mut doubts)).collect();
     let effects = given.effects.iter().flat_map(|effects| &effects.0);
     device.messages.push(Message {
@@ -143,7 +140,7 @@ fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
     reader.diagnostics.push(found.label("this and all later messages are left out"));
 }
 
-/// Reports a `counts` key that names a field which the frame does not have.
+/// Reports a `counts` key that names none of the `fields`, which is the list that contains the key.
 fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<FieldTable>]) {
     let echoes = fields.iter().filter_map(|field| match field {
         MessageField::Echo { field, .. } => Some(&field.name),
@@ -233,15 +230,12 @@ fn completion(
     found.unwrap_or_default()
 }
 
-/// Returns the names of the values in `fields`, and in the repeated groups among them.
-pub(super) fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &CompactString> + '_> {
-    Box::new(fields.iter().flat_map(|field| -> Box<dyn Iterator<Item = &CompactString>> {
-        match field {
-            MessageField::Value(value) => Box::new(std::iter::once(&value.item.name)),
-            MessageField::Repeat { fields, .. } => field_names(fields),
-            _ => Box::new(std::iter::empty()),
-        }
-    }))
+/// Returns the names of the values in `fields`, without those in repeated groups: no reference is to a repeated value.
+pub(super) fn field_names(fields: &[MessageField]) -> impl Iterator<Item = &CompactString> {
+    fields.iter().filter_map(|field| match field {
+        MessageField::Value(value) => Some(&value.item.name),
+        _ => None,
+    })
 }
 
 /// Reads the fields of a request or reply.
@@ -261,6 +255,7 @@ impl Fields<'_, '_, '_> {
             before.extend(field_names(message_field.as_slice()).cloned());
             fields.extend(message_field);
         }
+        counted(self.reader, &fields, list);
         fields
     }
 

@@ -22,11 +22,16 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
-/// Returns whether the default value of an item has the kind of its field: text or bytes for a byte string, and a number
-/// or Boolean for any other field. Also returns true if the item has no default value.
+/// Returns whether the default value of an item has the kind of its field: a text that fits and is in ISO 8859-1, or bytes
+/// that fit, for a byte string, and a number or Boolean for any other field. Also returns true if the item has no default
+/// value.
 pub(super) fn has_bytes(Parameter { item, field, .. }: &Parameter<'_>) -> bool {
     item.default.as_ref().is_none_or(|default| match (field.byte_string(), default) {
-        (Some(_), default) => matches!(default, Value::Text(_) | Value::Bytes(_)),
+        (Some(length), Value::Text(text)) => {
+            text.chars().count() <= length as usize && text.chars().all(|letter| u8::try_from(letter).is_ok())
+        }
+        (Some(length), Value::Bytes(bytes)) => bytes.len() <= length as usize,
+        (Some(_), _) => false,
         (None, default) => default.as_real().is_some() || default.as_int().is_some(),
     })
 }
