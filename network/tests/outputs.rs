@@ -10,8 +10,8 @@ use lexibus_codegen::ir::{Catalog, Value};
 use lexibus_codegen::source::Source;
 use lexibus_network::check::bus_load;
 use lexibus_network::compile::{compile, Compilation};
-use lexibus_network::output::{dcf, files, master_dcf, master_writes};
-use support::{compiled, entries, example_file, root};
+use lexibus_network::output::{dbc, dcf, files, master_dcf, master_writes};
+use support::{compiled, entries, example_file, root, valid};
 
 fn example() -> Compilation {
     let path = root().join("examples/network/network.toml");
@@ -76,7 +76,7 @@ fn the_master_knows_all_nodes() {
     let value = |index, sub_index| device.entry(index, sub_index).and_then(|item| item.initial()?.as_int());
     assert_eq!(value(0x1016, 1), Some(20 << 16 | 1500));
     assert_eq!(value(0x1F80, 0), Some(1));
-    assert_eq!(value(0x1F81, 1), Some(0x30D), "boot, mandatory, three attempts");
+    assert_eq!(value(0x1F81, 1), Some(0x30D), "boot, mandatory, retry factor 3");
     assert_eq!(value(0x1F81, 2), Some(0x305));
     assert_eq!(value(0x1F81, 3), None);
     assert_eq!(value(0x1F86, 20), Some(0x4023));
@@ -102,6 +102,20 @@ fn the_bus_load_is_that_of_all_cyclic_frames() {
     let expected = 100.0 * f64::from(55 + 2 * 115 + 95) + (3.0 * 10.0 + 2.0) * 65.0;
     assert!((load.bits_per_second() - expected).abs() < 1e-6, "{}", load.bits_per_second());
     assert_eq!(load.unbounded.len(), 5);
+}
+
+#[test]
+fn a_dbc_lists_each_receiver_once() {
+    let text = "[master]\nid = 127\n\n[nodes.axis1]\nid = 1\ndevice = \"drive.eds\"\n\
+                tpdo = { 1 = { map = [\"Statusword\"] }, 2 = { enabled = false } }\n\n[nodes.axis2]\nid = 2\n\
+                device = \"drive.eds\"\ntpdo = { 1 = { enabled = false }, 2 = { enabled = false } }\n\
+                rpdo = { 1 = { cob_id = \"axis1.tpdo1\", map = [\"Controlword\"] }, \
+                2 = { cob_id = \"axis1.tpdo1\", map = [\"Controlword\"] } }\n";
+    let files = [("drive.eds", example_file("drive.eds")), ("network.toml", text.to_owned())];
+    let bytes = dbc(valid(&compiled("dbc-receivers", &files)));
+    let text = String::from_utf8(bytes).expect("ASCII");
+    let message = text.split("BO_ ").find(|message| message.contains("axis1_TPDO1")).expect("a message");
+    assert!(message.contains("\"\" axis2,master\n"), "{message}");
 }
 
 #[test]
