@@ -135,6 +135,15 @@ fn a_cpj_writes_the_values_of_its_dcf() {
 }
 
 #[test]
+fn a_node_can_have_the_name_master_if_the_network_has_no_master() {
+    let project = "[Topology]\nNodes=0x01\nNode3Present=0x01\nNode3Name=master\nNode3DCFName=drive.eds\n";
+    let files_of = [("drive.eds", example_file("drive.eds")), ("line.cpj", project.to_owned())];
+    let compilation = compiled("cpj-master", &files_of);
+    let names: Vec<String> = files(valid(&compilation)).into_iter().map(|file| file.name).collect();
+    assert_eq!(names.iter().filter(|name| *name == "master.dcf").count(), 1, "{names:?}");
+}
+
+#[test]
 fn damaged_files_cause_no_panic() {
     let drive = example_file("drive.eds");
     let io = example_file("io.eds");
