@@ -94,9 +94,12 @@ impl Network {
         self.pdos(Direction::Transmit).chain(self.sent_by_master()).collect()
     }
 
-    /// Returns the node of each enabled RPDO that has the CAN-ID of `cob_id`.
+    /// Returns the nodes that have an enabled RPDO with the CAN-ID of `cob_id`, each once.
     pub fn receivers(&self, cob_id: u32) -> impl Iterator<Item = &NetworkNode> {
-        self.pdos(Direction::Receive).filter(move |(_, pdo)| pdo.can_id() == can_id(cob_id)).map(|(node, _)| node)
+        let is_received = move |pdo: &NetworkPdo| {
+            pdo.is_enabled && pdo.direction == Direction::Receive && pdo.can_id() == can_id(cob_id)
+        };
+        self.nodes.iter().filter(move |node| node.pdos.iter().any(is_received))
     }
 }
 

@@ -10,8 +10,8 @@ use lexibus_codegen::ir::{Catalog, Value};
 use lexibus_codegen::source::Source;
 use lexibus_network::check::bus_load;
 use lexibus_network::compile::{compile, Compilation};
-use lexibus_network::output::{dcf, files, master_dcf, master_writes};
-use support::{compiled, entries, example_file, root};
+use lexibus_network::output::{dbc, dcf, files, master_dcf, master_writes};
+use support::{compiled, entries, example_file, root, valid};
 
 fn example() -> Compilation {
     let path = root().join("examples/network/network.toml");
@@ -76,7 +76,7 @@ fn the_master_knows_all_nodes() {
     let value = |index, sub_index| device.entry(index, sub_index).and_then(|item| item.initial()?.as_int());
     assert_eq!(value(0x1016, 1), Some(20 << 16 | 1500));
     assert_eq!(value(0x1F80, 0), Some(1));
-    assert_eq!(value(0x1F81, 1), Some(0x30D), "boot, mandatory, three attempts");
+    assert_eq!(value(0x1F81, 1), Some(0x30D), "boot, mandatory, retry factor 3");
     assert_eq!(value(0x1F81, 2), Some(0x305));
     assert_eq!(value(0x1F81, 3), None);
     assert_eq!(value(0x1F86, 20), Some(0x4023));
@@ -105,6 +105,20 @@ fn the_bus_load_is_that_of_all_cyclic_frames() {
 }
 
 #[test]
+fn a_dbc_lists_each_receiver_once() {
+    let text = "[master]\nid = 127\n\n[nodes.axis1]\nid = 1\ndevice = \"drive.eds\"\n\
+                tpdo = { 1 = { map = [\"Statusword\"] }, 2 = { enabled = false } }\n\n[nodes.axis2]\nid = 2\n\
+                device = \"drive.eds\"\ntpdo = { 1 = { enabled = false }, 2 = { enabled = false } }\n\
+                rpdo = { 1 = { cob_id = \"axis1.tpdo1\", map = [\"Controlword\"] }, \
+                2 = { cob_id = \"axis1.tpdo1\", map = [\"Controlword\"] } }\n";
+    let files = [("drive.eds", example_file("drive.eds")), ("network.toml", text.to_owned())];
+    let bytes = dbc(valid(&compiled("dbc-receivers", &files)));
+    let text = String::from_utf8(bytes).expect("ASCII");
+    let message = text.split("BO_ ").find(|message| message.contains("axis1_TPDO1")).expect("a message");
+    assert!(message.contains("\"\" axis2,master\n"), "{message}");
+}
+
+#[test]
 fn a_cpj_writes_the_values_of_its_dcf() {
     let drive = example_file("drive.eds");
     let of = "[6081]\r\nParameterName=Profile velocity\r\n";
@@ -118,6 +132,15 @@ fn a_cpj_writes_the_values_of_its_dcf() {
     let bin = files.iter().find(|file| file.name == "axis.bin").expect("a concise DCF");
     assert_eq!(entries(&bin.content), [(0x6081, 0, vec![0xD2, 0x04, 0, 0])]);
     assert!(files.iter().all(|file| file.name != "master.dcf"), "a .cpj has no master");
+}
+
+#[test]
+fn a_node_can_have_the_name_master_if_the_network_has_no_master() {
+    let project = "[Topology]\nNodes=0x01\nNode3Present=0x01\nNode3Name=master\nNode3DCFName=drive.eds\n";
+    let files_of = [("drive.eds", example_file("drive.eds")), ("line.cpj", project.to_owned())];
+    let compilation = compiled("cpj-master", &files_of);
+    let names: Vec<String> = files(valid(&compilation)).into_iter().map(|file| file.name).collect();
+    assert_eq!(names.iter().filter(|name| *name == "master.dcf").count(), 1, "{names:?}");
 }
 
 #[test]

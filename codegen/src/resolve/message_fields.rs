@@ -4,6 +4,7 @@ use crate::collections::HashMap;
 use crate::ir::owner::Owner;
 use crate::ir::{
     CompactString, Completion, Device, FieldId, Message, MessageField, MessageId, MessageValue, PolledCommand, Shape,
+    Value,
 };
 
 /// Sets the ids of the references to fields, and the commands of polled values. A field of a reply can copy a value of the
@@ -29,39 +30,60 @@ fn polled(device: &mut Device) {
         return;
     }
     let owner = Owner::of_types(&device.types);
-    for field in device.messages.iter_mut().flat_map(|message| &mut message.reply) {
-        if let MessageField::Value(value) = field {
-            value.completes = commands.of(value, owner);
+    for (id, message) in (0..).map(MessageId).zip(&mut device.messages) {
+        for field in &mut message.reply {
+            if let MessageField::Value(value) = field {
+                value.completes = commands.of(id, value, owner);
+            }
         }
     }
 }
 
-/// The first command that polls each item or field, with the name of the polled bit, if any.
-struct Commands(HashMap<CompactString, (MessageId, Option<CompactString>)>);
+/// A command that polls a value, and the condition that completes it.
+struct Polling {
+    command: MessageId,
+    condition: Condition,
+}
+
+#[derive(PartialEq)]
+struct Condition {
+    /// Name of the polled bit.
+    bit: Option<CompactString>,
+    mask: Option<u64>,
+    expected: Option<Value>,
+}
+
+/// The commands that poll each item or field, in the order of the messages.
+struct Commands(HashMap<CompactString, Vec<Polling>>);
 
 impl Commands {
     fn new(messages: &[Message]) -> Self {
-        let mut all = HashMap::default();
-        for (id, message) in (0..).map(MessageId).zip(messages) {
-            let Completion::Polled { item, .. } = &message.completion else { continue };
+        let mut all = HashMap::<CompactString, Vec<Polling>>::default();
+        for (command, message) in (0..).map(MessageId).zip(messages) {
+            let Completion::Polled { item, mask, value, .. } = &message.completion else { continue };
             let (field, bit) = match item.split_once('.') {
                 Some((field, bit)) => (field, Some(bit.into())),
                 None => (item.as_str(), None),
             };
-            all.entry(field.into()).or_insert((id, bit));
+            let condition = Condition { bit, mask: *mask, expected: value.clone() };
+            all.entry(field.into()).or_default().push(Polling { command, condition });
         }
         Commands(all)
     }
 
-    /// Returns the first command that polls `value`. Returns `None` if no command polls the value, or if the type of the value does
-    /// not have the bit that the command polls.
-    fn of(&self, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
-        let (message, bit) = self.0.get(&value.item.name)?;
-        let bits = match bit {
+    /// Returns the command that polls `value`, a value in the reply to the message `replied`: this message itself or, if all commands
+    /// that poll the value have the same condition, the first of them. Returns `None` if there is no such command, or if the type of the
+    /// value does not have the bit that the command polls.
+    fn of(&self, replied: MessageId, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
+        let all = self.0.get(&value.item.name)?;
+        let own = all.iter().find(|polling| polling.command == replied);
+        let common = all.first().filter(|first| all.iter().all(|polling| polling.condition == first.condition));
+        let Polling { command, condition } = own.or(common)?;
+        let bits = match &condition.bit {
             Some(bit) => Some(position_of_bits(bit, value, owner)?),
             None => None,
         };
-        Some(PolledCommand { message: *message, bits })
+        Some(PolledCommand { message: *command, bits })
     }
 }
 
@@ -197,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn values_in_replies_refer_to_the_first_command_that_polls_them() {
+    fn values_in_replies_refer_to_the_command_that_polls_them() {
         let field = |name: &str, offset| BitFieldEntry::new(name.into(), offset, 1, BitMeaning::Number);
         let fields = vec![field("error", 0), field("done", 1)];
         let status = TypeDef::new("Status", Shape::BitField { base: Type::Unsigned(8), fields }, Some(8));
@@ -205,15 +227,29 @@ mod tests {
         let messages = vec![
             polling("status.done", "status", Type::Unsigned(8)),
             polling("position", "position", Type::Unsigned(8)),
-            polling("position", "status", named),
-            polling("status.error", "position", named),
-            polling("elsewhere", "speed", named),
+            polling("elsewhere", "status", named),
+            polling("position", "position", named),
+            polling("status.done", "speed", named),
         ];
         let mut device = Device { messages, types: vec![status], ..Device::default() };
         run(&mut device);
         let values = device.messages.iter().flat_map(Message::values);
         let command = |message, bits| Some(PolledCommand { message: MessageId(message), bits });
-        let expected = [None, command(1, None), command(0, Some(1)), command(1, None), None];
+        let expected = [None, command(1, None), command(0, Some(1)), command(3, None), None];
         assert_eq!(values.map(|value| value.completes).collect::<Vec<_>>(), expected);
+    }
+
+    /// Without the command of the reply, a value cannot indicate which of several conditions is met.
+    #[test]
+    fn values_with_several_conditions_refer_only_to_the_command_of_their_reply() {
+        let mut messages = [("status", "status"), ("status", "status"), ("speed", "status")]
+            .map(|(item, field)| polling(item, field, Type::Unsigned(8)));
+        if let Completion::Polled { mask, .. } = &mut messages[1].completion {
+            *mask = Some(2);
+        }
+        let mut device = Device { messages: messages.into(), ..Device::default() };
+        run(&mut device);
+        let commands = device.messages.iter().flat_map(Message::values).map(|value| Some(value.completes?.message.0));
+        assert_eq!(commands.collect::<Vec<_>>(), [Some(0), Some(1), None]);
     }
 }

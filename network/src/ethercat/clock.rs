@@ -114,6 +114,22 @@ mod tests {
     }
 
     #[test]
+    fn sync1_depends_on_the_cycle_of_sync0() {
+        let sync1 =
+            |sync0, assign_activate| {
+                let [cycle_sync0, cycle_sync1] = [(sync0, None), (1_000, Some(2))]
+                    .map(|(nanoseconds, factor)| ClockTime { nanoseconds, factor, input: false });
+                let mode = ClockMode { assign_activate, cycle_sync0, cycle_sync1, ..ClockMode::default() };
+                clock(&mode, 2_000_000).sync1.cycle_time
+            };
+        assert_eq!(sync1(500_000, 0x0700), 1_001_000);
+        // An active SYNC0 without a time has the cycle time of the segment.
+        assert_eq!(sync1(0, 0x0700), 4_001_000);
+        // Without SYNC0, the factor has no effect.
+        assert_eq!(sync1(0, 0x0500), 1_000);
+    }
+
+    #[test]
     fn an_active_sync0_without_times_has_the_cycle_of_the_segment() {
         let mode = ClockMode { assign_activate: 0x0700, ..ClockMode::default() };
         assert!(depends_on_cycle(&mode));

@@ -13,7 +13,7 @@ mod startup;
 mod sync_managers;
 
 pub use declared::{DeclaredModule, DeclaredSegment, DeclaredSubDevice};
-pub(crate) use frontend::{read, SECTION, SUBDEVICE};
+pub(crate) use frontend::{read, MODULE, SECTION, SUBDEVICE};
 pub(crate) use resolve::resolve;
 pub(crate) use segment::direction_name;
 pub use segment::{

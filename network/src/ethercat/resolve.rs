@@ -78,7 +78,7 @@ fn subdevice(
     let parameters = parameters::resolve(device, &plugged, &module_objects, declared, diagnostics);
     let sync_managers = sync_managers::sync_managers(device, &placed);
     let startup = Startup { device, plugged: &plugged, placed: &placed, parameters: &parameters };
-    let (startup, fmmus) = (startup.commands(), sync_managers::fmmus(device, &sync_managers));
+    let (startup, fmmus) = (startup.commands(), sync_managers::fmmus(device, &placed));
     SubDevice {
         name: declared.name.value.clone(),
         position,

@@ -29,16 +29,15 @@ fn sync_manager(manager: &ir::SyncManager, placed: &[Placed<'_>]) -> SyncManager
     }
 }
 
-/// Returns an FMMU for each sync manager with process data: the first free FMMU that the description declares for the purpose of the sync
-/// manager or, if there is none, the first free FMMU after the declared ones. The logical addresses are 0.
-pub(super) fn fmmus(device: &Device, sync_managers: &[SyncManager]) -> Vec<Fmmu> {
+/// Returns an FMMU for each sync manager with process data, also for those that exist only in the description: the first free FMMU
+/// that the description declares for the purpose of the sync manager or, if there is none, the first free FMMU after the declared ones.
+/// The logical addresses are 0.
+pub(super) fn fmmus(device: &Device, placed: &[Placed<'_>]) -> Vec<Fmmu> {
     let declared = device.ethercat.as_ref().map_or(&[][..], |settings| &settings.fmmus);
     let mut fmmus: Vec<Fmmu> = Vec::new();
-    let described = |number: u8| device.process_data.sync_managers.iter().find(|manager| manager.number == number);
-    for manager in sync_managers.iter().filter(|manager| manager.length > 0) {
-        let Some(direction) = described(manager.number).and_then(|manager| direction(manager.purpose)) else {
-            continue;
-        };
+    let described = device.process_data.sync_managers.iter();
+    let of_data = described.filter_map(|manager| Some((sync_manager(manager, placed), direction(manager.purpose)?)));
+    for (manager, direction) in of_data.filter(|(manager, _)| manager.length > 0) {
         let is_free = |number: usize| fmmus.iter().all(|fmmu| usize::from(fmmu.number) != number);
         let maps = |fmmu: &ir::Fmmu| {
             fmmu.purpose == manager.purpose && fmmu.sync_manager.is_none_or(|number| number == manager.number)

@@ -91,7 +91,7 @@ static NODE: Section = Section {
         "manufacturer_hardware_version" VERSION, "Expected text of 0x1009, which `boot` compares.";
         "manufacturer_software_version" VERSION, "Expected text of 0x100A, which `boot` compares.";
         "restore_configuration" U8, "Sub-index of 0x1011 that the master writes before the configuration.";
-        "retry_factor" U8, "Number of attempts to boot the node.";
+        "retry_factor" U8, "Number of guarding requests without a response after which the master reports a node guarding event (0x1F81, bits 8 to 15).";
         "store" Form::Flag, "True if `boot` stores the configuration in the node (0x1010), and then writes its date to 0x1020.";
     },
 };
@@ -110,7 +110,8 @@ static PDO: Section = Section {
     },
 };
 
-static SECTIONS: [&Section; 7] = [&FILE, &NETWORK, &MASTER, &NODE, &PDO, &ethercat::SECTION, &ethercat::SUBDEVICE];
+static SECTIONS: [&Section; 8] =
+    [&FILE, &NETWORK, &MASTER, &NODE, &PDO, &ethercat::SECTION, &ethercat::SUBDEVICE, &ethercat::MODULE];
 
 const NAMES: Names = Names { id: "id", heartbeat: "heartbeat", mapping: "map" };
 

@@ -64,11 +64,12 @@ impl Reader<'_> {
         let other = self.sections.iter().find(has);
         let known = section.keys.iter().map(|known| known.name);
         let diagnostic = match (other, similar(key, known.clone())) {
-            (Some(other), _) => {
+            (Some(other), similar) => {
                 let message = format!("the key `{}` is in the wrong section", key.value);
+                let or_similar = similar.map_or(String::new(), |name| format!(", or write `{name}`"));
                 Diagnostic::new(&codes::MISPLACED_KEY, key.span, message)
                     .label(format!("this is {}", section.name))
-                    .help(format!("move the key to {}", other.name))
+                    .help(format!("move the key to {}{or_similar}", other.name))
             }
             (None, Some(name)) => self.no_such_key(key, section).help(format!("write `{name}`")),
             (None, None) => {

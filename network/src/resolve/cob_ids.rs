@@ -52,8 +52,8 @@ impl CobIds {
         ids
     }
 
-    /// Assigns the COB-ID of another node's TPDO to a PDO. Reports a TPDO that does not exist, or that bit 31 of its COB-ID
-    /// disables.
+    /// Assigns the COB-ID of another node's TPDO to a PDO. Reports a TPDO that does not exist. Reports a disabled TPDO unless the
+    /// file disables both PDOs.
     fn receive(
         &mut self,
         node: &DescribedNode<'_>,
@@ -62,7 +62,7 @@ impl CobIds {
         diagnostics: &mut Diagnostics,
     ) {
         let Some(At { value: DeclaredCobId::Of(sender, number), span }) = &declared.cob_id else { return };
-        if let Some(cob_id) = self.sent(sender, *number, nodes) {
+        if let Some(cob_id) = self.sent(sender, *number, nodes, declared.enabled) {
             self.0.insert(key(node, declared), cob_id);
             return;
         }
@@ -80,9 +80,12 @@ impl CobIds {
     }
 
     /// Returns the COB-ID of a TPDO, without bit 30. Returns `None` if the TPDO does not exist or has no COB-ID, or if bit 31
-    /// of the COB-ID disables it.
-    fn sent(&self, name: &str, number: u16, nodes: &[DescribedNode<'_>]) -> Option<u32> {
+    /// of the COB-ID disables it. If `is_needed`, also returns `None` if the file disables the TPDO.
+    fn sent(&self, name: &str, number: u16, nodes: &[DescribedNode<'_>], is_needed: bool) -> Option<u32> {
         let node = nodes.iter().find(|node| node.name() == name)?;
+        if is_needed && is_disabled(node, number) {
+            return None;
+        }
         let cob_id = self.last(node, Direction::Transmit, number).filter(|cob_id| cob_id & DISABLED == 0)?;
         // Bit 30 has a meaning only in the COB-ID of a TPDO.
         Some(cob_id & 0x3FFF_FFFF)
@@ -108,6 +111,12 @@ impl CobIds {
         }
         used
     }
+}
+
+/// Returns whether the file disables a TPDO, and `parameters` do not set its COB-ID.
+fn is_disabled(node: &DescribedNode<'_>, number: u16) -> bool {
+    let is_set = node.values().is_set((communication_index(Direction::Transmit, number), 1));
+    !is_set && node.declared.pdos.iter().any(|pdo| pdo.is_tpdo && pdo.number.value == number && !pdo.enabled)
 }
 
 fn key(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Key {

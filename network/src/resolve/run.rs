@@ -60,18 +60,21 @@ fn consumes(nodes: &[DeclaredNode], name: &str) -> bool {
     nodes.iter().any(|node| node.name.value == name && node.consumes_heartbeat)
 }
 
-/// Reports nodes whose output files would have the name of an earlier node, `master` or `network`. Ignores case. Returns the locations of
-/// the names of these nodes.
+/// Reports nodes whose output files would have the name of an earlier node, of the master or of the network. Ignores case. Returns
+/// the locations of the names of these nodes.
 fn check_names(declared: &DeclaredNetwork, diagnostics: &mut Diagnostics) -> Vec<Span> {
-    let mut known = BTreeMap::from([("master".to_owned(), Span::MISSING), ("network".to_owned(), Span::MISSING)]);
+    let reserved = |stem: &str, owner: &str| (stem.to_owned(), (owner.to_owned(), Span::MISSING));
+    let mut known = BTreeMap::from([reserved("network", "the network")]);
+    known.extend(declared.master.as_ref().map(|_| reserved("master", "the master")));
     let mut repeated = Vec::new();
     for node in &declared.nodes {
+        let name = format!("the node `{}`", node.name.value);
         let stem = file_stem(&node.name.value).to_lowercase();
-        let Some(other) = known.insert(stem.clone(), node.name.span) else { continue };
-        let message = format!("the output files of the node `{}` would overwrite other output files", node.name.value);
+        let Some((other, span)) = known.insert(stem.clone(), (name.clone(), node.name.span)) else { continue };
+        let message = format!("the output files of {name} would share a file name with those of {other}");
         let found = Diagnostic::new(&codes::NETWORK_VALUE, node.name.span, message)
             .label(format!("the file name `{stem}` is in use"));
-        let found = if other.is_empty() { found } else { found.note_at(other, "the other node is here") };
+        let found = if span.is_empty() { found } else { found.note_at(span, format!("{other} is here")) };
         diagnostics.push(found.help("give the node another name"));
         repeated.push(node.name.span);
     }

@@ -93,6 +93,29 @@ rpdo = { 1 = { cob_id = "axis1.tpdo1", map = ["Target position"] } }
 }
 
 #[test]
+fn only_an_enabled_rpdo_needs_an_enabled_tpdo() {
+    let compile = |tpdo: &str, rpdo: &str, parameters: &str| {
+        let text = format!(
+            "[master]\nid = 127\n\n[nodes.axis1]\nid = 1\ndevice = \"drive.eds\"\ntpdo = {{ 1 = {{ {tpdo} }} }}\n\
+             parameters = {{ {parameters} }}\n\n[nodes.axis2]\nid = 2\ndevice = \"drive.eds\"\n\
+             rpdo = {{ 1 = {{ {rpdo} cob_id = \"axis1.tpdo1\", map = [\"Target position\"] }} }}\n"
+        );
+        compiled("cob-ids-enabled", &[("drive.eds", example_file("drive.eds")), ("network.toml", text)])
+    };
+    let tpdo = |enabled| format!("enabled = {enabled}, map = [\"Position actual value\"]");
+    let found = messages(&compile(&tpdo(false), "", ""));
+    assert_eq!(found, ["NET015 TPDO 1 of `axis1` is missing or disabled"]);
+    for (enabled, rpdo, parameters, cob_id) in [
+        (true, "", "", 0x181),
+        (false, "enabled = false,", "", 0x8000_0181),
+        (false, "", "\"0x1800:1\" = 0x1C1", 0x1C1),
+    ] {
+        let compilation = compile(&tpdo(enabled), rpdo, parameters);
+        assert_eq!(written(node(valid(&compilation), "axis2"), (0x1400, 1)).last(), Some(&cob_id), "{rpdo}");
+    }
+}
+
+#[test]
 fn the_cob_id_of_time_is_not_restricted() {
     let compile = |cob_id: &str| {
         let text =

@@ -211,6 +211,24 @@ fn logical_addresses_are_outputs_then_inputs() {
     assert_eq!(segment.subdevices.iter().map(|one| one.alias).collect::<Vec<_>>(), [0, 0, 7]);
 }
 
+/// A virtual sync manager describes a memory area without a sync manager of the controller. Only an FMMU maps the area.
+#[test]
+fn a_virtual_sync_manager_has_an_fmmu() {
+    let text = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("a description");
+    let inputs = "<Sm DefaultSize=\"7\"";
+    assert_eq!(text.matches(inputs).count(), 1);
+    let text = text.replace(inputs, "<Sm Virtual=\"1\" DefaultSize=\"7\"");
+    let network = format!("[segment]\ncycle = 1000\n[segment.subdevices.axis]\n{DRIVE}");
+    let compilation = compiled("segment-virtual", &[("coupler.esi.xml", text), ("network.toml", network)]);
+    let segment = segment(&compilation);
+    let axis = &segment.subdevices[0];
+    assert_eq!(axis.sync_managers.iter().map(|one| one.number).collect::<Vec<_>>(), [0, 1, 2]);
+    let fmmus = axis.fmmus.iter();
+    let fmmus: Vec<_> = fmmus.map(|one| (one.number, one.sync_manager, one.length, one.physical_address)).collect();
+    assert_eq!(fmmus, [(0, 2, 6, 0x1100), (1, 3, 7, 0x1400)]);
+    assert_eq!((segment.output_bytes, segment.input_bytes), (6, 7));
+}
+
 /// Returns the start address, length, control register and enable bit of each sync manager in an SII image.
 fn sii_sync_managers(image: &[u8]) -> Vec<(u16, u16, u8, bool)> {
     let word = |at: usize| u16::from_le_bytes([image[at], image[at + 1]]);
@@ -300,6 +318,15 @@ fn invalid_modules_are_reported() {
     assert_eq!(drive, ["NET025 `SV-1 servo drive` has no slot 0"]);
     assert_eq!(of("{ 1 = \"AI-2\", 01 = \"DO-8\" }"), ["NET025 slot 1 has several modules"]);
     assert_eq!(of("{ 0 = \"DI-16\", 1 = { parameters = {} } }"), ["NET004 the table of a module has no key `module`"]);
+}
+
+#[test]
+fn a_misplaced_key_of_a_module_is_reported() {
+    let compilation =
+        network("misplaced", &format!("[segment.subdevices.one]\n{DRIVE}dc = \"SM\"\nmodule = \"DI-16\"\n"));
+    let found = &compilation.diagnostics.list()[0];
+    assert_eq!((found.code.id, found.message.as_str()), ("NET003", "the key `module` is in the wrong section"));
+    assert_eq!(found.help.as_deref(), Some("move the key to the table of a module, or write `modules`"));
 }
 
 /// A mapping object describes the padding before a group of modules. It has at most 254 entries of at most 255 bits.
