@@ -11,8 +11,8 @@ input=${1:-}
 runs=${2:-7}
 target=${CARGO_TARGET_DIR:-target}
 cargo build --quiet --release -p lexibus-cli
-cargo check --quiet --release -p lexibus
-runtime=$(ls -t "$target"/release/deps/liblexibus-*.rmeta | head -n 1)
+# The command line needs a runtime with more features and dependencies, so the file name comes from Cargo.
+runtime=$(cargo check --quiet --release -p lexibus --message-format json | grep -o '"[^"]*/liblexibus-[^"]*\.rmeta"' | tail -n 1 | tr -d '"')
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if [[ -z $input ]]; then
@@ -26,7 +26,7 @@ fi
 median_ms() { # SOURCE
     for _ in $(seq "$runs"); do
         local start=$(date +%s%N)
-        rustc --edition 2021 --crate-type lib --emit=metadata -o "$work/out.rmeta" --extern lexibus="$runtime" "$1"
+        rustc --edition 2021 --crate-type lib --emit=metadata -o "$work/out.rmeta" --extern lexibus="$runtime" "$1" || return
         echo $((($(date +%s%N) - start) / 1000))
     done | sort -n | sed -n "$(((runs + 1) / 2))p"
 }
