@@ -27,7 +27,8 @@ impl Compilation {
     }
 }
 
-/// Compiles a network file. Relative paths of descriptions refer to a folder that the file declares, or to the folder of the file.
+/// Compiles a network file. Relative paths of descriptions are looked up in the folders that the network file declares, and
+/// then in the folder of the network file.
 pub fn compile(source: Source, levels: Levels) -> Compilation {
     let mut diagnostics = Diagnostics::new(levels);
     let declared = frontend::read(&source, FileId(0), &mut diagnostics);

@@ -23,7 +23,7 @@ pub struct Values<'a> {
     pub device: &'a Device,
     /// Node-ID, for values that depend on it.
     pub id: u8,
-    /// Values that are written, in their order.
+    /// Values that are written, in the order of the writes.
     pub writes: &'a [Write],
 }
 

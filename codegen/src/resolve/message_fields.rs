@@ -164,7 +164,8 @@ mod tests {
         MessageField::Repeat { count: Some(count.into()), max: None, fields }
     }
 
-    /// Returns the position to which each reference refers, or `None` if it is not resolved, in the order of the fields.
+    /// Returns the positions of the referenced fields, one for each reference in the order of the fields. An unresolved
+    /// reference has `None`.
     fn targets(fields: &[MessageField]) -> Vec<Option<u32>> {
         let mut all = Vec::new();
         for field in fields {

@@ -14,10 +14,12 @@ use crate::parameter::Parameter;
 use crate::protection::Protection;
 use crate::write::Write;
 
-/// Returns the writes in the order in which the device gets them. On CANopen, this is the order of CiA 301: disable
-/// PDOs, write the communication parameters and all other parameters, write the mappings and the parameters of PDOs,
-/// enable PDOs. On Modbus, it is the order of the description. Protected parameters that the caller named, except objects
-/// of PDOs, come after these, first those that don't set the node-ID or the bit rate.
+/// Returns the writes in the order in which the device gets them. On CANopen, the PDOs are disabled first and enabled last,
+/// because a mapping can be changed only while the PDO is disabled (CiA 301). Between these steps, the order is:
+/// communication parameters except those of PDOs, all other parameters, PDO mappings, communication parameters of PDOs.
+///
+/// On Modbus, the order is that of the description. Protected parameters that the caller named, except objects of PDOs, come
+/// after these, first those that don't set the node-ID or the bit rate.
 ///
 /// The values of a PDO are left out if one of them is refused, or if the COB-ID or a mapping entry is missing.
 ///

@@ -1,4 +1,4 @@
-//! Bus load: bits per second of all cyclic frames, with the largest number of stuff bits.
+//! Bus load: bits per second of all cyclic frames, with the maximum number of stuff bits.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::ir::Direction;

@@ -30,8 +30,9 @@ pub(super) struct Startup<'d> {
 }
 
 impl Startup<'_> {
-    /// Returns the start-up commands. The order within a transition is that of `lexibus::ethercat::SlotPlan::commands`: module idents, commands
-    /// of the device, commands of the modules, and, at the transition PS, PDO mappings and PDO assignment. `parameters` follow.
+    /// Returns the start-up commands. Within a transition, the order is that of `lexibus::ethercat::SlotPlan::commands`:
+    /// module idents, commands of the device, commands of the modules. At the transition PS, PDO mappings, PDO
+    /// assignment and `parameters` follow.
     pub fn commands(&self) -> Vec<StartupCommand> {
         let mut commands = Vec::new();
         for transition in TRANSITIONS {

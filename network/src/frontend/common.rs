@@ -68,7 +68,7 @@ fn error_behavior(reader: &mut Reader<'_>, table: Table<'_>) -> Vec<At<(u8, u8)>
     entries.iter().filter_map(entry).collect()
 }
 
-/// Returns the number in `range` that is the name of a key, or reports the key.
+/// Returns the key of `entry` as a number. If it is not a number in `range`, reports the key and returns `None`.
 pub(crate) fn numbered(reader: &mut Reader<'_>, entry: &Entry, what: &str, range: RangeInclusive<u16>) -> Option<u16> {
     let number = entry.key.parse().ok().filter(|number| range.contains(number));
     if number.is_none() {

@@ -1,4 +1,5 @@
-//! Decodes random frames with `cantools` and the exported DBC, and compares the physical values with those of the device descriptions.
+//! Decodes random frames with `cantools` and the exported DBC, and compares the physical values with the values computed
+//! from the device descriptions.
 //!
 //! The expected values are computed from the mapping, types and scales of the objects. In the full lane, a second test compares `cantools`
 //! with the generated Rust. If the corpus or a Python with `cantools` is missing, a test that needs it prints a
@@ -35,7 +36,7 @@ struct Verdict {
     differences: Vec<String>,
 }
 
-/// Number of frames of each PDO.
+/// Returns the number of random frames for each PDO.
 fn frames() -> usize {
     if lane::is_full() {
         10_000

@@ -1,5 +1,4 @@
-//! Exports the slave information interface of an EtherCAT slave: the content of its EEPROM (SII, ETG.1000.6 5.4,
-//! ETG.2010).
+//! Exports the slave information interface (SII) of an EtherCAT slave: the content of its EEPROM (ETG.1000.6 5.4, ETG.2010).
 //!
 //! The image consists of a configuration area, categories, and bytes 0xFF up to the size of the EEPROM. If an ESI contains
 //! the whole content of the EEPROM, the export returns this content unchanged.

@@ -38,8 +38,8 @@ pub(super) fn fmmus(context: &mut Context<'_>) -> Vec<u8> {
     bytes
 }
 
-/// Returns the sync managers, eight bytes for each sync manager. A number without a sync manager, below the
-/// highest number, becomes an unused sync manager.
+/// Returns the sync managers, eight bytes for each sync manager. Gaps in the sync manager numbers are filled with unused
+/// sync managers, whose bytes are all 0.
 pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let assigned = context.device.process_data.assigned_by_default();

@@ -14,7 +14,7 @@ pub struct Usage {
     pub pdos: HashMap<(u16, Option<ObjectBuses>), String>,
 }
 
-/// The records of a PROFINET submodule in the generated code, for documentation.
+/// The calls and default bytes for the records of a PROFINET submodule, for documentation.
 #[derive(Clone, Debug, Default)]
 pub struct RecordUsage {
     /// Code that reads and writes the items. In this code, the variable `records` is a `RecordAccess`, and `address` is

@@ -52,8 +52,8 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// Returns the byte position at which the checksum starts: the offset of the first checked field in the first request in
-/// which this offset is fixed.
+/// Returns the byte offset of the first field that the checksum covers, from the first request in which this offset is
+/// fixed. Returns `None` if there is no such request.
 fn check_start(shaped: &[Shaped<'_>]) -> Option<u32> {
     shaped.iter().find_map(|shape| shape.request.byte_offset(shape.message.check_from?))
 }
