@@ -103,7 +103,7 @@ fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>
     if bits.is_none() {
         let message = unmappable(item, address, direction);
         let found = Diagnostic::new(&codes::UNMAPPABLE_OBJECT, object.span, message);
-        writer.diagnostics.push(found.label("its type has no fixed length"));
+        writer.diagnostics.push(found.label("its type has no fixed length from 1 to 255 bits"));
     }
     Some(MappedObject { index: address.0, sub_index: address.1, bits: u8::try_from(bits?).ok()? })
 }
