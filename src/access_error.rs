@@ -83,28 +83,28 @@ fn bits(value: RawValue) -> (Form, u64) {
 }
 
 /// Name and address of the item that the failed access reads or writes.
-pub(crate) type Place = (&'static str, Option<BusAddress>);
+pub(crate) type AccessedItem = (&'static str, Option<BusAddress>);
 
 // The constructors are always inlined, so that the compiler removes the parts of an error that the program doesn't use,
 // with the name of the item. An outlined function would store all of them.
 impl<E> AccessError<E> {
     #[inline]
-    const fn new(error: Error<E>, place: Place, access: Access, form: Form, numbers: [u64; 3]) -> Self {
-        Self { error, name: place.0, address: place.1, access, form, numbers }
+    const fn new(error: Error<E>, item: AccessedItem, access: Access, form: Form, numbers: [u64; 3]) -> Self {
+        Self { error, name: item.0, address: item.1, access, form, numbers }
     }
 
     /// Creates the error for a failed read.
     #[inline(always)]
-    pub(crate) fn read(error: Error<E>, place: Place) -> Self {
-        Self::new(error, place, Access::Read, Form::Unsigned, [0; 3])
+    pub(crate) fn read(error: Error<E>, item: AccessedItem) -> Self {
+        Self::new(error, item, Access::Read, Form::Unsigned, [0; 3])
     }
 
     /// Creates the error for a failed write. `value` is `None` if the value isn't a number.
     #[inline(always)]
-    pub(crate) fn write(error: Error<E>, place: Place, value: Option<RawValue>) -> Self {
+    pub(crate) fn write(error: Error<E>, item: AccessedItem, value: Option<RawValue>) -> Self {
         match value.map(bits) {
-            Some((form, value)) => Self::new(error, place, Access::WriteNumber, form, [value, 0, 0]),
-            None => Self::new(error, place, Access::Write, Form::Unsigned, [0; 3]),
+            Some((form, value)) => Self::new(error, item, Access::WriteNumber, form, [value, 0, 0]),
+            None => Self::new(error, item, Access::Write, Form::Unsigned, [0; 3]),
         }
     }
 
@@ -115,20 +115,20 @@ impl<E> AccessError<E> {
 
     /// Creates the error for a write whose value is not in the range of the item, or doesn't fit its type.
     #[inline(always)]
-    pub(crate) fn out_of_range(place: Place, value: Option<RawValue>, limits: Option<[RawValue; 2]>) -> Self {
+    pub(crate) fn out_of_range(item: AccessedItem, value: Option<RawValue>, limits: Option<[RawValue; 2]>) -> Self {
         let error = OutOfRange.into();
-        let (Some(value), Some(limits)) = (value, limits) else { return Self::write(error, place, value) };
+        let (Some(value), Some(limits)) = (value, limits) else { return Self::write(error, item, value) };
         let (form, value) = bits(value);
-        Self::new(error, place, Access::OutOfRange, form, [value, bits(limits[0]).1, bits(limits[1]).1])
+        Self::new(error, item, Access::OutOfRange, form, [value, bits(limits[0]).1, bits(limits[1]).1])
     }
 
     /// Creates the error for a write whose physical value has no raw value.
     #[inline(always)]
-    pub(crate) fn unscalable(place: Place, physical: f64, limits: Option<[RawValue; 2]>) -> Self {
+    pub(crate) fn unscalable(item: AccessedItem, physical: f64, limits: Option<[RawValue; 2]>) -> Self {
         let error = OutOfRange.into();
-        let Some([low, high]) = limits else { return Self::write(error, place, None) };
+        let Some([low, high]) = limits else { return Self::write(error, item, None) };
         let (form, low) = bits(low);
-        Self::new(error, place, Access::Unscalable, form, [physical.to_bits(), low, bits(high).1])
+        Self::new(error, item, Access::Unscalable, form, [physical.to_bits(), low, bits(high).1])
     }
 }
 

@@ -7,7 +7,7 @@ mod text;
 
 use core::fmt;
 
-use crate::access_error::{AccessError, Place};
+use crate::access_error::{AccessError, AccessedItem};
 use crate::bus::Bus;
 use crate::bus_address::BusAddress;
 use crate::client::{AsyncClient, Client};
@@ -62,7 +62,7 @@ impl<C, V: Value, A, L> Accessor<'_, C, V, A, L> {
     /// Returns the name and the address of the item for an error. The function is always inlined, so that the compiler
     /// doesn't have to store the whole item.
     #[inline(always)]
-    fn place(&self, address: Option<BusAddress>) -> Place {
+    fn accessed(&self, address: Option<BusAddress>) -> AccessedItem {
         (self.item.name(), address)
     }
 
@@ -71,7 +71,7 @@ impl<C, V: Value, A, L> Accessor<'_, C, V, A, L> {
     where
         L: On<B, Route: ReadRoute<B>>,
     {
-        AccessError::read(error, self.place(self.item.location().route().read_address()))
+        AccessError::read(error, self.accessed(self.item.location().route().read_address()))
     }
 
     #[inline(always)]
@@ -79,7 +79,7 @@ impl<C, V: Value, A, L> Accessor<'_, C, V, A, L> {
     where
         L: On<B, Route: WriteRoute<B>>,
     {
-        AccessError::write(error, self.place(self.item.location().route().write_address()), value)
+        AccessError::write(error, self.accessed(self.item.location().route().write_address()), value)
     }
 }
 
