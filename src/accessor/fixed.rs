@@ -161,8 +161,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     where
         L: On<B, Route: WriteRoute<B>>,
     {
-        let place = self.place(self.item.location().route().write_address());
-        AccessError::out_of_range(place, V::raw_value(value), limits::<V>(self.item.range()))
+        let accessed = self.accessed(self.item.location().route().write_address());
+        AccessError::out_of_range(accessed, V::raw_value(value), limits::<V>(self.item.range()))
     }
 }
 

@@ -21,8 +21,8 @@ impl<C, V: Quantity, A, L> Accessor<'_, C, V, A, L> {
         L: On<B, Route: WriteRoute<B>>,
     {
         V::raw(physical, other).map_err(|OutOfRange| {
-            let place = self.place(self.item.location().route().write_address());
-            AccessError::unscalable(place, physical, limits::<V>(self.item.range()))
+            let accessed = self.accessed(self.item.location().route().write_address());
+            AccessError::unscalable(accessed, physical, limits::<V>(self.item.range()))
         })
     }
 }
