@@ -1,4 +1,4 @@
-//! Output files of the example network and of other networks of its devices.
+//! Tests for the output files of the example network, and of other networks with the same devices.
 
 mod support;
 
@@ -20,7 +20,7 @@ fn example() -> Compilation {
     compilation
 }
 
-/// Returns the catalog of an exported file, which must have no diagnostics.
+/// Reads an exported file, and returns its catalog. Panics if the file has diagnostics.
 fn read(name: &str, text: String) -> Catalog {
     let compilation = check(Source::new(name, text.into_bytes()), &Options::default());
     let messages: Vec<String> =
@@ -84,8 +84,7 @@ fn the_master_knows_all_nodes() {
     assert_eq!(file.as_deref(), Some("axis1.bin"));
     let writes = master_writes(network);
     assert!(writes.contains(&((0x1F87, 1), 0x0001_0000)), "{writes:?}");
-    // The second axis receives the second TPDO of the first axis, so the master does not send
-    // RPDO 2 of the second axis.
+    // RPDO 2 of the second axis receives TPDO 2 of the first axis, so the master does not send this RPDO.
     let rpdos = network.nodes.iter().flat_map(|node| &node.pdos).filter(|pdo| pdo.is_enabled && pdo.cob_id == 0x281);
     assert_eq!(rpdos.count(), 2);
     let sent = (0..3).filter_map(|number| value(0x1800 + number, 1)).collect::<Vec<_>>();
@@ -97,8 +96,7 @@ fn the_master_knows_all_nodes() {
 fn the_bus_load_is_that_of_all_cyclic_frames() {
     let compilation = example();
     let load = bus_load(compilation.usable().expect("a network"));
-    // The cyclic frames are SYNC, two PDOs with 6 bytes and one with 4 bytes every 10 ms, three heartbeats every 100 ms, and one
-    // every 500 ms.
+    // Every 10 ms: SYNC, two PDOs with 6 bytes, and one PDO with 4 bytes. Every 100 ms: three heartbeats. Every 500 ms: one heartbeat.
     let expected = 100.0 * f64::from(55 + 2 * 115 + 95) + (3.0 * 10.0 + 2.0) * 65.0;
     assert!((load.bits_per_second() - expected).abs() < 1e-6, "{}", load.bits_per_second());
     assert_eq!(load.unbounded.len(), 5);
@@ -180,7 +178,7 @@ fn damaged_files_cause_no_panic() {
     assert!(built > 0);
 }
 
-/// Compiles a network with one node, whose description is the example's drive with replaced texts.
+/// Compiles a network with one node. The description of the node is the example's drive with replaced texts.
 fn with_drive(name: &str, replaced: &[(&str, &str)], node: &str) -> Compilation {
     let drive = std::fs::read_to_string(root().join("examples/network/drive.eds")).expect("the example");
     let drive = replaced.iter().fold(drive, |drive, (from, to)| {

@@ -1,4 +1,5 @@
-//! Documentation of the example network and of an EtherCAT segment: all links lead to a page, and the pages show the configured values.
+//! Tests for the documentation of the example network and of an EtherCAT segment. All links must lead to a page, and the pages must
+//! show the configured values.
 
 #[path = "../../codegen/site/tests/docs_support/mod.rs"]
 mod docs_support;
@@ -18,7 +19,7 @@ fn site(format: Format) -> Vec<Page> {
     site_of(Source::read(&path).expect("the example"), "Packaging line", format)
 }
 
-/// Returns the pages of a site with the network or segment of a file.
+/// Returns the pages of a site with the network or segment that a file describes.
 fn site_of(source: Source, title: &str, format: Format) -> Vec<Page> {
     let compilation = compile(source, Levels::lenient());
     let network = compilation.usable().expect("a network");

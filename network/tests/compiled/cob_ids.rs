@@ -1,4 +1,4 @@
-//! COB-IDs that the compiler chooses.
+//! Tests for COB-IDs that the compiler chooses.
 
 use crate::support::{compiled, example_file, messages, node, valid, with_tpdo_5, written};
 
@@ -57,7 +57,7 @@ device = "other.eds"
 tpdo = { 5 = { cob_id = "auto", map = ["Position actual value"] } }
 "#;
     let drive = with_tpdo_5(&example_file("drive.eds"));
-    // TPDO 1 of the other drive is enabled, and RPDO 2 is disabled.
+    // In the description of the other drive, TPDO 1 is enabled, and RPDO 2 is disabled.
     let other = drive.replace("$NODEID+0x180", "$NODEID+0x681").replace("$NODEID+0x80000300", "0x80000685");
     let compilation =
         compiled("cob-ids-free", &[("drive.eds", drive), ("other.eds", other), ("network.toml", text.to_owned())]);

@@ -1,4 +1,4 @@
-//! Heartbeat consumers of nodes.
+//! Tests for the heartbeat consumers of nodes.
 
 use crate::support::{compiled, configured, example_file, messages, node, valid, written};
 
@@ -42,7 +42,7 @@ fn an_entry_that_parameters_set_is_not_free() {
     assert_eq!(messages(&compilation), ["NET020 the node `axis` cannot monitor the heartbeat of the master"]);
     let axis = node(compilation.network.as_ref().expect("a network"), "axis");
     assert_eq!(written(axis, CONSUMER), [2 << 16 | 50]);
-    // An entry that `parameters` clear is not free, either.
+    // An entry that `parameters` set to 0 is not free, either.
     let cleared = network("heartbeat_consumer = true\nparameters = { \"0x1016:1\" = 0 }");
     let compilation =
         compiled("heartbeat-cleared", &[("axis.dcf", example_file("drive.eds")), ("network.toml", cleared)]);

@@ -1,4 +1,4 @@
-//! Compiled networks of the example's devices.
+//! Tests for compiled networks of the example's devices.
 
 mod cob_ids;
 mod heartbeat;

@@ -1,4 +1,4 @@
-//! Objects that `parameters` set: the master, the other nodes and the checks use these values.
+//! Tests for objects that `parameters` set. The master, the other nodes and the checks use the values of these objects.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Catalog, Direction};

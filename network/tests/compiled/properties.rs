@@ -1,5 +1,5 @@
-//! Random networks. After the concise DCF of a node has been written, the node must have the values in the model, in its DCF and in
-//! the DCF of the master.
+//! Tests with random networks. After a node's concise DCF has been written, the values of the node must agree with the model, with
+//! the DCF of the node, and with the DCF of the master.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::support::{compiled, configured, entries, example_file, with_tpdo_5};
 /// Values of integer objects by index and sub-index.
 type Dictionary = BTreeMap<(u16, u8), u64>;
 
-/// Returns the initial values of a device with the node-ID `id`.
+/// Returns the initial values of the integer objects of a device with the node-ID `id`.
 fn dictionary(catalog: &Catalog, id: u8) -> Dictionary {
     let items = catalog.devices[0].items();
     let value = |item: &Item| Some((item.object()?, item.initial()?.resolved(id).as_int()?));
@@ -66,16 +66,16 @@ fn compare_pdo(node: &NetworkNode, pdo: &NetworkPdo, values: &Dictionary, text: 
     assert_eq!(pdo.is_enabled, value(1) >> 31 == 0 && !words.is_empty(), "{context}");
 }
 
-/// Returns the mapping of the PDO whose communication object has the given index. Leaves out unused entries, which have the value 0.
+/// Returns the mapping of the PDO whose communication object has the given index. Leaves out entries with the value 0, which are unused.
 fn mapping(values: &Dictionary, index: u16) -> Vec<u64> {
     let count = values.get(&(index + 0x200, 0)).copied().unwrap_or(0) as u8;
     (1..=count).map(|sub_index| values[&(index + 0x200, sub_index)]).filter(|word| *word != 0).collect()
 }
 
-/// A PDO: COB-ID, number and node-ID in one integer, and mapping.
+/// A PDO: its COB-ID, an integer that contains its number and the node-ID, and its mapping.
 type Exchanged = (u64, u64, Vec<u64>);
 
-/// Returns the enabled PDOs of all nodes. Considers the eight communication objects from index `first` on.
+/// Reads the eight communication objects from index `first` on, and returns the enabled PDOs of all nodes.
 fn enabled(nodes: &[(u8, Dictionary)], first: u16) -> BTreeSet<Exchanged> {
     let of_node = |(id, values): &(u8, Dictionary)| {
         let pdo = |number: u16| {
@@ -89,7 +89,8 @@ fn enabled(nodes: &[(u8, Dictionary)], first: u16) -> BTreeSet<Exchanged> {
     nodes.iter().flat_map(of_node).collect()
 }
 
-/// Returns the PDOs of the nodes that the master exchanges, from its objects that describe these PDOs (`remote`).
+/// Returns the PDOs that the master exchanges with the nodes. The master's objects from index `communication` on contain the
+/// COB-IDs. Those from index `remote` on contain the PDO numbers, node-IDs and mappings.
 fn exchanged(master: &Dictionary, communication: u16, remote: u16) -> BTreeSet<Exchanged> {
     let pdo = |number: u16| {
         let words = mapping(master, remote + number);
@@ -148,14 +149,14 @@ fn compare_consumer(compilation: &Compilation, node: &NetworkNode, values: &Dict
     let expected = match section.contains("heartbeat_consumer = true") && master.heartbeat.value > 0 && !is_refused {
         _ if section.contains("0x1016:1") => return,
         true => 127 << 16 | 300,
-        // The description is a DCF that monitors the master, so the compiler clears the entry.
+        // In this DCF, the entry monitors the master, so the compiler clears it.
         false if section.contains("drive.dcf") => 127 << 16,
         false => 0,
     };
     assert_eq!(values[&(0x1016, 1)], expected, "{}\n{text}", node.name.value);
 }
 
-/// Reads the text of an output file as a device description.
+/// Reads an output file as a device description.
 fn read(files: &[OutputFile], name: &str) -> Catalog {
     let file = files.iter().find(|file| file.name == name).expect("a file");
     check(Source::new(name, file.content.clone()), &Options::default()).catalog.expect("a catalog")
@@ -179,8 +180,8 @@ fn descriptions() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-/// Compiles a network in a folder. Faults on the bus are only warnings. Panics if there is an error other than an RPDO that receives
-/// a missing or disabled TPDO.
+/// Compiles a network in a folder. Faults on the bus are only warnings. Panics if there is an error, except the error for an RPDO
+/// that receives a missing or disabled TPDO.
 fn compiled_in(folder: &Path, text: &str) -> Compilation {
     let mut levels = Levels::lenient();
     for number in [13, 17, 18, 19, 20, 21, 22, 23] {

@@ -1,8 +1,8 @@
-//! Random networks of the example's devices, as `network.toml`.
+//! Generates random networks of the example's devices in the format `network.toml`.
 
 use crate::random::Random;
 
-/// A device description with its PDOs and the objects that RPDOs (`received`) and TPDOs (`sent`) can map.
+/// A device description with its PDOs, and with the objects that can be mapped into RPDOs (`received`) and TPDOs (`sent`).
 struct Model {
     file: &'static str,
     pdos: &'static [(&'static str, u16)],
@@ -25,7 +25,7 @@ const FIFTH: Model = Model { file: "fifth.eds", pdos: &[("rpdo", 1), ("rpdo", 2)
 
 const IO: Model = Model { file: "io.eds", pdos: &[("rpdo", 1), ("tpdo", 1), ("tpdo", 2)], received: &[], sent: &[] };
 
-/// Returns a random network with 3 to 6 nodes and a master. The node-IDs of the nodes start at 1; the master has 127.
+/// Returns a random network with 3 to 6 nodes and a master. The nodes have node-IDs from 1 on, and the master has node-ID 127.
 pub fn network(random: &mut Random) -> String {
     let count = 3 + random.below(4);
     let models: Vec<&Model> = (0..count).map(|_| *random.choose(&[&DRIVE, &DRIVE, &CONFIGURED, &FIFTH, &IO])).collect();

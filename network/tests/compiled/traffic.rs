@@ -1,4 +1,4 @@
-//! Frames on the bus: each PDO of the master counts once, and each producer of SYNC counts.
+//! Tests for the frames on the bus. Each PDO of the master counts once, and the SYNC of each producer counts.
 
 use lexibus_network::check::{bus_load, frame_bits};
 

@@ -3,7 +3,7 @@
 //!
 //! The expected values are computed from the mapping, types and scales of the objects. In the full lane, a second test compares `cantools`
 //! with the generated Rust. If the corpus or a Python with `cantools` is missing, a test that needs it prints a
-//! message and passes. A test fails if the Python that `LEXIBUS_PYTHON` names lacks the module.
+//! message and passes. If the Python that `LEXIBUS_PYTHON` names lacks `cantools`, the tests fail.
 
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
@@ -61,7 +61,7 @@ fn physical(node: &NetworkNode, item: &Item, bits: u64, length: u32) -> String {
     }
 }
 
-/// Returns the physical values in a frame, each after a semicolon.
+/// Returns the physical values of the mapped objects in a frame, each after a semicolon.
 fn expected(node: &NetworkNode, pdo: &NetworkPdo, word: u64) -> String {
     let mut text = String::new();
     for (start, entry) in signals(node, pdo) {
@@ -86,25 +86,26 @@ fn signals<'p>(node: &NetworkNode, pdo: &'p NetworkPdo) -> Vec<(u32, &'p MappedO
     pdo.entries.iter().map(with_start).filter(is_known).collect()
 }
 
-/// Returns the enabled PDOs with 1 to 64 bits, one for each CAN-ID. TPDOs take precedence.
+/// Returns the enabled PDOs with 1 to 64 bits, one for each CAN-ID. A TPDO takes precedence over an RPDO with the same CAN-ID.
 fn pdos(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
     let all = network.pdos(Direction::Transmit).chain(network.pdos(Direction::Receive));
     let mut known = std::collections::HashSet::new();
     all.filter(|(_, pdo)| (1..=64).contains(&pdo.bits()) && known.insert(pdo.can_id())).collect()
 }
 
-/// A compiled network, and the folder of its DBC and its frames.
+/// A compiled network, and the folder with its DBC and frames.
 pub struct Sample {
     compilation: Compilation,
     folder: PathBuf,
 }
 
 impl Sample {
-    /// Compiles a network. Returns `None` if the file cannot be compiled, or if the network has no PDO with data or a PDO that is too long.
+    /// Compiles a network and writes its DBC. Returns `None` if the file cannot be compiled, if no enabled PDO has data, or if a PDO
+    /// has more than 64 bits.
     fn new(root: &Path, source: Source) -> Option<Self> {
         let compilation = compile(source, Levels::lenient());
         let network = compilation.network.as_ref()?;
-        // `cantools` rejects messages that are longer than a frame.
+        // `cantools` rejects messages with more than 64 bits.
         let is_valid = network.nodes.iter().flat_map(|node| &node.pdos).all(|pdo| pdo.bits() <= 64);
         if pdos(network).is_empty() || !is_valid {
             return None;
@@ -119,7 +120,7 @@ impl Sample {
         self.compilation.network.as_ref().expect("a network")
     }
 
-    /// Writes random frames of all PDOs to `frames.txt`. A line contains the CAN-ID, the data, and the values that `values` returns.
+    /// Writes random frames of all PDOs to `frames.txt`. Each line contains the CAN-ID, the data, and the result of `values`.
     fn write_frames(&self, random: &mut Random, values: Values<'_>) {
         let mut text = String::new();
         for (node, pdo) in pdos(self.network()) {
@@ -136,7 +137,7 @@ impl Sample {
 /// Function that returns the values in a frame, each after a semicolon.
 type Values<'v> = &'v dyn Fn(&NetworkNode, &NetworkPdo, u64) -> String;
 
-/// Returns up to 50 samples: networks with one device of the corpus.
+/// Returns up to 50 samples. Each sample is a network with one device of the corpus.
 fn samples(name: &str, corpus: &Path) -> Vec<Sample> {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&root);
@@ -149,8 +150,8 @@ fn samples(name: &str, corpus: &Path) -> Vec<Sample> {
     files.filter_map(sample).take(50).collect()
 }
 
-/// Decodes the frames of all samples with `cantools`, and asserts that the values are those in `frames.txt`. Returns the number
-/// of values.
+/// Decodes the frames of all samples with `cantools`, and asserts that the results are the values in `frames.txt`. Returns
+/// the number of values.
 fn compare(python: &Path, samples: &[Sample]) -> usize {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dbc/decode.py");
     let folders = samples.iter().map(|sample| &sample.folder);

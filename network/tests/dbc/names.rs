@@ -1,4 +1,4 @@
-//! Names and texts of a DBC, as `cantools` reads them.
+//! Tests for the names and texts that `cantools` reads from a DBC.
 
 use std::path::Path;
 use std::process::Command;
@@ -10,7 +10,7 @@ use lexibus_network::output::dbc;
 
 use crate::corpus_support::{python, root};
 
-/// Prints a line for each signal: the names of the sender, the message and the signal, the comment, and the unit.
+/// Prints a line for each signal. The line contains the sender, the names of the message and the signal, the comment, and the unit.
 const SCRIPT: &str = "
 import json, sys, cantools
 for message in cantools.database.load_file(sys.argv[1]).messages:
@@ -18,11 +18,11 @@ for message in cantools.database.load_file(sys.argv[1]).messages:
         print(json.dumps([message.senders[0], message.name, signal.name, signal.comment, signal.unit or '']))
 ";
 
-/// `SIGNAL` is the name of two objects. `NODE` is the name of one node, and another node has this name with a suffix.
+/// Two objects have the name `SIGNAL`. One node has the name `NODE`, and another node has this name with a suffix.
 const SIGNAL: &str = "Actual value of the second encoder in user-defined units";
 const NODE: &str = "the drive on the left side of the machine";
 
-/// Returns the DBC of a network of three drives with long and reserved names, and with characters that Windows-1252 does not have.
+/// Returns the DBC of a network of three drives. The names are long or reserved, or contain characters that Windows-1252 lacks.
 fn network(folder: &Path) -> Vec<u8> {
     std::fs::create_dir_all(folder).expect("a folder");
     let mut drive = std::fs::read_to_string(root::root().join("examples/network/drive.eds")).expect("the example");

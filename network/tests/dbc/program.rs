@@ -1,4 +1,5 @@
-//! Start of the program that unpacks frames with generated Rust. The function `unpacked(network, can_id, data)` follows.
+//! The first part of a program that unpacks frames with generated Rust. The test appends the function
+//! `unpacked(network, can_id, data)`.
 
 #![allow(dead_code, deprecated, unused_imports)]
 
@@ -60,7 +61,7 @@ fn physical(value: impl Into<Option<f64>>) -> String {
     format!("{:e}", value.into().expect("a number"))
 }
 
-/// Appends the unpacked fields to each line of `frames.txt` in each folder.
+/// Appends the unpacked fields to each line of `frames.txt` in each folder of the arguments.
 fn main() {
     for (network, folder) in std::env::args().skip(1).enumerate() {
         let path = Path::new(&folder).join("frames.txt");

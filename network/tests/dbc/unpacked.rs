@@ -18,11 +18,11 @@ use crate::{compare, generated, pdos, samples, signals, Sample};
 struct Field<'t> {
     name: &'t str,
     ty: &'t str,
-    /// Path of the item from the link in the documentation of the field, or an empty text.
+    /// Path of the item in the link of the field's documentation, or an empty text if there is no link.
     item: &'t str,
 }
 
-/// Returns the name of the PDO struct with a mapping index, and its fields by bit offset.
+/// Returns the name of the PDO struct that has a mapping index, and the fields of the struct by bit offset.
 fn fields(text: &str, mapping_index: u16) -> (&str, HashMap<u32, Field<'_>>) {
     let index = format!("const INDEX: u16 = 0x{mapping_index:04X};");
     let mut implementations = text.split("impl rt::Pdo for ").skip(1).filter_map(|part| part.split_once(" {"));
@@ -43,7 +43,7 @@ fn fields(text: &str, mapping_index: u16) -> (&str, HashMap<u32, Field<'_>>) {
     (name, fields)
 }
 
-/// Returns Rust code that unpacks a PDO and returns the physical value of each signal.
+/// Returns Rust code that unpacks a PDO and collects the values of its signals as texts.
 fn values(text: &str, module: &str, node: &NetworkNode, pdo: &NetworkPdo) -> String {
     let (name, fields) = fields(text, pdo.index() + 0x200);
     let mut code = format!("let pdo = {module}::pdo::{name}::unpack(data).expect(\"enough bytes\"); vec![");
@@ -97,7 +97,7 @@ fn generated_rust_unpacks_the_values_of_cantools() {
         return;
     }
     let (Some(python), Some(corpus)) = (python::with(&["cantools"]), folder_of("eds")) else { return };
-    // The files of the corpus have no scales, so the example network is added.
+    // Add the example network, because the files of the corpus have no scales.
     let mut samples = samples("dbc-unpacked", &corpus);
     let folder = samples[0].folder.parent().expect("a folder").to_owned();
     let example = Source::read(&root::root().join("examples/network/network.toml")).expect("the example");

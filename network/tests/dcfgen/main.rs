@@ -1,8 +1,8 @@
-//! Compares the output with that of Lely's `dcfgen`, for random networks of corpus devices and for `bus.yml` files of the corpus.
+//! Compares the output of Lexibus with that of Lely's `dcfgen`, for random networks of corpus devices and for `bus.yml` files of the corpus.
 //!
 //! Concise DCFs are compared byte for byte, and DCFs of the master value by value. The tests fail if a difference has no known reason.
-//! If the corpus or a Python with `dcf-tools` is missing, the tests print a message and pass. They fail if the Python that
-//! `LEXIBUS_PYTHON` names lacks the module.
+//! If the corpus or a Python with `dcf-tools` is missing, the tests print a message and pass. The tests fail if the Python that
+//! `LEXIBUS_PYTHON` names lacks `dcf-tools`.
 
 #[path = "../../../codegen/tests/corpus_support/mod.rs"]
 mod corpus_support;
@@ -32,7 +32,7 @@ struct Verdict {
     differences: Vec<String>,
 }
 
-/// Runs a Python script, whose path is relative to the crate, and returns one value for each line of its output.
+/// Runs the Python script at a path relative to the crate. Returns the values in its output, one for each argument.
 fn run<T: for<'d> Deserialize<'d>>(python: &Path, script: &str, arguments: &[PathBuf]) -> Vec<T> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join(script);
     let output = Command::new(python).args(["-W", "ignore"]).arg(script).args(arguments).output().expect("Python runs");
@@ -49,7 +49,7 @@ struct Accepted {
     strict: bool,
 }
 
-/// Returns the devices of the corpus that both dcf-tools and Lexibus accept.
+/// Returns the devices of the corpus that both dcf-tools and Lexibus accept, or `None` if there is no corpus.
 fn models(python: &Path) -> Option<Vec<Model>> {
     let folder = folder_of("eds")?;
     let files: Vec<_> =
@@ -60,9 +60,9 @@ fn models(python: &Path) -> Option<Vec<Model>> {
     Some(pairs.filter_map(|(file, _)| Model::new(file.name, file.bytes)).collect())
 }
 
-/// Compiles the network in a folder.
+/// Compiles `bus.yml` in a folder.
 fn compiled(folder: &Path) -> Compilation {
-    // `dcfgen` does not check these rules, or only warns.
+    // `dcfgen` does not check these rules, or only warns about violations.
     let mut levels = Levels::lenient();
     for code in ["NET013", "NET014", "NET016", "NET017", "NET019", "NET020", "NET021", "NET022", "NET023"] {
         levels.set(code, Level::Allow).expect("a code");
@@ -70,7 +70,7 @@ fn compiled(folder: &Path) -> Compilation {
     compile(Source::read(&folder.join("bus.yml")).expect("a file"), levels)
 }
 
-/// Writes the output files of the network in a folder. If the network has errors, returns all diagnostics instead.
+/// Compiles the network in a folder, and writes its output files. If the network has errors, returns all diagnostics instead.
 fn build(folder: &Path) -> Vec<String> {
     let compilation = compiled(folder);
     let out = folder.join("lexibus");
@@ -91,7 +91,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// Returns the reason for a difference, or `None` for an unexplained difference.
+/// Returns the known reason for a difference, or `None` if there is none.
 fn reason(difference: &str, network: &Network) -> Option<&'static str> {
     if let Some(pdo) = difference.strip_prefix("dcfgen only: ") {
         return reason_of_pdo(pdo, network);
@@ -136,7 +136,7 @@ impl Entry {
         Some(Entry { is_ours: who == "lexibus", object: (index, sub_index.parse().ok()?), value })
     }
 
-    /// Returns the reason why only one program writes the entry.
+    /// Returns the reason why only one program writes the entry, or `None` if the reason is unknown.
     fn reason(&self, entries: &[Entry], node: &NetworkNode) -> Option<&'static str> {
         let other = Entry { is_ours: !self.is_ours, value: self.value ^ u64::from(NO_RTR), ..*self };
         // Lexibus does not write a value that the description states.
@@ -151,12 +151,12 @@ impl Entry {
     }
 }
 
-/// Returns the value of an object in the description of a node.
+/// Returns the value that an object has in the description of a node.
 fn initial(node: &NetworkNode, object: (u16, u8)) -> Option<i128> {
     Values { writes: &[], ..node.values() }.get(object)
 }
 
-/// Returns the reason why only `dcfgen` exchanges a PDO: `RPDO 3 of node 92`.
+/// Returns the reason why only the master of `dcfgen` exchanges a PDO, such as `RPDO 3 of node 92`.
 fn reason_of_pdo(pdo: &str, network: &Network) -> Option<&'static str> {
     let (title, id) = pdo.split_once(" of node ")?;
     let node = network.nodes.iter().find(|node| node.id.to_string() == id)?;
@@ -246,7 +246,8 @@ fn bus_yml_files_of_the_corpus_are_equal() {
             let path = entry.expect("a file").path();
             std::fs::copy(&path, folder.join(path.file_name().expect("a name"))).expect("a file of the corpus");
         }
-        // The build of ros2_canopen resolves the sections `defaults` and `nodes` and the path before it runs `dcfgen`.
+        // Replace the path, as the build of ros2_canopen does before it runs `dcfgen`. That build also resolves the
+        // sections `defaults` and `nodes`.
         let text = std::fs::read_to_string(folder.join("bus.yml")).expect("a file");
         std::fs::write(folder.join("bus.yml"), text.replace("@BUS_CONFIG_PATH@", ".")).expect("a file");
         assert_eq!(build(&folder), Vec::<String>::new(), "{name}");

@@ -1,4 +1,4 @@
-//! Random networks of corpus devices, as `bus.yml`.
+//! Generates random networks of corpus devices in the format `bus.yml`.
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Access, Catalog, Device, Item, Type};
@@ -14,7 +14,8 @@ pub struct Model {
 }
 
 impl Model {
-    /// Reads a description. Returns `None` if Lexibus cannot use it, or if it does not describe exactly one device.
+    /// Creates a model from a description. Returns `None` if Lexibus cannot use the description, or if it does not describe exactly one
+    /// device.
     pub fn new(file: String, bytes: Vec<u8>) -> Option<Self> {
         let compilation = check(Source::new(file.as_str(), bytes), &Options::default());
         let catalog = compilation.usable()?.clone();
@@ -166,7 +167,7 @@ fn mapping(model: &Model, is_tpdo: bool, index: u16, random: &mut Random) -> Str
     }
 }
 
-/// Returns random values for writable integer objects from index 0x2000 on, within the limits of the description.
+/// Returns random values within the limits of the description, for writable integer objects from index 0x2000 on.
 fn values(model: &Model, random: &mut Random) -> String {
     let is_writable = |item: &&Item| {
         let (index, _) = item.object().unwrap_or((0, 0));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-/// Compiles a program that consists of `files` with their paths below `src`, runs the program with `arguments`, and returns its output.
+/// Compiles a program, runs it with `arguments`, and returns its output. `files` contains the paths below `src`, and the contents.
 pub fn run(name: &str, files: &[(String, String)], arguments: &[&Path]) -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);

@@ -1,4 +1,4 @@
-//! Boots simulated nodes with the generated Rust, and compares the values that they receive with the concise DCF.
+//! Boots simulated nodes with the generated Rust, and compares the values that each node receives with the node's concise DCF.
 
 #[path = "../generated/mod.rs"]
 mod generated;
@@ -14,8 +14,8 @@ use lexibus_network::compile::{compile, Compilation};
 use lexibus_network::output::{files, rust};
 use support::entries;
 
-/// A network whose values are not in the order of the phases of a configuration. It contains a command (0x6040) and objects that
-/// are written several times.
+/// A network whose values are not sorted by the phases of a configuration. It contains a command (0x6040) and objects that are
+/// written several times.
 const NETWORK: &str = r#"
 [network]
 bit_rate = 500

@@ -1,5 +1,5 @@
-//! Boots a simulated node for each node of the network. Prints a line for each SDO write that a node receives: name of the node,
-//! index, sub-index and bytes; and a line with the result of each boot.
+//! Boots a simulated node for each node of the network. Prints a line for each SDO write that a node receives, with the name of the
+//! node, index, sub-index and bytes. Then prints a line with the result of the boot.
 
 #![allow(dead_code)]
 

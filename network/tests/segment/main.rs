@@ -1,5 +1,5 @@
-//! EtherCAT segments. The tests compare the start-up commands with those of the runtime, and the sync managers and the identity with
-//! the SII image of the same device.
+//! Tests for EtherCAT segments. They compare the start-up commands with those of the runtime, and the sync managers and the identity
+//! with the SII image of the same device.
 
 #[rustfmt::skip]
 #[allow(dead_code)]
@@ -35,7 +35,7 @@ lexibus::dictionary! {
     pub mod groups = "../tests/data/gateway.esi.xml";
 }
 
-/// Compiles a network file in a folder with both descriptions.
+/// Compiles a network file in a folder that contains both device descriptions.
 fn network(name: &str, text: &str) -> Compilation {
     let description = |file: &'static str| {
         (file, std::fs::read_to_string(root().join("tests/data").join(file)).expect("a description"))
@@ -137,7 +137,7 @@ fn parameters_follow_the_assignment() {
     assert_eq!(last, [("PS", 2, vec![250, 0]), ("PS", 1, vec![1])]);
 }
 
-/// Two modules of one type have objects with equal names. A name in the table of a module refers to an object of this module.
+/// Two modules of the same type have objects with the same names. A name in the table of a module refers to an object of this module.
 #[test]
 fn objects_of_modules_have_names() {
     let module = |slot: u8, object: &str, value: &str| {
@@ -211,7 +211,7 @@ fn logical_addresses_are_outputs_then_inputs() {
     assert_eq!(segment.subdevices.iter().map(|one| one.alias).collect::<Vec<_>>(), [0, 0, 7]);
 }
 
-/// A virtual sync manager describes a memory area without a sync manager of the controller. Only an FMMU maps the area.
+/// A virtual sync manager describes a memory area that has no sync manager in the slave controller, but has an FMMU.
 #[test]
 fn a_virtual_sync_manager_has_an_fmmu() {
     let text = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("a description");
@@ -329,7 +329,7 @@ fn a_misplaced_key_of_a_module_is_reported() {
     assert_eq!(found.help.as_deref(), Some("move the key to the table of a module, or write `modules`"));
 }
 
-/// A mapping object describes the padding before a group of modules. It has at most 254 entries of at most 255 bits.
+/// Padding before a group of modules is described in a mapping object, with at most 254 entries of at most 255 bits.
 #[test]
 fn padding_that_does_not_fit_into_a_pdo_is_reported() {
     let text = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("a description");
@@ -365,7 +365,8 @@ fn the_cycle_time_is_required_if_a_clock_needs_it() {
     assert_eq!(of("dc = \"DX\"\n"), ["NET028 `SV-1 servo drive` has no mode `DX` of the distributed clocks"]);
 }
 
-/// Compares the generated module with `generated.rs`, which is compiled with this test. `LEXIBUS_BLESS=1` writes the file first.
+/// Compares the generated module with `generated.rs`, which is compiled with this test. If `LEXIBUS_BLESS` is set, first writes
+/// `generated.rs`.
 #[test]
 fn the_rust_module_has_the_data_of_the_segment() {
     let text = format!(

@@ -17,7 +17,7 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Returns a file of the example.
+/// Returns the text of a file of the example network.
 pub fn example_file(name: &str) -> String {
     std::fs::read_to_string(root().join("examples/network").join(name)).expect("a file of the example")
 }
@@ -40,7 +40,7 @@ pub fn entries(mut bytes: &[u8]) -> Vec<Entry> {
     list
 }
 
-/// Writes files to an empty folder, and compiles the last file.
+/// Writes files to an empty folder, and compiles the last of these files.
 pub fn compiled(name: &str, files: &[(&str, String)]) -> Compilation {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -75,7 +75,7 @@ pub fn written(node: &NetworkNode, object: (u16, u8)) -> Vec<u64> {
     node.writes.iter().filter(|write| write.object == object).map(|write| number(&write.bytes)).collect()
 }
 
-/// Returns the text of a description in which the object of a section, such as `1016sub1`, has a configured value.
+/// Returns the text of a description with a configured value added to the object of a section, such as `1016sub1`.
 pub fn configured(eds: &str, section: &str, value: &str) -> String {
     let (before, rest) = eds.split_once(&format!("[{section}]")).expect("an object of the description");
     format!("{before}[{section}]\nParameterValue={value}{rest}")

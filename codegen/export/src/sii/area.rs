@@ -28,7 +28,7 @@ pub(super) fn content(context: &mut Context<'_>, missing: &mut MissingFacts) -> 
     area
 }
 
-/// The configuration area. Positions are word addresses.
+/// The configuration area. `set_bytes` and `set_word` take word addresses.
 pub(super) struct Area([u8; LENGTH]);
 
 impl Area {
@@ -86,15 +86,14 @@ impl Area {
     }
 }
 
-/// Returns the first 14 bytes of the EEPROM: those of the options or, if the options contain none, those of the
-/// description. Fills missing bytes with zeros. A station alias in the options replaces the alias in these
-/// bytes.
+/// Returns the first 14 bytes of the EEPROM from the options, or from the description if the options contain none.
+/// Fills missing bytes with zeros. A station alias in the options replaces the alias in these bytes.
 fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8> {
     let declared = context.settings.eeprom.as_ref().map(|eeprom| eeprom.config_data.clone());
     let declared = declared.filter(|bytes| !bytes.is_empty());
     let given = context.options.config_data().map(|octets| octets.0);
     let mut bytes = missing.require(given.or(declared), "config-data", super::Options::KEYS);
-    // A description may contain the checksum after the first 14 bytes. The image contains a computed checksum.
+    // The bytes of a description may include the checksum. The image always contains a computed checksum.
     let is_more = !matches!(bytes.len(), 0..=CHECKED | CHECKED_WITH_SUM);
     context.notes.add_many(NoteKind::ConfigData, is_more, Subject::Named("ConfigData"));
     if let [.., low, high] = bytes.get(..CHECKED_WITH_SUM).unwrap_or_default() {
@@ -131,8 +130,8 @@ fn checksum(bytes: &[u8]) -> u8 {
 mod tests {
     use super::*;
 
-    /// Checks the first words of the EEPROM of a published device. The CRC of the first 15 bytes, the last of which is
-    /// the checksum, is 0.
+    /// Checks the first words of the EEPROM of a published device. The CRC of the first 14 bytes followed by their
+    /// checksum is 0.
     #[test]
     fn checksums() {
         let image = [0x80, 0x06, 0x03, 0x4C, 0x64, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xEC, 0];

@@ -39,7 +39,7 @@ fn assign_activate(mode: &ClockMode, notes: &mut Notes, subject: Subject<'_>) ->
     })
 }
 
-/// Returns the number of settings of a mode for which the category has no field.
+/// Returns how many settings of a mode have no field in the category.
 fn unsupported(mode: &ClockMode) -> usize {
     let times = [mode.cycle_sync0, mode.shift_sync0, mode.cycle_sync1, mode.shift_sync1];
     times.iter().filter(|time| time.input).count()

@@ -16,7 +16,7 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// Returns the PDOs of the device on EtherCAT.
+    /// Returns the PDOs that the device has on EtherCAT.
     pub(super) fn pdos(&self) -> impl Iterator<Item = &'a Pdo> {
         self.device.process_data.pdos.iter().filter(|pdo| pdo.buses.is_none_or(|buses| buses.coe))
     }

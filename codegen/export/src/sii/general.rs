@@ -35,7 +35,7 @@ pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
     bytes.to_vec()
 }
 
-/// Returns a byte whose bits are the flags, lowest bit first.
+/// Returns a byte that contains the flags. The first flag is the lowest bit.
 pub(super) fn bits(flags: &[bool]) -> u8 {
     flags.iter().rev().fold(0, |bits, flag| bits << 1 | u8::from(*flag))
 }

@@ -16,7 +16,7 @@ const DEFAULT_SIZE: usize = 2048;
 /// number of words.
 const MAX_CONTENT: usize = 0x2_0000;
 
-/// Category number that follows the last category.
+/// Number that follows the last category and marks the end.
 const END: [u8; 2] = [UNUSED; 2];
 /// Value of unused bytes.
 const UNUSED: u8 = 0xFF;
@@ -30,7 +30,7 @@ pub struct Image {
     pub notes: Vec<Note>,
 }
 
-/// Amount of information about PDOs.
+/// Amount of information about PDOs in an image.
 #[derive(Clone, Copy, PartialEq)]
 enum Detail {
     Complete,
@@ -56,7 +56,7 @@ pub fn export(device: &Device, options: &Options) -> Result<Image, Refusal> {
     }
 }
 
-/// Returns the EEPROM content of the description unchanged.
+/// Returns the EEPROM content that the description declares, unchanged.
 fn declared(eeprom: &Eeprom, options: &TrackedOptions<'_>) -> Image {
     let mut notes = Notes::default();
     notes.add_many(NoteKind::Checksum, !area::is_checked(&eeprom.data), Subject::Named("Data"));
@@ -64,8 +64,8 @@ fn declared(eeprom: &Eeprom, options: &TrackedOptions<'_>) -> Image {
     Image { bytes: eeprom.data.clone(), notes: notes.finish() }
 }
 
-/// Returns the content with as many details of the PDOs as fit into the EEPROM. If even the shortest content is too long, returns
-/// the error for the complete content.
+/// Returns the content with as many details of the PDOs as fit into the EEPROM. If even the shortest content is too
+/// long, returns the error for the complete content.
 fn composed(device: &Device, settings: &EtherCatSettings, options: &TrackedOptions<'_>) -> Result<Image, Refusal> {
     let complete = with_detail(device, settings, options, Detail::Complete);
     let Err(Refusal::TooLong { .. }) = complete else { return complete };
@@ -99,9 +99,9 @@ fn with_detail(
     Ok(Image { bytes, notes: context.notes.finish() })
 }
 
-/// Returns the size of the EEPROM from the options or, if the options contain no size, from the description. If the
-/// description has no valid size, returns the smallest power of two that is at least the length of the content and
-/// the default size. Returns `None` if this power of two is too large for an EEPROM.
+/// Returns the size of the EEPROM from the options, or from the description if the options contain none. If neither
+/// contains a valid size, returns the smallest power of two into which the content fits, and at least the default size.
+/// Returns `None` if this power of two is too large for an EEPROM.
 fn size(context: &mut Context<'_>, needed: usize) -> Option<EepromSize> {
     let declared = context.settings.eeprom.as_ref().and_then(|eeprom| eeprom.byte_size);
     let known = context.options.eeprom_size().or(declared.and_then(EepromSize::new));

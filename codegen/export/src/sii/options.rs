@@ -22,7 +22,7 @@ options! {
     }
 }
 
-/// Up to 14 bytes at the start of the configuration area.
+/// The first bytes of the configuration area, up to 14.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Octets(pub Vec<u8>);
 
@@ -46,7 +46,8 @@ impl EepromSize {
     /// Unit of the size word in the configuration area, in bytes.
     pub(super) const STEP: u32 = 128;
 
-    /// Returns the size, or `None` if it is 0, above 4 Mibit or not a multiple of 128 bytes.
+    /// Creates a size from a number of bytes. Returns `None` if the number is 0, above 524288 (4 Mibit) or not a multiple
+    /// of 128.
     pub fn new(bytes: u32) -> Option<Self> {
         ((1..=0x8_0000).contains(&bytes) && bytes.is_multiple_of(Self::STEP)).then_some(EepromSize(bytes))
     }

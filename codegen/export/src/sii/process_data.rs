@@ -9,13 +9,14 @@ use super::general::bits;
 use super::Context;
 use crate::note::{NoteKind, Subject};
 
-/// Length in bits of the parts into which a PDO entry with more than 255 bits is split. The last part can be shorter.
+/// Length in bits of a part of a PDO entry. Entries with more than 255 bits are split into parts. The last part can be
+/// shorter.
 const PART: u32 = 248;
 
 /// Sync manager number of PDOs that are not assigned to a sync manager by default.
 const UNASSIGNED: u8 = 0xFF;
 
-/// Returns the purposes of the FMMUs, one byte for each FMMU. Notes the purposes and settings that the category
+/// Returns the purposes of the FMMUs, one byte for each FMMU. Adds notes on purposes and settings that the category
 /// cannot express.
 pub(super) fn fmmus(context: &mut Context<'_>) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -122,7 +123,7 @@ fn flags(pdo: &Pdo) -> u16 {
     flags.iter().filter(|(_, is_set)| *is_set).fold(0, |all, (flag, _)| all | flag)
 }
 
-/// Returns the number of a type in ETG.1000.6, or 0 if the type has no number below 256.
+/// Returns the lowest number of a type in ETG.1000.6, or 0 if the type has no number below 256.
 fn type_code(context: &Context<'_>, ty: Type) -> u8 {
     let without_length = match types::basic(&context.device.types, ty) {
         Type::VisibleString(_) => Type::VisibleString(None),
@@ -130,7 +131,7 @@ fn type_code(context: &Context<'_>, ty: Type) -> u8 {
         Type::UnicodeString(_) => Type::UnicodeString(None),
         basic => basic,
     };
-    // A type can have several numbers. The lowest is the number of CiA 301.
+    // A type can have several numbers. The lowest is the one that CiA 301 defines.
     let is_type = |code: &u8| type_name::by_code((*code).into()) == Some(Basic::Type(without_length));
     (1..=u8::MAX).find(is_type).unwrap_or(0)
 }

@@ -12,8 +12,8 @@ pub(super) struct Texts {
 }
 
 impl Texts {
-    /// Returns the number of a text. Adds the text unless it exists already. The number is 0 if the text is empty, or if
-    /// a new text does not fit because the category already has 255 texts.
+    /// Returns the number of a text, and adds the text if it is new. The number is 0 if the text is empty, or if it is
+    /// new and the category already has 255 texts.
     pub(super) fn number(&mut self, text: &str, notes: &mut Notes) -> u8 {
         if text.is_empty() {
             return 0;
@@ -42,8 +42,8 @@ impl Texts {
     }
 }
 
-/// Returns a text in ISO 8859-1. Replaces other characters with question marks, and shortens a text of more than 255
-/// bytes. Counts each kind of change once in the notes.
+/// Returns a text in ISO 8859-1. Replaces characters that ISO 8859-1 lacks with question marks, and shortens the text
+/// to 255 bytes. Counts each kind of change at most once in the notes.
 fn encoded(text: &str, notes: &mut Notes) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut unknown = false;
