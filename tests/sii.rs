@@ -69,9 +69,9 @@ fn compiled(path: &str) -> lexibus_network::ethercat::SubDevice {
     compilation.network.and_then(|network| network.segment).expect("a segment").subdevices.swap_remove(0)
 }
 
-/// Checks that the master wrote the settings that the network compiler states for the device: to the registers of each sync
-/// manager and of each FMMU. The logical addresses are not compared, because the master places inputs before outputs.
-/// `lengths` contains the lengths of the sync managers.
+/// Checks that the registers of each sync manager and each FMMU contain the settings that the network compiler states for
+/// the device. The logical addresses are not compared, because the master places inputs before outputs. `lengths` contains
+/// the lengths of the sync managers.
 async fn check_registers(maindevice: &MainDevice<'_>, group: &Group<Op>, path: &str, lengths: &[u16]) {
     let subdevice = group.subdevice(maindevice, 0).expect("a SubDevice");
     let compiled = compiled(path);

@@ -133,8 +133,8 @@ impl BusAddress {
     /// Connects to a device. `address` is the node-ID on CANopen, or the server address on Modbus. `timeout` is the
     /// maximum time for a reply. No request is sent to the device.
     ///
-    /// On Modbus, reads and writes use only the functions and request lengths that `description` states. For a table without
-    /// such a statement, they use those of the Modbus specification. The memory for the lists of functions is never freed.
+    /// On Modbus, reads and writes use only the functions and request lengths that `description` states for the table. If it
+    /// states none, they use those of the Modbus specification. The memory for the lists of functions is never freed.
     ///
     /// # Errors
     ///

@@ -158,9 +158,9 @@ impl Parameter<'_> {
         device.machines.iter().any(is_controlled) || is_of_drive()
     }
 
-    /// Returns whether the parameter is a coil. For an item with an object, also returns true if the object is a process
-    /// output, is mapped into an RPDO by default, or is an output of a CiA 401 device. An item of a Modbus device can have
-    /// an object too, on another bus.
+    /// Returns whether the parameter is a coil. Also returns true for an object that is a process output, that is mapped
+    /// into an RPDO by default, or that is an output of a CiA 401 device. An item of a Modbus device can have an object too,
+    /// on another bus.
     fn is_output(&self, device: &Device) -> bool {
         let is_coil = matches!(self.address(), Address::Register(register) if register.table == RegisterTable::Coil);
         let Some(object) = self.item().object() else { return is_coil };
@@ -214,9 +214,10 @@ fn stores_others(device: &Device, item: &Item) -> bool {
     })
 }
 
-/// Returns whether an object of the communication profile counts as a command: the error history (0x1003), store and restore
-/// parameters (0x1010, 0x1011), the stored EDS, operating system commands and the debugger (0x1021 to 0x1026), and objects
-/// of the configuration manager, of the program download and of the NMT master (CiA 301 7.5.2, CiA 302).
+/// Returns whether an object of the communication profile counts as a command (CiA 301 7.5.2, CiA 302). Commands are the
+/// error history (0x1003), store and restore parameters (0x1010, 0x1011), the stored EDS, operating system commands and the
+/// debugger (0x1021 to 0x1026). Objects of the configuration manager, the program download and the NMT master are commands,
+/// too.
 fn is_command_object(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1010 | 0x1011 | 0x1021..=0x1026 | 0x1F25 | 0x1F50..=0x1F57 | 0x1F82 | 0x1F8A..=0x1F91)
 }

@@ -77,8 +77,8 @@ impl<'d> Write<'d> {
         Self::new(parameter, parameter.parse(text)?, node_id)
     }
 
-    /// Checks a value against the access rights, the type, the limits and the writable values of the parameter. Nothing is
-    /// sent.
+    /// Creates a write. Checks the value against the access rights, the type, the limits and the writable values of the
+    /// parameter. Nothing is sent.
     ///
     /// # Errors
     ///

@@ -16,8 +16,8 @@ pub struct DeclaredNetwork {
     pub bus: Option<At<String>>,
     /// The master.
     pub master: Option<DeclaredMaster>,
-    /// True if a missing master is no fault: the format of the file has no master, or the file declares an EtherCAT segment
-    /// and has no section `nodes`.
+    /// True if the network needs no master, because the format of the file has none, or because the file declares only an
+    /// EtherCAT segment.
     pub is_master_optional: bool,
     /// Nodes without the master, in the order in which the front end reads them.
     pub nodes: Vec<DeclaredNode>,

@@ -122,8 +122,8 @@ impl<'s> Descriptions<'s> {
         }
     }
 
-    /// Opens a file. If its path starts with the folder of the network file, the name of the source starts with the folder in the
-    /// name of the network file instead.
+    /// Opens a file. If the path starts with the folder of the network file, the source's name spells this folder as the
+    /// name of the network file does.
     fn open(&self, path: &Path) -> std::io::Result<Source> {
         let source = Source::read(path)?;
         let shown = match path.strip_prefix(self.folder()) {
@@ -138,8 +138,8 @@ impl<'s> Descriptions<'s> {
         self.network.folder().unwrap_or(Path::new(""))
     }
 
-    /// Searches a file in `folders` and then in the folder of the network file, and returns its path. Reports a file that is not
-    /// found.
+    /// Searches for a file in `folders` and then in the folder of the network file. Returns the path of the file, or reports
+    /// that it is not found.
     fn find(&self, name: &At<String>, folders: &[At<String>], diagnostics: &mut Diagnostics) -> Option<PathBuf> {
         let mut unknown = Vec::new();
         let name_path = expanded(name, &mut unknown);
@@ -167,7 +167,8 @@ impl<'s> Descriptions<'s> {
     }
 }
 
-/// Replaces the file name in `name` with a similar one that exists in the folder of one of `paths`. Returns `None` if there is none.
+/// Replaces the file name in `name` with a similar one that exists in the folder of one of `paths`. Returns `None` if there
+/// is no such file.
 fn similar_file(name: &str, paths: &[PathBuf]) -> Option<String> {
     let similar = |path: &PathBuf| {
         let entries = std::fs::read_dir(path.parent()?).ok()?;

@@ -266,8 +266,8 @@ impl NetworkPdo {
         self.bits().div_ceil(8)
     }
 
-    /// Returns the number of SYNCs after which the PDO is sent, or `None` for a transmission type above 240. The number for an acyclic
-    /// PDO (transmission type 0) is 1, which is the worst case.
+    /// Returns the number of SYNCs after which the PDO is sent, or `None` for a transmission type above 240. For an acyclic
+    /// PDO (transmission type 0), returns 1, the worst case.
     pub fn syncs(&self) -> Option<u8> {
         match self.transmission {
             0 => Some(1),

@@ -192,9 +192,9 @@ pub struct MessageValue {
     /// First counted field of the same list, if the value is the number of bytes from this field to the end of the data.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<FieldRef>,
-    /// The command whose completion the value indicates, if the value is in a reply and not in a repeated field. Several
-    /// commands can poll a value with this name: then this is the command of the reply or, if all have the same condition, the first
-    /// of them. Set by the stage `resolve`.
+    /// The command whose completion the value indicates, if the value is in a reply and not in a repeated field. If several
+    /// commands poll a value with this name, this is the command of the reply. If the reply belongs to no such command, it
+    /// is the first command, provided that all have the same condition. Set by the stage `resolve`.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub completes: Option<PolledCommand>,
 }

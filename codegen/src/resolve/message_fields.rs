@@ -71,9 +71,10 @@ impl Commands {
         Commands(all)
     }
 
-    /// Returns the command that polls `value`, a value in the reply to the message `replied`: this message itself or, if all commands
-    /// that poll the value have the same condition, the first of them. Returns `None` if there is no such command, or if the type of the
-    /// value does not have the bit that the command polls.
+    /// Returns the command that polls `value`, a value in the reply to the message `replied`. If `replied` polls the value,
+    /// this is the command. Otherwise, it is the first command that polls the value, provided that all of these commands
+    /// have the same condition. Returns `None` if there is no such command, or if the type of the value does not have the
+    /// bit that the command polls.
     fn of(&self, replied: MessageId, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
         let all = self.0.get(&value.item.name)?;
         let own = all.iter().find(|polling| polling.command == replied);

@@ -13,8 +13,8 @@ const FUNCTIONS: [i128; 9] = [0x080, 0x180, 0x200, 0x280, 0x300, 0x380, 0x400, 0
 const FLAGS: i128 = 0xC000_0000;
 
 /// Returns a formula with `$NODEID` if the value is relative to the node-ID of the device; otherwise, returns the value.
-/// A value is relative if, without bits 30 and 31, it equals a default value that is a formula. The COB-ID of a PDO or of
-/// a service is also relative if, without these bits, it is the sum of the node-ID and one of [`FUNCTIONS`].
+/// Bits 30 and 31 are ignored. A value is relative if it equals a default value that is a formula. The COB-ID of a PDO or a
+/// service is also relative if it is the sum of the node-ID and one of [`FUNCTIONS`].
 pub(super) fn relative(parameter: &Parameter<'_>, value: Value, node_id: u8) -> Value {
     let node = i128::from(node_id);
     let Some(number) = value.as_int() else { return value };

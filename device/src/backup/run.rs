@@ -86,8 +86,8 @@ fn save(parameter: &Parameter<'_>, connection: &mut impl Connection, backup: &mu
     Ok(())
 }
 
-/// Returns whether the device can lack the parameter: an entry of a PDO mapping, an optional parameter, or a parameter of
-/// some models or versions.
+/// Returns whether the device can lack the parameter. This is so for entries of PDO mappings, for optional parameters, and
+/// for parameters of some models or versions.
 fn is_optional(parameter: &Parameter<'_>) -> bool {
     let is_mapping =
         parameter.address().object().is_some_and(|object| object.sub_index > 0 && pdo::is_mapping(object.index));

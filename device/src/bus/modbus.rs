@@ -62,8 +62,8 @@ fn resolve(host: &str) -> Result<SocketAddr, Failure> {
     address.ok_or_else(|| Failure::Bus(format!("cannot resolve the host {host}")))
 }
 
-/// Returns the functions and request lengths of each table: those that the description states or, if it doesn't state them, those of
-/// the Modbus specification.
+/// Returns the functions and request lengths of each table. If the description states none, returns those of the Modbus
+/// specification.
 fn limits(tables: &[ModbusTable]) -> Limits {
     let of = |space: RegisterSpace, standard: TableLimits| {
         let Some(table) = tables.iter().find(|table| table.space == space) else { return standard };

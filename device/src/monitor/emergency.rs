@@ -22,8 +22,8 @@ pub(super) fn event(node: u8, message: &Emergency, description: Option<&Descript
     Event::new(Some(node), EventKind::Emergency, text)
 }
 
-/// Returns the name of an emergency code from the row with the smallest range that contains the code, or `None` if no
-/// row contains it or the row has no name.
+/// Returns the name of an emergency code, from the row with the smallest range that contains the code. Returns `None` if no
+/// row contains the code, or if this row has no name.
 fn name(code: u16, description: &Description) -> Option<String> {
     let code = i128::from(code);
     let rows = description.device().code_tables.iter().flat_map(|table| table.rows.iter());

@@ -35,8 +35,8 @@ impl<'d> Interpreter<'d> {
         self.nodes.iter().find(|(id, _)| *id == node).map(|(_, description)| *description)
     }
 
-    /// Returns the event of the next frame. Returns `None` for remote frames, and for frames that are neither a PDO that a description
-    /// declares nor an NMT, heartbeat, SYNC, TIME, emergency, SDO or LSS message with its default COB-ID.
+    /// Returns the event of the next frame. Returns `None` for remote frames and for unknown COB-IDs. Known are the PDOs
+    /// that a description declares, and the default COB-IDs of NMT, heartbeat, SYNC, TIME, emergency, SDO and LSS messages.
     pub fn interpret(&mut self, frame: &CanFrame) -> Option<Event> {
         if frame.is_remote() {
             return None;

@@ -72,8 +72,8 @@ impl Outcome<'_> {
 }
 
 impl fmt::Display for Outcome<'_> {
-    /// Writes one line for each write that was not confirmed and for each mismatch, then the number of values that were not
-    /// read back, if there are any, and then a summary.
+    /// Writes one line for each write that was not confirmed and for each mismatch. Then writes the number of values that
+    /// were not read back, if it is not 0, and a summary.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (write, status) in self.states.iter().filter(|(_, status)| *status != Status::Written) {
             writeln!(f, "{write}: {status}")?;

@@ -18,8 +18,8 @@ use crate::write::Write;
 /// because a mapping can be changed only while the PDO is disabled (CiA 301). Between these steps, the order is:
 /// communication parameters except those of PDOs, all other parameters, PDO mappings, communication parameters of PDOs.
 ///
-/// On Modbus, the order is that of the description. Protected parameters that the caller named, except objects of PDOs, come
-/// after these, first those that don't set the node-ID or the bit rate.
+/// On Modbus, the order is that of the description. Protected parameters that the caller named come last, and among them
+/// those that set the node-ID or the bit rate. Objects of PDOs keep their order.
 ///
 /// The values of a PDO are left out if one of them is refused, or if the COB-ID or a mapping entry is missing.
 ///
@@ -70,8 +70,8 @@ pub(super) fn ordered<'d>(
     (ordered, left_out)
 }
 
-/// Returns the PDOs that are not restored: a value in the backup is refused, `settings` needs a value that the backup lacks,
-/// or a mapped entry has no value. Each PDO is represented by the index of its communication parameters.
+/// Returns the PDOs that are not restored, as the indices of their communication parameters. A PDO is not restored if one of
+/// its values is refused, if the backup lacks a value that `settings` needs, or if a mapped entry has no value.
 fn incomplete_pdos(
     description: &Description,
     backup: &Backup,

@@ -88,8 +88,8 @@ fn different(parameter: &Parameter<'_>, fact: &str) -> Finding {
     Finding::of(parameter, FindingKind::Different, fact)
 }
 
-/// Returns whether the device can lack the parameter: an entry of the error history or of a mapping, an optional
-/// parameter, or a parameter of some models or versions.
+/// Returns whether the device can lack the parameter. This is so for entries of the error history and of mappings, for
+/// optional parameters, and for parameters of some models or versions.
 fn is_conditional(parameter: &Parameter<'_>) -> bool {
     let item = parameter.item();
     item.is_optional || item.availability.is_some() || is_entry(parameter)
@@ -194,7 +194,7 @@ fn identity_number(identity: &Identity, sub_index: u8) -> Option<u32> {
     }
 }
 
-/// Compares the vendor ID, the product code and the revision number that the description states although it doesn't declare their
+/// Compares the vendor ID, the product code and the revision number if the description states them without declaring their
 /// sub-indices of 0x1018.
 pub(super) fn check_identity<C: Connection>(run: &mut Run<'_, C>) -> Result<(), Failure> {
     const IDENTITY: u16 = 0x1018;

@@ -35,8 +35,8 @@ impl Mirror {
     }
 }
 
-/// Returns the bytes of the value that the simulated device has: the first of the identity number, the initial value, the minimum,
-/// the maximum and 0 that fits the type and the limits. If none fits, all bytes are zero.
+/// Returns the bytes of the value that the simulated device has. Tries the identity number, the initial value, the minimum,
+/// the maximum and 0, and takes the first that fits the type and the limits. If none fits, all bytes are zero.
 fn initial(parameter: &Parameter<'_>) -> Vec<u8> {
     let identity = &parameter.description().device().identity;
     let object = parameter.address().object();

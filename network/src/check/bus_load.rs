@@ -14,7 +14,7 @@ pub struct Traffic {
     pub name: String,
     /// Name without the sender: `TPDO 1`.
     pub service: String,
-    /// Node-ID of the sender; that of the master for PDOs that the master sends.
+    /// Node-ID of the node or master that sends the frames.
     pub sender: u8,
     /// CAN-ID. Bit 29 is set if the CAN-ID has 29 bits.
     pub can_id: u32,

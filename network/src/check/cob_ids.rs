@@ -25,8 +25,8 @@ struct Sender {
 }
 
 pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
-    // COB-IDs of SYNC, TIME and EMCY without a location are not checked, because some descriptions state a wrong COB-ID of EMCY. The
-    // CAN-IDs of the other senders must differ from them.
+    // COB-IDs of SYNC, TIME and EMCY without a location are not checked, because some descriptions state a wrong COB-ID of
+    // EMCY. However, the CAN-IDs of all other senders must differ from these COB-IDs.
     let (unplaced, placed): (Vec<Sender>, Vec<Sender>) =
         services(network).into_iter().partition(|sender| sender.span.is_empty());
     let mut senders = BTreeMap::new();

@@ -21,7 +21,8 @@ pub(super) struct SyncProducer {
     pub window: u32,
     /// True if the frames contain a counter.
     pub has_counter: bool,
-    /// Location of the period, of the COB-ID, or of the node's name.
+    /// Location of the period. If the network file does not set the period: location of the COB-ID or, without it, of the
+    /// node's name.
     pub span: Span,
 }
 

@@ -16,7 +16,8 @@ pub(super) type Assigned<'d> = (&'d Pdo, u8);
 
 const ETHERCAT: ObjectBuses = ObjectBuses { canopen: false, coe: true };
 
-/// Returns the assigned PDOs with their sync managers: those that the file chooses, or those that the description assigns by default.
+/// Returns the assigned PDOs with their sync managers. If the file chooses no PDOs, these are the default PDOs of the
+/// description.
 pub(super) fn assign<'d>(
     device: &'d Device,
     declared: &DeclaredSubDevice,
@@ -121,9 +122,9 @@ fn combined(device: &Device, pdo: &Pdo, others: &[Assigned<'_>], span: Span) -> 
     })
 }
 
-/// Returns the default sync manager of a PDO, or `None` if the description lists only other sync managers. A PDO without a default gets
-/// the first sync manager with its direction that it does not exclude or, if the description lists no sync managers, that of another
-/// PDO with the same direction, if any.
+/// Returns the default sync manager of a PDO, or `None` if the description lists only other sync managers. A PDO without a
+/// default gets the first sync manager with its direction that it does not exclude. If the description lists no sync
+/// managers, the PDO gets the sync manager of another PDO with the same direction, if there is one.
 pub(super) fn sync_manager(data: &ProcessData, pdo: &Pdo) -> Option<u8> {
     if pdo.sync_manager.is_some() {
         return pdo.sync_manager.filter(|number| data.has_sync_manager(*number));

@@ -50,8 +50,8 @@ fn unknown(device: &Device, modes: &[ClockMode], name: &str, span: Span) -> Diag
     }
 }
 
-/// Returns the cycle time of SYNC0 as the description states it. If SYNC0 is active, and the stated time is 0 without a factor, returns
-/// the cycle time of the segment.
+/// Returns the cycle time of SYNC0 as the description states it. If SYNC0 is active and the description states neither a
+/// time nor a factor, returns the cycle time of the segment.
 fn cycle_sync0(mode: &ClockMode) -> ClockTime {
     let is_active = mode.assign_activate & SYNC0 != 0;
     match mode.cycle_sync0 {

@@ -127,8 +127,8 @@ pub(super) fn bytes(placed: &[Placed<'_>], sync_manager: u8) -> u32 {
     ends.map(|placed| placed.bit_offset.saturating_add(placed.bits)).max().unwrap_or(0).div_ceil(8)
 }
 
-/// Reports padding that does not fit into a PDO, and a sync manager with too many PDOs, or with more process data than its
-/// maximum length.
+/// Reports padding that does not fit into a PDO. Also reports a sync manager with too many PDOs or with more process data
+/// than its maximum length.
 pub(super) fn check(device: &Device, placed: &[Placed<'_>], span: Span, diagnostics: &mut Diagnostics) {
     let is_padding = |placed: &&Placed<'_>| placed.index != 0 && matches!(placed.content, PlacedContent::Padding);
     for padding in placed.iter().filter(is_padding).filter(|padding| padding.bits > MAX_PADDING) {

@@ -84,8 +84,8 @@ impl Startup<'_> {
         due.map(|(command, offsets)| of_init_command(command, offsets, transition)).collect()
     }
 
-    /// Returns the commands that clear the assignment, write the mappings of the assigned PDOs, and write the assignment, as far as the
-    /// device allows a MainDevice to write them.
+    /// Returns the commands that clear the PDO assignment, write the mappings of the assigned PDOs, and write the
+    /// assignment. Commands that the device does not allow are left out.
     fn assignment(&self) -> Vec<StartupCommand> {
         let managers = self.device.process_data.sync_managers.iter();
         let managers = managers.filter(|manager| direction(manager.purpose).is_some() && assigns(self.device));

@@ -29,9 +29,9 @@ fn sync_manager(manager: &ir::SyncManager, placed: &[Placed<'_>]) -> SyncManager
     }
 }
 
-/// Returns an FMMU for each sync manager with process data, also for those that exist only in the description: the first free FMMU
-/// that the description declares for the purpose of the sync manager or, if there is none, the first free FMMU after the declared ones.
-/// The logical addresses are 0.
+/// Returns an FMMU for each sync manager with process data. Each sync manager gets the first free FMMU that the description
+/// declares for its purpose. If there is none, it gets the first free FMMU after the declared ones. The logical addresses
+/// are 0.
 pub(super) fn fmmus(device: &Device, placed: &[Placed<'_>]) -> Vec<Fmmu> {
     let declared = device.ethercat.as_ref().map_or(&[][..], |settings| &settings.fmmus);
     let mut fmmus: Vec<Fmmu> = Vec::new();

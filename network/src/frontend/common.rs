@@ -1,5 +1,5 @@
-//! Reads the keys that `network.toml` and `bus.yml` have in common, some with different names, and the keys that the sections of
-//! `network.toml` have in common.
+//! Reads the keys that `network.toml` and `bus.yml` have in common, some with different names. Also reads the keys that the
+//! sections of `network.toml` have in common.
 
 use std::ops::RangeInclusive;
 

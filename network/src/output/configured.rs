@@ -8,7 +8,7 @@ use lexibus_codegen::ir::{
 use crate::model::{MappedObject, Network, NetworkNode, NetworkPdo};
 use crate::values::Write;
 
-/// Returns the catalog of a node with the node-ID, the configured values and the PDOs of the network, without disabled PDOs.
+/// Returns the catalog of a node with the node-ID, the configured values and the enabled PDOs of the network.
 pub fn node_catalog(network: &Network, node: &NetworkNode) -> Catalog {
     let mut catalog = configured(network, node, node.description.catalog().clone());
     let device = &mut catalog.devices[0];

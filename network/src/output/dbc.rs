@@ -35,7 +35,8 @@ pub fn dbc(network: &Network) -> Vec<u8> {
     encoded(&out.text(&nodes))
 }
 
-/// Returns the RPDOs whose CAN-ID no TPDO has. Of several RPDOs with the same CAN-ID, returns the first, because they are one message.
+/// Returns the RPDOs whose CAN-ID no TPDO has. RPDOs with the same CAN-ID are one message, so only the first of them is
+/// returned.
 fn sent_by_others(network: &Network) -> Vec<(&NetworkNode, &NetworkPdo)> {
     let mut known: HashSet<u32> = network.pdos(Direction::Transmit).map(|(_, pdo)| pdo.can_id()).collect();
     network.pdos(Direction::Receive).filter(|(_, pdo)| known.insert(pdo.can_id())).collect()

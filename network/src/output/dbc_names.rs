@@ -26,8 +26,8 @@ pub(super) struct Name {
 pub(super) struct Names(HashSet<String>);
 
 impl Names {
-    /// Returns the name for a text: ASCII letters, digits and `_`. A name that is reserved or already in use gets a number. The long
-    /// form and the short form can have different numbers.
+    /// Returns the name for a text: ASCII letters, digits and `_`. A name that is reserved or already in use gets a number.
+    /// The numbers of the long form and of the short form can differ.
     pub fn unique(&mut self, text: &str) -> Name {
         let whole = identifier(text);
         let long = self.free(&whole, MAX_LONG_NAME);

@@ -37,9 +37,9 @@ const INDICES: &str = "₀₁₂₃₄₅₆₇₈₉₊₋";
 /// The digits and signs of the lists above as normal characters, in the same order.
 const ON_LINE: &str = "0123456789+-";
 
-/// Returns a text as the content of a DBC string, without the enclosing quotation marks. Characters that Windows-1252 does not have are
-/// spelled with other characters (`min⁻¹`: `min^-1`, `Ω`: `Ohm`), are left out, or become `?`. Quotation marks, backslashes, whitespace
-/// and control characters are replaced.
+/// Returns a text as the content of a DBC string, without the enclosing quotation marks. Windows-1252 lacks some characters.
+/// These are spelled with other characters (`min⁻¹`: `min^-1`, `Ω`: `Ohm`), left out, or replaced with `?`. Quotation marks,
+/// backslashes, whitespace and control characters are replaced.
 pub(super) fn text(text: &str) -> String {
     let mut out = String::new();
     let mut rest = text;

@@ -30,8 +30,9 @@ pub fn files(network: &Network) -> Vec<OutputFile> {
     files
 }
 
-/// Returns the output files of the CANopen network: for each node a DCF, a Rust module, and a concise DCF if values are written to the
-/// node; for a master its DCF, and a concise DCF if the master writes values to itself; a DBC; and the Rust module of the network.
+/// Returns the output files of the CANopen network. Each node has a DCF and a Rust module, and a concise DCF if values are
+/// written to it. A master has a DCF, and a concise DCF if it writes values to itself. The network has a DBC and a Rust
+/// module.
 fn canopen_files(network: &Network) -> Vec<OutputFile> {
     let mut files = Vec::new();
     for node in &network.nodes {

@@ -2,8 +2,8 @@
 
 use crate::model::NetworkNode;
 
-/// Returns vendor-ID, product code, revision number and serial number that the master expects; 0 = not checked. A number is not checked
-/// if the node does not have the sub-index of 0x1018 that contains this number.
+/// Returns vendor-ID, product code, revision number and serial number that the master expects; 0 = not checked. A number is
+/// not checked if the node lacks its sub-index of 0x1018.
 pub(super) fn checked(node: &NetworkNode) -> [u32; 4] {
     let mut identity = node.identity;
     for (number, sub_index) in identity.iter_mut().zip(1..) {

@@ -33,8 +33,8 @@ pub fn master_dcf(network: &Network) -> Option<String> {
     eds::export(&catalog, &catalog.devices[0], options).map(|exported| exported.text)
 }
 
-/// Returns the values other than 0 that the master writes to its own objects, each with index and sub-index: its serial number, and
-/// the expected software identifications, revision numbers and serial numbers of the nodes.
+/// Returns the values other than 0 that the master writes to its own objects, each with index and sub-index. They are its
+/// serial number, and the software identifications, revision numbers and serial numbers that it expects of the nodes.
 pub fn master_writes(network: &Network) -> Vec<((u16, u8), u32)> {
     let Some(master) = &network.master else { return Vec::new() };
     let mut writes = vec![((0x1018, 4), master.identity[3])];
@@ -192,8 +192,8 @@ fn domains<'n>(
     record(index, name, ObjectCode::Array, (1..=NODES).map(domain).collect())
 }
 
-/// Returns the communication and mapping objects of the PDOs of the master, the objects that these PDOs map, and the objects that
-/// describe the matching PDOs of the nodes.
+/// Returns the objects for the PDOs of the master: their communication parameters and mappings, the mapped objects, and the
+/// objects that describe the matching PDOs of the nodes.
 fn pdos(network: &Network) -> Vec<Group> {
     let mut groups = Vec::new();
     for (direction, first) in [Direction::Transmit, Direction::Receive].into_iter().zip(DATA) {

@@ -190,8 +190,9 @@ fn error_control(node: &NetworkNode) -> String {
     }
 }
 
-/// Returns the date of the configuration: milliseconds and days for 0x1020. It is computed from the SHA-256 of the configuration, so that
-/// equal configurations have equal dates, and different configurations almost certainly have different dates.
+/// Returns the date of the configuration: milliseconds and days for 0x1020. The date is computed from the SHA-256 of the
+/// configuration. Equal configurations therefore have equal dates, and different configurations almost certainly have
+/// different dates.
 fn date(node: &NetworkNode) -> (u32, u16) {
     let entries = node.writes.iter().map(|write| (write.object, write.bytes.as_slice()));
     let digest = Source::new("", super::concise(entries)).sha256().to_owned();

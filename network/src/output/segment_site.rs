@@ -165,9 +165,9 @@ fn startup(subdevice: &SubDevice) -> Table {
     Table { title: "Start-up commands", columns, rows: subdevice.startup.iter().map(row).collect() }
 }
 
-/// Returns the name of an object of the device or of a module, followed by the name of the entry if `sub_index` is an entry of the
-/// object. `None` is the complete object. For an object that no description contains, returns its purpose (ETG.1000.6, ETG.5001),
-/// or an empty text if the purpose is unknown.
+/// Returns the name of an object of the device or of a module. If `sub_index` is an entry of the object, the name of the
+/// entry follows. `sub_index` is `None` for the complete object. For an object that no description contains, returns its
+/// purpose (ETG.1000.6, ETG.5001), or an empty text if the purpose is unknown.
 fn object_name(subdevice: &SubDevice, index: u16, sub_index: Option<u8>) -> String {
     let mut devices = std::iter::once(subdevice.description.device()).chain(&subdevice.module_objects);
     let Some((device, group)) = devices.find_map(|device| Some((device, device.object(index)?))) else {

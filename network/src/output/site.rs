@@ -80,8 +80,8 @@ fn shown_node(title: &str, node: &NetworkNode) -> Node {
     }
 }
 
-/// Returns a value as text with its unit. Its meaning, or the name of the mapped object, follows in parentheses if it is known and the
-/// text does not contain it.
+/// Returns a value as text with its unit. The meaning of the value or the name of the mapped object follows in parentheses,
+/// if it is known and not yet part of the text.
 fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     let (value, types) = (value.resolved(node.id), &node.device().types);
     let text = item::value(item, &value, types);

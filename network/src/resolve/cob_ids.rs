@@ -24,8 +24,8 @@ type Key = (String, Direction, u16);
 pub(super) struct CobIds(HashMap<Key, u32>);
 
 impl CobIds {
-    /// Assigns COB-IDs to the declared PDOs of all nodes: first those that the file, the descriptions and the predefined connection set
-    /// state, then free ones, then those of the TPDOs of other nodes.
+    /// Assigns COB-IDs to the declared PDOs of all nodes in three steps: the COB-IDs that the file, the descriptions or the
+    /// predefined connection set states; free COB-IDs; the COB-IDs of other nodes' TPDOs.
     pub fn new(nodes: &[DescribedNode<'_>], master: Option<&DeclaredMaster>, diagnostics: &mut Diagnostics) -> Self {
         let mut ids = CobIds(HashMap::new());
         let all = || nodes.iter().flat_map(|node| node.declared.pdos.iter().map(move |declared| (node, declared)));
@@ -91,7 +91,8 @@ impl CobIds {
         Some(cob_id & 0x3FFF_FFFF)
     }
 
-    /// Returns the COB-ID of a PDO after the configuration: that of `parameters`, the assigned one, or that of the description.
+    /// Returns the COB-ID of a PDO after the configuration: the COB-ID in `parameters`, else the assigned one, else the one
+    /// of the description.
     fn last(&self, node: &DescribedNode<'_>, direction: Direction, number: u16) -> Option<u32> {
         let values = node.values();
         if node.declares(direction, number) && !values.is_set((communication_index(direction, number), 1)) {
@@ -135,8 +136,8 @@ fn services(node: &DescribedNode<'_>) -> Vec<u32> {
     consumed.chain(sdo.chain([values.number((0x1014, 0))]).flatten()).collect()
 }
 
-/// Returns the COB-ID of a PDO if it does not depend on other PDOs: the declared COB-ID, that of the description, or that of the
-/// predefined connection set.
+/// Returns the COB-ID of a PDO if it does not depend on other PDOs: the declared COB-ID, else that of the description, else
+/// that of the predefined connection set.
 fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let of_description = || {
         let pdo = pdo(node.initial(), direction(declared), declared.number.value)?;
@@ -157,8 +158,8 @@ fn predefined(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     Some((u32::from(number) * 0x100 + first + u32::from(node.id)) | flags(node, declared))
 }
 
-/// Returns the flags that an assigned COB-ID takes from the description: a device that does not answer RTR can abort the write of
-/// a COB-ID without bit 30 (CiA 301 7.5.2.37).
+/// Returns the flags that an assigned COB-ID takes from the description. A device that does not answer RTR can abort the
+/// write of a COB-ID without bit 30 (CiA 301 7.5.2.37).
 fn flags(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> u32 {
     match pdo(node.initial(), direction(declared), declared.number.value) {
         Some(pdo) if declared.is_tpdo => pdo.cob_id & NO_RTR,

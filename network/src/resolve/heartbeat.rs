@@ -29,8 +29,8 @@ pub(super) fn monitor_master(network: &mut Network, consumers: &[bool], diagnost
                 }
             }
         } else {
-            // Sets the time to 0 in the entries of the description that monitor the master. The master sends no heartbeat, or the
-            // network file does not request the monitoring, or the network file itself sets an entry that monitors the master.
+            // In the entries of the description that monitor the master, sets the time to 0. Here, the master sends no
+            // heartbeat, the network file does not request the monitoring, or the network file sets such an entry itself.
             for (sub_index, value) in described.iter().filter(monitors) {
                 writer.write((0x1016, *sub_index), value & 0x00FF_0000, span);
             }

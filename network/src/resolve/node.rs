@@ -112,8 +112,8 @@ fn described(device: &Device, id: u8) -> Vec<Write> {
     settings.map(write).collect()
 }
 
-/// Returns the expected identity. A revision number or serial number of the network file takes precedence over the header of the
-/// description, and the header takes precedence over the object 0x1018.
+/// Returns the expected identity. The precedence of the sources is: network file (revision number and serial number), header
+/// of the description, object 0x1018.
 fn identity(declared: &DeclaredNode, values: Values<'_>) -> [u32; 4] {
     let of_object = |sub_index| values.number((0x1018, sub_index)).unwrap_or(0);
     let header = &values.device.identity;

@@ -69,8 +69,8 @@ fn shown(device: &Device) -> String {
     }
 }
 
-/// Returns the names by which a file can refer to an item: its name, and the names of its object and of the item, separated by a
-/// slash.
+/// Returns the names by which a file can refer to an item: the name of the item alone, and after the name of its object and
+/// a slash.
 fn names<'d>(group: &'d Group, item: &'d Item) -> [String; 2] {
     [item.name.to_string(), format!("{}/{}", group.name, item.name)]
 }

@@ -39,8 +39,8 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
     writer.diagnostics.push(Diagnostic::new(&codes::NO_SUCH_PDO, declared.number.span, message).help(help));
 }
 
-/// Configures a PDO as declared: writes the disabled COB-ID and the parameters if they differ, writes a declared mapping, and enables
-/// the PDO unless the file disables it. If `cob_id` has bit 31, only disables the PDO.
+/// Configures a PDO as declared. Writes the disabled COB-ID and the changed parameters, then a declared mapping. Enables the
+/// PDO last, unless the file disables it. If `cob_id` has bit 31, only disables the PDO.
 fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
     let index = pdo.index();
     let span = declared.cob_id.as_ref().map_or(declared.number.span, |cob_id| cob_id.span);
@@ -108,8 +108,8 @@ fn mapped(direction: Direction, object: &At<ObjectName>, writer: &mut Writer<'_>
     Some(MappedObject { index: address.0, sub_index: address.1, bits: u8::try_from(bits?).ok()? })
 }
 
-/// Returns the mapping entry for a data type, which reserves space in an RPDO (CiA 301 7.4.7). Reports a data type that has no
-/// fixed length, a dummy entry in a TPDO, and a data type that this device does not support as a dummy entry.
+/// Returns the mapping entry for a data type, which reserves space in an RPDO (CiA 301 7.4.7). Reports a dummy entry in a
+/// TPDO. Also reports a data type that has no fixed length or that the device does not support as a dummy entry.
 fn dummy(direction: Direction, code: u16, span: Span, writer: &mut Writer<'_>) -> Option<MappedObject> {
     let Some(bits) = Type::from_cia301(code.into()).and_then(Type::bits) else {
         let message = format!("the data type {} has no fixed length, so it cannot be a dummy entry", hex16(code));

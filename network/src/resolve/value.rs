@@ -93,7 +93,7 @@ fn text_value(device: &Device, item: &Item, bus: Bus, text: &str) -> Result<Valu
             _ => Ok(Value::NodeId(offset)),
         };
     }
-    // Names come first, because the name of a value can have the form of a physical value: `50 Hz`.
+    // Names are tried first, because the name of a value can have the form of a physical value: `50 Hz`.
     match (named(device, item, bus, text), quantity(text)) {
         (Some(value), _) => Ok(value),
         (None, Some((number, unit))) => physical(item, number, unit, ty),

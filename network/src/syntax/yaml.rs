@@ -42,7 +42,7 @@ pub fn parse(source: &Source, file: FileId) -> Result<Node, SyntaxError> {
     })
 }
 
-/// Converts character offsets to byte offsets. This is fast if the offsets increase from call to call.
+/// Converts character offsets to byte offsets. The conversion is fast if the offsets increase from call to call.
 #[derive(Default)]
 struct Offsets {
     characters: usize,
@@ -187,7 +187,7 @@ fn error(span: Span, message: impl Into<String>) -> SyntaxError {
     SyntaxError { span, message: message.into() }
 }
 
-/// Returns how many elements a text counts as.
+/// Returns the number of elements that a text counts as.
 fn elements_of(text: &str) -> usize {
     1 + text.len() / BYTES_OF_ELEMENT
 }

@@ -230,7 +230,7 @@ fn completion(
     found.unwrap_or_default()
 }
 
-/// Returns the names of the values in `fields`, without those in repeated groups: no reference is to a repeated value.
+/// Returns the names of the values in `fields`. Values in repeated groups are left out, because references cannot name them.
 pub(super) fn field_names(fields: &[MessageField]) -> impl Iterator<Item = &CompactString> {
     fields.iter().filter_map(|field| match field {
         MessageField::Value(value) => Some(&value.item.name),
