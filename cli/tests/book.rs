@@ -28,7 +28,7 @@ fn chapters() -> Vec<String> {
     names
 }
 
-/// Creates the working folder of a chapter. The folder contains the book's examples, the dictionaries, the example
+/// Creates the working directory of a chapter. The folder contains the book's examples, the dictionaries, the example
 /// network, and some test data.
 fn folder(name: &str) -> PathBuf {
     let root = docs().join("..");

@@ -91,8 +91,8 @@ impl Description {
     ///
     /// # Errors
     ///
-    /// Fails if the file has errors, if the file and `options` don't select exactly one device, or if this device has no
-    /// parameter on the network.
+    /// Fails if the file has errors, or if the file and `options` don't select exactly one device. Also fails if this device
+    /// has no parameter on the network.
     pub fn compile(source: Source, network: Network, options: &Options) -> Result<Self, DescriptionError> {
         let compilation = compile::check(source, options);
         match compilation.usable() {

@@ -53,15 +53,17 @@ impl fmt::Display for ParseError {
 impl Error for ParseError {}
 
 impl Parameter<'_> {
-    /// Parses a value: a number with the unit of the parameter, a raw value (`1550 raw`), a hexadecimal number, the name
-    /// of a value, a formula with `$NODEID`, a text, a time (`2 d 500 ms`), or bytes in hexadecimal.
+    /// Parses a value. Depending on the type, the text is a number with the unit of the parameter, a raw value (`1550 raw`),
+    /// the name of a value or a formula with `$NODEID`. It can also be a text, a time (`2 d 500 ms`), or bytes in
+    /// hexadecimal.
     ///
     /// If the type is an integer, a physical value is rounded to the nearest raw value.
     ///
     /// # Errors
     ///
-    /// Fails if the text doesn't have the form of a value of the parameter's type, if the unit is missing or wrong, or if a
-    /// physical value cannot be converted to a raw value. [`Write::new`](crate::Write::new) checks the range of the value.
+    /// Fails if the text doesn't have the form of a value of the parameter's type, or if the unit is missing or wrong. Also
+    /// fails if a physical value cannot be converted to a raw value. [`Write::new`](crate::Write::new) checks the range of
+    /// the value.
     pub fn parse(&self, text: &str) -> Result<Value, ParseError> {
         let basic = self.basic();
         match basic {

@@ -50,7 +50,7 @@ impl AnyPort {
         Err(Failure::Bus("this build doesn't support slcan (feature `slcan`)".to_owned()))
     }
 
-    /// Connects to a CANopen node. `timeout` is the maximum time for each reply.
+    /// Creates a connection to a CANopen node. `timeout` is the maximum time for each reply.
     #[must_use]
     pub fn connection(self, node: NodeId, timeout: Duration) -> NodeConnection {
         CanOpenConnection::new(Node::new(Buffered::new(self), node).with_timeout(timeout))

@@ -26,8 +26,8 @@ pub enum Protection {
     /// The parameter commands the state, the mode or a motion of the device, or the touch probe or an output of a CiA 402
     /// drive.
     Control,
-    /// The parameter is an output: a coil, a process output, a value that is mapped into an RPDO by default, or an output of
-    /// a CiA 401 device.
+    /// The parameter is an output: a coil, a process output, an output of a CiA 401 device, or a value that is mapped into
+    /// an RPDO by default.
     Output,
     /// The parameter sets the node-ID or the address of the device.
     NodeId,
@@ -158,9 +158,9 @@ impl Parameter<'_> {
         device.machines.iter().any(is_controlled) || is_of_drive()
     }
 
-    /// Returns whether the parameter is a coil. Also returns true for an object that is a process output, that is mapped
-    /// into an RPDO by default, or that is an output of a CiA 401 device. An item of a Modbus device can have an object too,
-    /// on another bus.
+    /// Returns whether the parameter is a coil. Also returns true for process outputs, for objects that are mapped into an
+    /// RPDO by default, and for outputs of a CiA 401 device. An item of a Modbus device can have an object too, on another
+    /// bus.
     fn is_output(&self, device: &Device) -> bool {
         let is_coil = matches!(self.address(), Address::Register(register) if register.table == RegisterTable::Coil);
         let Some(object) = self.item().object() else { return is_coil };

@@ -157,8 +157,8 @@ mod tests {
     fn other_lines_are_skipped() {
         let mut decoder = Decoder::default();
         decoder.push(b"\x07\rz\rZ\rV1013\rt12\rtXYZ0\rt1239\rt12320A\rt8000\r");
-        // The next lines are not frames: they have wrong CAN-IDs, wrong length codes, signs, additional digits, wrong time
-        // stamps or other bytes, or end with a bell.
+        // The next lines are not frames. They contain wrong CAN-IDs, length codes, signs, additional digits, time stamps or
+        // other bytes, or end with a bell.
         decoder.push(
             b"t12390102030405060708\xff\rt1239010203040506070809\rr1239\rr123F\rt+120\rt1231+1\rt12310\rt1231012\r",
         );

@@ -246,7 +246,7 @@ pub struct NetworkPdo {
     pub event_deadline: u16,
     /// SYNC start value of the sender; 0 = none.
     pub sync_start: u8,
-    /// Mapped objects, in their order.
+    /// Mapped objects, in the order of the mapping.
     pub entries: Vec<MappedObject>,
 }
 

@@ -32,9 +32,9 @@
 //! below). It then reads only bytes that have arrived. With the feature `std`, the line has a clock, and pauses while it
 //! waits. Without `std`, set a clock with [`SerialLine::with_time`].
 //!
-//! Without a clock or this information, a read can block. If no byte arrives, only the stream can end the read, for
-//! example with a timeout, and the exchange returns the error of the stream. Without a clock, only the [number of
-//! received bytes](SerialLine) limits an exchange in which noise arrives continuously.
+//! If the line has no clock, or does not know whether a read returns at once, a read can block. If no byte arrives, only the
+//! stream can end the read, for example with a timeout, and the exchange returns the error of the stream. Without a clock,
+//! only the [number of received bytes](SerialLine) limits an exchange in which noise arrives continuously.
 //!
 //! Async streams have no timeout, so an async line needs a timer. An async exchange on a line without a timer doesn't
 //! compile. Set the timeout of a line as follows:

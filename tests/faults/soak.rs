@@ -1,6 +1,6 @@
-//! Soak test: an hour of simulated time with random faults. It covers the clients of SDO (CANopen and EtherCAT), Modbus and
-//! serial lines, and the state machine walker. No value may be wrong, no buffer may grow, and the memory of the process may
-//! grow by at most 1 MiB.
+//! Soak tests: an hour of simulated time for each bus, with random faults. They cover the clients of SDO (CANopen and
+//! EtherCAT), Modbus and serial lines, and the state machine walker. No value may be wrong, no buffer may grow, and the
+//! memory of the process may grow by at most 1 MiB.
 
 use std::process::Command;
 use std::time::Duration;

@@ -83,7 +83,7 @@ pub(crate) struct Target {
     /// Node-ID on CANopen, or server address on Modbus. Without this option, the device is a node of a network file.
     #[arg(long, value_name = "NODE")]
     pub node: Option<u8>,
-    /// Network file with the node; by default, network.toml in the working folder.
+    /// Network file with the node; by default, network.toml in the working directory.
     #[arg(long, value_name = "FILE", conflicts_with = "node")]
     pub network: Option<PathBuf>,
     /// Maximum time for a reply, in milliseconds.
@@ -243,7 +243,7 @@ pub(crate) enum WatchedNode {
 /// The nodes that are watched.
 #[derive(Debug, Args)]
 pub(crate) struct WatchedNodes {
-    /// Network file; by default, network.toml in the working folder.
+    /// Network file; by default, network.toml in the working directory.
     #[arg(long, value_name = "FILE")]
     pub network: Option<PathBuf>,
     /// Nodes with their descriptions, as NODE=FILE, or names of nodes in the network file. By default, all nodes of the

@@ -13,7 +13,7 @@ use lexibus_network::output::node_catalog;
 use crate::files::read;
 use crate::Failure;
 
-/// Name of the network file in the working folder.
+/// Name of the network file in the working directory.
 pub(super) const DEFAULT: &str = "network.toml";
 
 /// A network file without errors.
@@ -31,7 +31,7 @@ pub(super) enum Values {
 }
 
 impl NetworkFile {
-    /// Reads a network file, by default `network.toml` in the working folder.
+    /// Reads a network file, by default `network.toml` in the working directory.
     pub(super) fn open(path: Option<&Path>) -> Result<Self, Failure> {
         let compilation = compile(read(path.unwrap_or(Path::new(DEFAULT)))?, Levels::lenient());
         if compilation.usable().is_some() {

@@ -173,7 +173,7 @@ fn what_describes_no_device_gives_no_bindings() {
     let target = folder.join("empty.rs");
     let generated = lexibus(&["generate", &empty, "--out", &target.to_string_lossy()]);
     assert_eq!((code(&generated), target.exists()), (1, false));
-    assert!(err(&generated).contains("describes no device"), "{}", err(&generated));
+    assert!(err(&generated).contains("describes neither a device nor a module"), "{}", err(&generated));
     // If there are several inputs, an input without a device is skipped.
     std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
     let all = lexibus(&["generate", &folder.to_string_lossy(), "--out", &format!("{}/", folder.display())]);

@@ -101,8 +101,9 @@ pub enum Completion {
     Reply,
     /// The command is complete when an item, or a field of a reply, has a certain value.
     Polled {
-        /// Name of the item or field, optionally followed by a dot and the name of a bit. Only a reference to an item has an id.
-        /// Several replies can have a field with this name, so [`MessageValue::completes`] refers to the command instead.
+        /// Name of the item or field, optionally followed by a dot and the name of a bit. The reference has an id only if it
+        /// refers to an item. Several replies can have a field with this name, so [`MessageValue::completes`] refers to the
+        /// command instead.
         item: ItemRef,
         /// Mask of the bits to compare; `None` = all bits.
         mask: Option<u64>,
@@ -204,8 +205,8 @@ pub struct MessageValue {
 pub struct PolledCommand {
     /// The message of the command. Its completion contains the mask and the expected value.
     pub message: MessageId,
-    /// Position of the compared field in the bit field that is the type of the value; `None` = the completion names no bit,
-    /// and its mask determines the compared bits.
+    /// Position of the compared field in the bit field that is the type of the value; `None` = the mask of the completion
+    /// determines the compared bits.
     pub bits: Option<u32>,
 }
 

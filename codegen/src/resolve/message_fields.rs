@@ -8,8 +8,8 @@ use crate::ir::{
 };
 
 /// Sets the ids of the references to fields, and the commands of polled values. A field of a reply can copy a value of the
-/// request. References to a counted field or to a count are within one list of fields. The names in the framing refer to values
-/// of each request that has them.
+/// request. References to a counted field or to a count are within one list of fields. For each message, a name in the
+/// framing refers to the value with this name in the request, if there is one.
 pub(super) fn run(device: &mut Device) {
     let framing = device.framing.as_deref();
     for message in &mut device.messages {
@@ -122,7 +122,7 @@ fn within(fields: &mut [MessageField]) {
     }
 }
 
-/// Returns the first field whose name is `wanted`.
+/// Returns the id of the first field whose name is `wanted`.
 fn find(fields: &[MessageField], wanted: &str, name: fn(&MessageField) -> Option<&str>) -> Option<FieldId> {
     let position = fields.iter().position(|field| name(field) == Some(wanted))?;
     Some(FieldId(position as u32))
@@ -165,8 +165,8 @@ mod tests {
         MessageField::Repeat { count: Some(count.into()), max: None, fields }
     }
 
-    /// Returns the positions of the referenced fields, one for each reference in the order of the fields. An unresolved
-    /// reference has `None`.
+    /// Returns the positions of the referenced fields, one for each reference in the order of the fields. The position of an
+    /// unresolved reference is `None`.
     fn targets(fields: &[MessageField]) -> Vec<Option<u32>> {
         let mut all = Vec::new();
         for field in fields {

@@ -56,8 +56,8 @@ impl Backup {
     ///
     /// # Errors
     ///
-    /// Fails if the text isn't a backup, if an entry doesn't identify a parameter of the description, or if its value is
-    /// missing or cannot be parsed.
+    /// Fails if the text isn't a backup, or if an entry doesn't identify a parameter of the description. Also fails if a
+    /// value is missing or cannot be parsed.
     pub fn from_toml(text: &str, description: &Description) -> Result<Self, TableError> {
         let table: toml::Table = text.parse().map_err(|error: toml::de::Error| TableError(error.to_string()))?;
         if table.get("lexibus-backup").and_then(toml::Value::as_integer) != Some(VERSION) {

@@ -1,6 +1,6 @@
 //! State of SDO block transfers (CiA 301 7.2.4.3.9 to 7.2.4.3.17).
 //!
-//! A segment of a block transfer begins with its sequence number instead of a command, so only the messages before it show that
+//! A segment of a block transfer begins with its sequence number instead of a command. Only the messages before it show that
 //! it is a segment.
 
 use std::collections::HashMap;

@@ -140,9 +140,9 @@ fn is_of_several_registers(write: &Write<'_>) -> bool {
     matches!(write.parameter().address(), Address::Register(register) if register.count > 1)
 }
 
-/// Reads back the last written value of each address that can be read. Returns the writes whose value differs or whose
-/// read is refused, and the number of values that were not read because of timeouts or bus failures. After such a failure,
-/// the device may have restarted, so all values are read again, up to three times in total.
+/// Reads back the last written value of each address that can be read. Returns the writes whose value differs or whose read
+/// is refused. Also returns the number of values that were not read because of timeouts or bus failures. After such a
+/// failure, the device may have restarted, so all values are read again, up to three times in total.
 fn read_back<'d>(
     states: &[(Write<'d>, Status)],
     connection: &mut impl Connection,

@@ -71,7 +71,8 @@ pub(super) fn ordered<'d>(
 }
 
 /// Returns the PDOs that are not restored, as the indices of their communication parameters. A PDO is not restored if one of
-/// its values is refused, if the backup lacks a value that `settings` needs, or if a mapped entry has no value.
+/// its values is refused. It is not restored either if the backup lacks a value that `settings` needs, or if a mapped entry
+/// has no value.
 fn incomplete_pdos(
     description: &Description,
     backup: &Backup,

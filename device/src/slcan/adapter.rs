@@ -16,8 +16,8 @@ const MIN_TIMEOUT: Duration = Duration::from_millis(1);
 const MAX_TIMEOUT: Duration = Duration::from_secs(86_400);
 /// Maximum time for the reply to a command. Some adapters send no replies.
 const REPLY: Duration = Duration::from_millis(200);
-/// If no byte arrives for this time, `open` assumes that the adapter has nothing left to send: no replies to earlier
-/// commands, and no frames from the time before the channel was closed.
+/// If no byte arrives for this time, `open` assumes that the adapter has nothing left to send. Before, the adapter can send
+/// replies to earlier commands and frames from the time before the channel was closed.
 const SILENCE: Duration = Duration::from_millis(100);
 
 /// A serial line with timeouts.

@@ -57,8 +57,8 @@ fn check_mapping<C: Connection>(run: &mut Run<'_, C>, group: &Group) -> Result<(
     Ok(())
 }
 
-/// Reads a mapping. Returns `None` if a part of the mapping cannot or must not be read, if a part has a wrong length, or if
-/// the number of entries is above the maximum.
+/// Reads a mapping. Returns `None` if a part of the mapping cannot or must not be read, or has a wrong length. Also returns
+/// `None` if the number of entries is above the maximum.
 fn read<C: Connection>(run: &mut Run<'_, C>, index: u16) -> Result<Option<Vec<Entry>>, Failure> {
     /// Maximum number of entries. Greater numbers are reserved or select a multiplexed PDO.
     const MAX_ENTRIES: u8 = 64;

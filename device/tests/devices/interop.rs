@@ -1,5 +1,5 @@
-//! The functions of the crate with independent programs: a node of the Python library `canopen` behind an slcan adapter
-//! on a pseudo-terminal, and servers of `pymodbus`.
+//! Runs the functions of the crate with independent programs: servers of `pymodbus`, and a node of the Python library
+//! `canopen` behind an slcan adapter on a pseudo-terminal.
 #[path = "../../../tests/interop/python.rs"]
 #[allow(dead_code)]
 mod python;
@@ -19,8 +19,8 @@ use serde_json::{json, Value};
 const NODE: u8 = 5;
 const TIMEOUT: Duration = Duration::from_millis(500);
 
-/// Starts a script that simulates a CANopen node at one end of a cable. Returns the cable, the script and the address
-/// of the bus at the other end, or `None` if Python or one of its libraries is missing.
+/// Starts a script that simulates a CANopen node at one end of a cable. Returns the cable, the script and the address of the
+/// bus at the other end. Returns `None` if Python or one of its libraries is missing.
 fn node(script: &str) -> Option<(Cable, Script, BusAddress)> {
     let python = python()?;
     let cable = Cable::open();

@@ -18,8 +18,8 @@ const CAN_ID: u32 = 0x3FFF_FFFF;
 struct Sender {
     cob_id: u32,
     name: String,
-    /// Location in the network file. Empty for TIME and EMCY if the file does not set the COB-ID, and for SYNC with the CAN-ID 0x80 if no
-    /// known node sends it.
+    /// Location in the network file. Empty for TIME and EMCY if the file does not set the COB-ID. Also empty for SYNC with
+    /// the CAN-ID 0x80 if no known node sends it.
     span: Span,
     is_pdo: bool,
 }

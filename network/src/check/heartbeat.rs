@@ -78,8 +78,8 @@ fn consumers(network: &Network, node: &NetworkNode, diagnostics: &mut Diagnostic
     }
 }
 
-/// Returns the name and the heartbeat producer time of a node or of the master. For the master, the last number is the consumer time
-/// that follows from its multiplier; `times` checks this time. For a node, it is 0.
+/// Returns the name and the heartbeat producer time of a node or of the master. The third value is the consumer time that results
+/// from the master's multiplier, or 0 for a node. `times` checks this consumer time.
 fn heartbeat_of(network: &Network, id: u8) -> Option<(String, u16, u32)> {
     if let Some(master) = network.master.as_ref().filter(|_| id == network.master_id()) {
         let computed = consumer_time(master.heartbeat.value, master.heartbeat_multiplier.value) & 0xFFFF;

@@ -31,7 +31,8 @@ impl Format {
     }
 }
 
-/// Returns whether a file is a network file: a TOML file with the key `nodes` or `segment`, or a file with the extension of another format.
+/// Returns whether a file is a network file. A TOML file is one if it has the key `nodes` or `segment`; any other file, if
+/// it has the extension of a format of network files.
 pub fn is_network(source: &Source) -> bool {
     match Format::of_name(source.name()) {
         Some(Format::Toml) => parse_toml(source, FileId(0)).is_ok_and(|root| has_devices(&root)),

@@ -56,7 +56,8 @@ pub(super) fn text(text: &str) -> String {
     out
 }
 
-/// Returns an exponent unchanged, or as `^` and normal characters if Windows-1252 does not have all its characters.
+/// Returns an exponent unchanged if Windows-1252 has all of its characters. Otherwise, returns `^` and the normal
+/// characters.
 fn of_exponent(exponent: &str) -> String {
     match exponent.chars().all(exists) {
         true => exponent.to_owned(),

@@ -192,8 +192,8 @@ fn domains<'n>(
     record(index, name, ObjectCode::Array, (1..=NODES).map(domain).collect())
 }
 
-/// Returns the objects for the PDOs of the master: their communication parameters and mappings, the mapped objects, and the
-/// objects that describe the matching PDOs of the nodes.
+/// Returns the objects for the PDOs of the master: communication parameters, mappings, mapped objects, and objects that
+/// describe the matching PDOs of the nodes.
 fn pdos(network: &Network) -> Vec<Group> {
     let mut groups = Vec::new();
     for (direction, first) in [Direction::Transmit, Direction::Receive].into_iter().zip(DATA) {

@@ -1,5 +1,5 @@
-//! Documentation of a network: the pages of each node's device with the values and PDOs of the network, the page of the network, and
-//! the pages of the EtherCAT segment.
+//! Documentation of a network: the page of the network, and the pages of its devices with the values and PDOs of the
+//! network. Also the pages of the EtherCAT segment.
 
 use std::collections::BTreeSet;
 
@@ -80,8 +80,8 @@ fn shown_node(title: &str, node: &NetworkNode) -> Node {
     }
 }
 
-/// Returns a value as text with its unit. The meaning of the value or the name of the mapped object follows in parentheses,
-/// if it is known and not yet part of the text.
+/// Returns a value as text with its unit. In parentheses follows the meaning of the value or the name of the mapped object,
+/// unless it is unknown or already part of the text.
 fn shown_value(node: &NetworkNode, item: &Item, value: &Value) -> String {
     let (value, types) = (value.resolved(node.id), &node.device().types);
     let text = item::value(item, &value, types);
@@ -122,7 +122,7 @@ fn facts(node: &NetworkNode) -> Vec<String> {
     facts
 }
 
-/// Returns one frame for each CAN-ID of a PDO, then the frames of the services.
+/// Returns one frame for each CAN-ID that PDOs use, then the frames of the other services.
 fn frames(network: &Network, traffic: &[Traffic]) -> Vec<Frame> {
     let mut known = BTreeSet::new();
     let sent = network.pdos(Direction::Transmit).chain(network.pdos(Direction::Receive));

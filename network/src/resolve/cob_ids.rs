@@ -24,8 +24,11 @@ type Key = (String, Direction, u16);
 pub(super) struct CobIds(HashMap<Key, u32>);
 
 impl CobIds {
-    /// Assigns COB-IDs to the declared PDOs of all nodes in three steps: the COB-IDs that the file, the descriptions or the
-    /// predefined connection set states; free COB-IDs; the COB-IDs of other nodes' TPDOs.
+    /// Assigns COB-IDs to the declared PDOs of all nodes in three steps:
+    ///
+    /// 1. the COB-IDs that the file or a description declares, or that the predefined connection set defines
+    /// 2. free COB-IDs
+    /// 3. the COB-IDs of other nodes' TPDOs
     pub fn new(nodes: &[DescribedNode<'_>], master: Option<&DeclaredMaster>, diagnostics: &mut Diagnostics) -> Self {
         let mut ids = CobIds(HashMap::new());
         let all = || nodes.iter().flat_map(|node| node.declared.pdos.iter().map(move |declared| (node, declared)));
@@ -136,8 +139,8 @@ fn services(node: &DescribedNode<'_>) -> Vec<u32> {
     consumed.chain(sdo.chain([values.number((0x1014, 0))]).flatten()).collect()
 }
 
-/// Returns the COB-ID of a PDO if it does not depend on other PDOs: the declared COB-ID, else that of the description, else
-/// that of the predefined connection set.
+/// Returns the COB-ID of a PDO if it does not depend on other PDOs. This is the declared COB-ID, else that of the
+/// description, else that of the predefined connection set.
 fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let of_description = || {
         let pdo = pdo(node.initial(), direction(declared), declared.number.value)?;

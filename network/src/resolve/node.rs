@@ -1,4 +1,4 @@
-//! Resolves one node: the values that configure it, in the order in which they are written.
+//! Resolves one node: determines the values that configure it, in the order in which they are written.
 
 use lexibus_codegen::diagnostics::Diagnostics;
 use lexibus_codegen::facts::configuration::{Configuration, Setting};
@@ -24,9 +24,9 @@ const EMCY: u32 = 0x80;
 
 /// Resolves a node.
 ///
-/// The configured values of the description come first, unless `is_description_written` is false. The order of the other writes is
-/// that of `dcfgen`: heartbeat consumer (which `heartbeat::monitor_master` adds), TIME, heartbeat producer, node guarding, error
-/// behavior, RPDOs, TPDOs, and `parameters` in the order of the file.
+/// The configured values of the description come first, unless `is_description_written` is false. The order of the other
+/// writes is that of `dcfgen`: heartbeat consumer, TIME, heartbeat producer, node guarding, error behavior, RPDOs, TPDOs,
+/// and `parameters` in the order of the file. `heartbeat::monitor_master` adds the heartbeat consumer.
 pub(super) fn resolve(node: DescribedNode<'_>, cob_ids: &CobIds, diagnostics: &mut Diagnostics) -> NetworkNode {
     let DescribedNode { declared, id, description, parameters } = node;
     let writes = writes(declared, id, &description, cob_ids, parameters, diagnostics);

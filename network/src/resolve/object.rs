@@ -69,8 +69,8 @@ fn shown(device: &Device) -> String {
     }
 }
 
-/// Returns the names by which a file can refer to an item: the name of the item alone, and after the name of its object and
-/// a slash.
+/// Returns the two names by which a file can refer to an item. The second one begins with the name of the object and a
+/// slash.
 fn names<'d>(group: &'d Group, item: &'d Item) -> [String; 2] {
     [item.name.to_string(), format!("{}/{}", group.name, item.name)]
 }

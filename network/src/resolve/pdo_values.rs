@@ -36,8 +36,8 @@ pub(super) fn configured(node: &DeclaredNode, values: Values<'_>) -> Vec<Network
     pdos
 }
 
-/// Sets the declared values of a PDO that its node does not contain: the timers and the SYNC start value of the sender of an RPDO, and
-/// the deadline of the receiver of a TPDO.
+/// Sets the declared values of a PDO that its node does not contain. For an RPDO, these are the timers and the SYNC start
+/// value of its sender. For a TPDO, this is the deadline of its receiver.
 fn of_master(pdo: &mut NetworkPdo, declared: &DeclaredPdo) {
     fn number<T: Copy + Default>(declared: &Option<At<T>>) -> T {
         declared.as_ref().map_or(T::default(), |declared| declared.value)

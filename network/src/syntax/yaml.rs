@@ -21,8 +21,8 @@ const BYTES_OF_ELEMENT: usize = 64;
 ///
 /// # Errors
 ///
-/// Returns the first error: invalid syntax, a key that is not a text, an integer or a Boolean value, a key that occurs twice, an
-/// alias within its own anchor, or too many elements or levels.
+/// Returns the first error: invalid syntax, a key that occurs twice, an alias within its own anchor, or too many elements or
+/// levels. A key that is not a text, an integer or a Boolean value is an error, too.
 pub fn parse(source: &Source, file: FileId) -> Result<Node, SyntaxError> {
     let mut loader = Loader::new(source.text(), file);
     for event in Parser::new_from_str(source.text()) {

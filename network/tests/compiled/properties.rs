@@ -1,5 +1,5 @@
-//! Tests with random networks. After a node's concise DCF has been written, the values of the node must agree with the model, with
-//! the DCF of the node, and with the DCF of the master.
+//! Tests with random networks. After a node's concise DCF has been written, the values of the node must agree with the
+//! model. They must also agree with the DCF of the node and the DCF of the master.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -246,8 +246,8 @@ fn bus_yml_files_of_the_corpus_are_equal() {
             let path = entry.expect("a file").path();
             std::fs::copy(&path, folder.join(path.file_name().expect("a name"))).expect("a file of the corpus");
         }
-        // Replace the path, as the build of ros2_canopen does before it runs `dcfgen`. That build also resolves the
-        // sections `defaults` and `nodes`.
+        // Replace the placeholder `@BUS_CONFIG_PATH@` with a path, as the build of ros2_canopen does before it runs
+        // `dcfgen`. That build also resolves the sections `defaults` and `nodes`.
         let text = std::fs::read_to_string(folder.join("bus.yml")).expect("a file");
         std::fs::write(folder.join("bus.yml"), text.replace("@BUS_CONFIG_PATH@", ".")).expect("a file");
         assert_eq!(build(&folder), Vec::<String>::new(), "{name}");

@@ -40,13 +40,13 @@ enum Detail {
 
 /// Exports the content of a device's EEPROM.
 ///
-/// If the content is too long for the EEPROM, leaves out the names of PDO entries. If the content is still too long,
-/// leaves out the PDOs of a device with CoE, because a master can read the PDOs from the object dictionary.
+/// If the content is too long for the EEPROM, leaves out the names of PDO entries. If the content is still too long, leaves
+/// out the PDOs of a device with CoE. A master can read them from the object dictionary.
 ///
 /// # Errors
 ///
-/// Returns an error if the device has no EtherCAT settings, if the source describes only a dictionary, if a required
-/// fact is missing, or if the shortest possible content is too long for the EEPROM.
+/// Returns an error if the source lacks a required fact or the EtherCAT settings, or describes only a dictionary. Also
+/// returns an error if the shortest possible content is too long for the EEPROM.
 pub fn export(device: &Device, options: &Options) -> Result<Image, Refusal> {
     let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only).ok_or(Refusal::Nothing)?;
     let options = &TrackedOptions::new(options);

@@ -43,7 +43,7 @@ impl OptionValue for Octets {
 pub struct EepromSize(u32);
 
 impl EepromSize {
-    /// Unit of the size word in the configuration area, in bytes.
+    /// Unit of the size word (word address 0x3E), in bytes.
     pub(super) const STEP: u32 = 128;
 
     /// Creates a size from a number of bytes. Returns `None` if the number is 0, above 524288 (4 Mibit) or not a multiple

@@ -60,8 +60,8 @@ pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
     bytes
 }
 
-/// Returns the length of a sync manager in bytes. If the description declares no default length, returns the total
-/// length of the PDOs that are assigned to this sync manager by default, limited to 65535.
+/// Returns the length of a sync manager in bytes. If the description declares no default length, returns the total length of
+/// the default PDOs of this sync manager, at most 65535.
 fn length(assigned: &[(&Pdo, u8)], manager: &SyncManager) -> u16 {
     manager.default_size.unwrap_or_else(|| {
         let own = assigned.iter().filter(|(_, number)| *number == manager.number);

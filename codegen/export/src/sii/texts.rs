@@ -42,8 +42,8 @@ impl Texts {
     }
 }
 
-/// Returns a text in ISO 8859-1. Replaces characters that ISO 8859-1 lacks with question marks, and shortens the text
-/// to 255 bytes. Counts each kind of change at most once in the notes.
+/// Returns a text in ISO 8859-1. Replaces characters that ISO 8859-1 lacks with question marks, and shortens the text to 255
+/// bytes. For each kind of change, the notes count the text once.
 fn encoded(text: &str, notes: &mut Notes) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut unknown = false;

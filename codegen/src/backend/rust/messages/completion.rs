@@ -93,8 +93,8 @@ fn compare(
     })
 }
 
-/// Returns the bit offset of the field at index `position` of a bit field. Also returns a mask with the width of this field
-/// that starts at bit 0.
+/// Returns the bit offset of the field at index `position` of a bit field. Also returns a mask that starts at bit 0 and is
+/// as wide as this field.
 fn bits(context: &Context<'_>, ty: Type, position: u32) -> Option<(u32, u64)> {
     let Shape::BitField { fields, .. } = &context.resolve(ty).1?.1.shape else { return None };
     let field = fields.get(position as usize)?;
