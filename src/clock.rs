@@ -11,9 +11,9 @@ pub trait Clock {
     /// Returns the time since a fixed moment, or `None` if there is no clock.
     fn now(&mut self) -> Option<Duration>;
 
-    /// Waits for a moment between two polls of an interface. The default implementation is a hint for the processor that
-    /// the program waits in a loop. Implement this method for a clock that can sleep. With the feature `std`,
-    /// [`DefaultClock`] sleeps for at least 0.1 ms.
+    /// Waits for a moment between two polls of an interface. The default implementation signals the processor that the
+    /// program is in a spin loop. Implement this method for a clock that can sleep. With the feature `std`, [`DefaultClock`]
+    /// sleeps for at least 0.1 ms.
     fn pause(&mut self) {
         spin_loop();
     }

@@ -59,7 +59,7 @@ async fn op(maindevice: &'static MainDevice<'static>) -> Group<Op> {
     pre_op(maindevice).await.into_op(maindevice).await.expect("all SubDevices in Operational")
 }
 
-/// Compiles a network file with a segment that contains only this device.
+/// Compiles a network file whose segment contains only the device of the description file `path`.
 fn compiled(path: &str) -> lexibus_network::ethercat::SubDevice {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = format!("[segment]\ncycle = 1000\n[segment.subdevices.one]\ndevice = \"{path}\"\n");

@@ -26,7 +26,7 @@ pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> String {
     format!("cannot write {}: {error}", path.display())
 }
 
-/// Creates a folder and its missing parents, if it does not exist.
+/// Creates a folder with its missing parents, if the folder does not exist.
 pub(super) fn create_folder(path: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(path)
         .map_err(|error| Failure::Failed(format!("cannot create the folder {}: {error}", path.display())))

@@ -1,5 +1,5 @@
 //! Hash tables with a faster hash function than those of the standard library.
 //!
-//! The function has a random seed in each run, so that a file can hardly contain names that were chosen to collide.
+//! The seed of the function is random in each run, so that no author of a file can predict which names collide.
 
 pub use foldhash::{HashMap, HashSet};

@@ -33,7 +33,7 @@
 //! waits. Without `std`, set a clock with [`SerialLine::with_time`].
 //!
 //! If the line has no clock, or does not know whether a read returns at once, a read can block. If no byte arrives, only the
-//! stream can end the read, for example with a timeout, and the exchange returns the error of the stream. Without a clock,
+//! stream can end the read, for example with a timeout. The exchange then returns the error of the stream. Without a clock,
 //! only the [number of received bytes](SerialLine) limits an exchange in which noise arrives continuously.
 //!
 //! Async streams have no timeout, so an async line needs a timer. An async exchange on a line without a timer doesn't
@@ -209,8 +209,8 @@ impl<S, F: Framing, const N: usize> Line<S, F, N> {
         self.ready.is_some_and(|ready| ready(&mut self.stream))
     }
 
-    /// Waits until a read returns at once. Returns false if the limit expires first. If there is no limit, or if the
-    /// line doesn't know whether a read returns at once, returns true without waiting.
+    /// Waits until a read returns at once. Returns false if the limit expires first. Returns true without waiting if there
+    /// is no limit, or if the line doesn't know whether a read returns at once.
     fn await_byte(&mut self, limit: &mut impl Limit) -> bool {
         while limit.is_set() && self.ready.is_some() && !self.is_ready() {
             if limit.is_over() {
@@ -292,7 +292,7 @@ fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
     matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
 }
 
-/// Limit of the time for which a line waits for bytes.
+/// Time limit for waiting for bytes on a line.
 trait Limit {
     /// Returns whether there is a limit.
     fn is_set(&self) -> bool;
@@ -300,11 +300,11 @@ trait Limit {
     /// Returns whether the limit has expired.
     fn is_over(&mut self) -> bool;
 
-    /// Waits for a moment.
+    /// Pauses between two reads.
     fn pause(&mut self);
 }
 
-/// Limit of a blocking line. There is no limit without a clock.
+/// Time limit of a blocking line. Without a clock, there is no limit.
 struct Deadline<'t, T> {
     time: &'t mut T,
     end: Option<Duration>,
@@ -332,7 +332,7 @@ impl<T: Clock> Limit for Deadline<'_, T> {
     }
 }
 
-/// No limit: the timer of an async line drops a wait that takes too long.
+/// No time limit. The timer of an async line ends a wait that takes too long.
 struct ByTimer;
 
 impl Limit for ByTimer {

@@ -26,9 +26,9 @@ impl SyncManagerSettings {
         0x0800 + 8 * self.number as u16
     }
 
-    /// Returns the values of the 8 registers: start address, length, control, status, activation and PDI control. The slave
-    /// ignores the bytes for the status and the PDI control, which are 0. The bytes do not depend on [`op_only`](Self::op_only): if
-    /// it is set, write them only at the transition to Operational.
+    /// Returns the 8 bytes of the registers: start address, length, control, status, activation and PDI control. The slave
+    /// ignores the bytes for the status and the PDI control, which are 0. The bytes do not depend on
+    /// [`op_only`](Self::op_only): if it is set, write them only at the transition to Operational.
     #[must_use]
     pub const fn bytes(&self) -> [u8; 8] {
         let ([start, start_high], [length, length_high]) =
@@ -37,8 +37,8 @@ impl SyncManagerSettings {
     }
 }
 
-/// Settings of a fieldbus memory management unit (FMMU), which maps the process data of a sync manager bytewise to logical
-/// addresses (ETG.1000.4, 6.6.2).
+/// Settings of a fieldbus memory management unit (FMMU), which maps the process data of a sync manager to logical addresses
+/// (ETG.1000.4, 6.6.2). These settings map whole bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FmmuSettings {
     /// Number of the FMMU.
@@ -64,7 +64,7 @@ impl FmmuSettings {
         0x0600 + 16 * self.number as u16
     }
 
-    /// Returns the values of the 16 registers, which enable the FMMU. The mapping starts at bit 0 of the first byte and ends
+    /// Returns the 16 bytes of the registers, which enable the FMMU. The mapping starts at bit 0 of the first byte and ends
     /// at bit 7 of the last byte. The FMMU writes outputs to the slave, and reads inputs. The bytes do not depend on
     /// [`op_only`](Self::op_only): if it is set, write them only at the transition to Operational.
     #[must_use]

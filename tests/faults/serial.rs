@@ -73,7 +73,8 @@ impl Write for Wire {
     }
 }
 
-/// A stream whose reads block until a byte arrives, and a device that answers each frame with the number of the request.
+/// A stream whose reads block until a byte arrives. The device at its other end answers each frame with the number of the
+/// request.
 pub struct Port {
     now: Rc<Cell<Duration>>,
     device: FaultyStream<Wire, Box<dyn FnMut(Duration)>>,

@@ -1,5 +1,5 @@
-//! Creates the documentation sites that the scripts open. The site of the four drives, which most scripts open, is
-//! created only once, as are the other sites that several scripts open.
+//! Creates the documentation sites that the scripts open. Each site that several scripts open is created only once. Most
+//! scripts open the site of the four drives.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -53,7 +53,7 @@ impl Site {
         self.further(&page, Content::Segment(&shown))
     }
 
-    /// Returns a page. Adds it to the search, and to the pages to which the list of devices links.
+    /// Returns the page of a network or segment. Adds it to the search, and to the pages to which the list of devices links.
     fn further(&mut self, page: &Further<'_>, content: Content<'_>) -> Page {
         let Further { folder, kind, name, title, parts } = page;
         let format = self.format.pages();

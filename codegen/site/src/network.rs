@@ -1,5 +1,4 @@
-//! A CANopen network, as its page shows it: its nodes, its frames with their senders and receivers, the bus load, and the
-//! configured values.
+//! Data of the page of a CANopen network: nodes, frames with senders and receivers, bus load, and configured values.
 
 use super::listed::Listed;
 use lexibus_codegen::facts::address;

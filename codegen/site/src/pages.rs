@@ -50,7 +50,7 @@ impl Frameset {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
 
-    /// Returns the frameset of a page that belongs to no device, such as the page of a network, and the file name of this page. The
+    /// Returns the frameset and the file name of a page that belongs to no device, such as the page of a network. The
     /// frameset links only to this page. Returns `None` if the frameset already has pages.
     pub fn alone(&self, path: &str, title: &str) -> Option<(Frameset, String)> {
         if self.device_pages.count() + self.shared.count() > 0 {

@@ -1,4 +1,4 @@
-//! An EtherCAT segment, as its page shows it: its SubDevices in the order of the bus, and the settings of each.
+//! Data of the page of an EtherCAT segment: the SubDevices in the order of the bus, with their settings.
 
 use super::listed::Listed;
 

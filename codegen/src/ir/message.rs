@@ -194,8 +194,8 @@ pub struct MessageValue {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub counts: Option<FieldRef>,
     /// The command whose completion the value indicates, if the value is in a reply and not in a repeated field. If several
-    /// commands poll a value with this name, this is the command of the reply. If the reply belongs to no such command, it
-    /// is the first command, provided that all have the same condition. Set by the stage `resolve`.
+    /// commands poll a value with this name, this is the command that the reply answers. If the reply answers none of these
+    /// commands, it is the first one, provided that all have the same condition. Set by the stage `resolve`.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub completes: Option<PolledCommand>,
 }
@@ -205,7 +205,7 @@ pub struct MessageValue {
 pub struct PolledCommand {
     /// The message of the command. Its completion contains the mask and the expected value.
     pub message: MessageId,
-    /// Position of the compared field in the bit field that is the type of the value; `None` = the mask of the completion
+    /// Index of the compared field in the list of fields of the value's bit-field type; `None` = the mask of the completion
     /// determines the compared bits.
     pub bits: Option<u32>,
 }

@@ -181,7 +181,7 @@ pub type TypeRef = Reference<TypeId>;
 /// A reference to a message.
 pub type MessageRef = Reference<MessageId>;
 
-/// A reference to a field of a message. A field that copies a request field has the name of that request field.
+/// A reference to a field of a message. A field that copies a request field has the name of the copied field.
 pub type FieldRef = Reference<FieldId>;
 
 /// A reference to an item, or to a message if there is no such item.

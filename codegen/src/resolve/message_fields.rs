@@ -8,8 +8,8 @@ use crate::ir::{
 };
 
 /// Sets the ids of the references to fields, and the commands of polled values. A field of a reply can copy a value of the
-/// request. References to a counted field or to a count are within one list of fields. For each message, a name in the
-/// framing refers to the value with this name in the request, if there is one.
+/// request. A counted field, or the count of repeated fields, must be in the list that contains the reference. For each
+/// message, a name in the framing refers to the value with this name in the request, if there is one.
 pub(super) fn run(device: &mut Device) {
     let framing = device.framing.as_deref();
     for message in &mut device.messages {
@@ -72,7 +72,7 @@ impl Commands {
     }
 
     /// Returns the command that polls `value`, a value in the reply to the message `replied`. If `replied` polls the value,
-    /// this is the command. Otherwise, it is the first command that polls the value, provided that all of these commands
+    /// the result is `replied`. Otherwise, it is the first command that polls the value, provided that all of these commands
     /// have the same condition. Returns `None` if there is no such command, or if the type of the value does not have the
     /// bit that the command polls.
     fn of(&self, replied: MessageId, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
@@ -206,7 +206,8 @@ mod tests {
         assert_eq!((message.address, message.check_from), (Some(FieldId(0)), Some(FieldId(1))));
         assert_eq!((other.address, other.check_from), (None, None));
         assert_eq!(targets(&message.request), [Some(1)]);
-        // The first field named `speed` in the reply is the copy. The count of a repetition is in the same list as the repetition.
+        // The first field named `speed` in the reply is the copy. Repeated fields and the field with the number of
+        // repetitions are in the same list.
         assert_eq!(targets(&message.reply), [Some(1), Some(1), None, Some(2), Some(0), Some(0), None]);
     }
 
@@ -241,7 +242,7 @@ mod tests {
         assert_eq!(values.map(|value| value.completes).collect::<Vec<_>>(), expected);
     }
 
-    /// Without the command of the reply, a value cannot indicate which of several conditions is met.
+    /// A value that several commands poll with different conditions refers to a command only in the reply to this command.
     #[test]
     fn values_with_several_conditions_refer_only_to_the_command_of_their_reply() {
         let mut messages = [("status", "status"), ("status", "status"), ("speed", "status")]

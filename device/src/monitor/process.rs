@@ -54,8 +54,8 @@ impl<'d> Pdos<'d> {
 }
 
 impl<'d> Known<'d> {
-    /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if
-    /// the PDO has no valid COB-ID, or if the identifier in the COB-ID is 0.
+    /// Returns a PDO with its configured COB-ID, or with its default COB-ID if none is configured. Returns `None` if the PDO
+    /// has no valid COB-ID, or if its CAN-ID is 0.
     fn new(node: u8, description: &'d Description, pdo: &Pdo) -> Option<Self> {
         let communication = pdo.communication.as_ref()?;
         let item = description.object(communication.index, 1).map(|parameter| parameter.item());

@@ -49,7 +49,7 @@ fn other_integers(parameter: &Parameter<'_>, number: i128) -> Vec<Value> {
     numbers.into_iter().filter(|other| *other != number).map(Value::Int).collect()
 }
 
-/// Tries to write another valid value to a parameter. Returns whether the device accepted one.
+/// Tries to write other valid values to a parameter until the device accepts one. Returns whether the device accepted a value.
 pub fn change(parameter: &Parameter<'_>, node_id: u8, connection: &mut impl Connection) -> bool {
     let Ok(Some(value)) = parameter.read(connection).map(|reading| reading.value) else { return false };
     let candidates = match (parameter.basic(), value) {

@@ -41,8 +41,8 @@ fn write(device: &Device, parameter: &DeclaredParameter, writes: &mut Vec<Write>
     *writes = writer.writes;
 }
 
-/// Returns the first module that contains the index of a parameter of the SubDevice, if the device does not contain this index. In all
-/// other cases, and for a name, returns the device.
+/// Returns the first module that contains the index of a parameter of the SubDevice, if the device does not contain this
+/// index. Otherwise, or if the parameter is given by name, returns the device.
 fn owner<'d>(device: &'d Device, modules: &'d [Device], parameter: &DeclaredParameter) -> &'d Device {
     let of_module = match parameter.object.value {
         ObjectName::Address(index, _) if device.object(index).is_none() => {

@@ -102,7 +102,7 @@ impl Reader<'_> {
         self.diagnostics.push(Diagnostic::new(&codes::NETWORK_VALUE, table.node.span, message));
     }
 
-    /// Returns an integer. The range is that of the key's declaration.
+    /// Returns an integer. The declaration of the key states the range.
     pub fn integer<T: TryFrom<i128>>(&mut self, table: Table<'_>, key: &str) -> Option<At<T>> {
         let node = table.get(key)?;
         let Some(Form::Integer(low, high)) = form(table.section, key) else { return None };

@@ -17,7 +17,7 @@ use crate::model::entry_name;
 const SYNC0_ACTIVE: u32 = 0x0200;
 const SYNC1_ACTIVE: u32 = 0x0400;
 
-/// Announces the devices of all SubDevices.
+/// Announces the devices of all SubDevices to the site.
 pub(super) fn announce(segment: &Segment, title: &str, site: &mut Site) {
     for subdevice in &segment.subdevices {
         site.announce(&catalog_name(title, subdevice), subdevice.description.catalog());

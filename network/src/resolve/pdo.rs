@@ -40,7 +40,7 @@ fn missing(declared: &DeclaredPdo, pdos: &[NetworkPdo], writer: &mut Writer<'_>)
 }
 
 /// Configures a PDO as declared. Writes the disabled COB-ID and the changed parameters, then a declared mapping. Enables the
-/// PDO last, unless the file disables it. If `cob_id` has bit 31, only disables the PDO.
+/// PDO last, unless the file disables it. If bit 31 of `cob_id` is set, only disables the PDO.
 fn configure(pdo: &NetworkPdo, declared: &DeclaredPdo, cob_id: u32, writer: &mut Writer<'_>) {
     let index = pdo.index();
     let span = declared.cob_id.as_ref().map_or(declared.number.span, |cob_id| cob_id.span);

@@ -126,7 +126,7 @@ impl<'t> Loader<'t> {
         }
     }
 
-    /// Counts elements before they are added.
+    /// Counts elements before they are added. Fails if the file then has more than [`MAX_ELEMENTS`] elements.
     fn count(&mut self, elements: usize, span: Span) -> Result<(), SyntaxError> {
         self.elements += elements;
         if self.elements > MAX_ELEMENTS {

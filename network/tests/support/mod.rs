@@ -64,7 +64,7 @@ pub fn valid(compilation: &Compilation) -> &Network {
     compilation.network.as_ref().expect("a network")
 }
 
-/// Returns the node with a name.
+/// Returns the node with this name.
 pub fn node<'n>(network: &'n Network, name: &str) -> &'n NetworkNode {
     network.nodes.iter().find(|node| node.name.value == name).expect("a node")
 }

@@ -172,8 +172,8 @@ macro_rules! transfers {
             }
 
             /// Waits for `time`. Meanwhile, the interface receives frames. [`Buffered`](super::Buffered) and
-            /// [`Network`](super::Network) store these frames as during a transfer. An interface without a buffer loses
-            /// them.
+            /// [`Network`](super::Network) keep these frames, as they do during a transfer. An interface without a buffer
+            /// loses them.
             $($async)? fn wait(&mut self, time: Duration) -> Result<(), Error<P::Error>> {
                 let start = self.port().now();
                 let mut left = time;

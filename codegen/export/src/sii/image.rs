@@ -16,7 +16,7 @@ const DEFAULT_SIZE: usize = 2048;
 /// number of words.
 const MAX_CONTENT: usize = 0x2_0000;
 
-/// Number that follows the last category and marks the end.
+/// Category type that marks the end of the list of categories.
 const END: [u8; 2] = [UNUSED; 2];
 /// Value of unused bytes.
 const UNUSED: u8 = 0xFF;

@@ -13,7 +13,8 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// The list of diagnostics contains a limited number for each file and code. The counts also include the others.
+/// The list of diagnostics contains a limited number for each file and code. The counts also include the diagnostics beyond
+/// this number.
 #[test]
 fn info_counts_all_warnings() {
     let count = MAX_SAME_DIAGNOSTICS + 25;

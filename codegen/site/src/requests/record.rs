@@ -30,7 +30,7 @@ impl OfRecord<'_> {
         format!("{submodule}, index {index}, length {length}, value in {position}")
     }
 
-    /// Returns the default bytes; empty if they are unknown or if the record is too long.
+    /// Returns the default bytes as text; empty if they are unknown, or if the record has more than [`LONGEST`] bytes.
     pub fn shown_bytes(&self) -> String {
         match self.default_bytes.len() {
             0..=LONGEST => text(&super::known(self.default_bytes)),
@@ -38,7 +38,8 @@ impl OfRecord<'_> {
         }
     }
 
-    /// Returns the requests for an item at this position of the record. A write request contains the whole record.
+    /// Returns the requests for an item with this bit offset and length in the record with this index. A write request
+    /// contains the whole record.
     pub(super) fn requests(
         &self,
         item: &Item,

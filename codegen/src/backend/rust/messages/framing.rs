@@ -52,8 +52,8 @@ fn check(framing: &Framing) -> Option<String> {
     })
 }
 
-/// Returns the byte offset of the first field that the checksum covers, from the first request in which this offset is
-/// fixed. Returns `None` if there is no such request.
+/// Returns the byte offset of the first field that the checksum covers. The offset is taken from the first request in which
+/// it is fixed. Returns `None` if there is no such request.
 fn check_start(shaped: &[Shaped<'_>]) -> Option<u32> {
     shaped.iter().find_map(|shape| shape.request.byte_offset(shape.message.check_from?))
 }

@@ -88,8 +88,7 @@ pub(super) struct RecordStruct<'a> {
     /// Position of the record in the submodule.
     pub position: u32,
     pub name: String,
-    /// Default bytes of the record; empty if an item has no field, or if a default value does not have the kind of its
-    /// field.
+    /// Default bytes of the record; empty if they are not completely known.
     pub default_bytes: Vec<u8>,
     /// For each changeable field: the position of its item, the item, and the name of the field.
     pub fields: Vec<(u32, &'a Item, String)>,

@@ -22,8 +22,8 @@ pub(in crate::backend::rust) fn usage_of_records(catalog: &Catalog) -> HashMap<S
     all.collect()
 }
 
-/// Returns the lines of code for each item with a changeable field. A write sends the whole record, so it first reads
-/// the other changeable fields, if any.
+/// Returns the lines of code for each item with a changeable field. A write sends the whole record. If the record has other
+/// changeable fields, the code therefore reads the record first.
 fn calls<'r>(record: &'r RecordStruct<'_>, submodule: &'r str) -> impl Iterator<Item = (ItemId, Vec<String>)> + 'r {
     let path = format!("submodules::{submodule}::{}", record.name);
     record.fields.iter().map(move |(item, of_item, field)| {

@@ -79,7 +79,7 @@ impl RowPatcher<'_> {
     }
 
     /// Returns the reason for the change that a row makes: the key `why` of the row, else that of the overlay. The text is
-    /// empty if both have no such key.
+    /// empty if neither has this key.
     fn why<'r>(&'r self, row: &'r Row) -> &'r str {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
