@@ -162,7 +162,7 @@ retrying! { AsyncClient AsyncRegisterClient async await }
 /// `embassy_time::Timer::after`.
 ///
 /// When the timeout expires, the transfer is dropped. The clients of this crate remain usable after a dropped transfer,
-/// except contexts of `tokio-modbus` without a `Link`.
+/// except a `ModbusClient` that uses a context of `tokio-modbus` directly instead of a `Link`.
 ///
 /// ```
 /// # use core::time::Duration;

@@ -15,7 +15,7 @@ struct Further<'p> {
     folder: &'static str,
     /// Kind of the page in the search.
     kind: &'static str,
-    /// Name that determines the file name.
+    /// Name of the network or segment, which determines the file name.
     name: &'p str,
     title: &'p str,
     /// Anchor, number and name of each part of the page.

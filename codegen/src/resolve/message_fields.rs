@@ -8,8 +8,9 @@ use crate::ir::{
 };
 
 /// Sets the ids of the references to fields, and the commands of polled values. A field of a reply can copy a value of the
-/// request. A counted field, or the count of repeated fields, must be in the list that contains the reference. For each
-/// message, a name in the framing refers to the value with this name in the request, if there is one.
+/// request. A length field and the first field whose bytes it counts must be in the same list of fields. The same applies to
+/// repeated fields and their count. For each message, a name in the framing refers to the value with this name in the
+/// request, if there is one.
 pub(super) fn run(device: &mut Device) {
     let framing = device.framing.as_deref();
     for message in &mut device.messages {

@@ -80,8 +80,8 @@ fn take_other_vendors(before: &mut Value) -> usize {
     count - devices.len()
 }
 
-/// Reads the export of `catalog`, compares the result with `catalog`, and exports the result again. Returns the first
-/// unexpected result, or `None` if there is none. Losses that the notes count are expected.
+/// Reads the export of `catalog`, compares the result with `catalog`, and exports the result again. Returns a message about
+/// the first check that fails, or `None` if all checks pass. Losses that the notes count are expected.
 fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
     let again = read(Source::new("export.xml", exported.text.clone().into()), &options());
     let Some(found) = &again.catalog else { return Some("the export cannot be read".into()) };

@@ -5,7 +5,8 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Bus, Item, TypeDef};
 
-/// Titles of the requests for records: addresses of a read and of a write, and the bytes of a write.
+/// Titles of the requests for records, in this order: for the address of a read, for the address of a write, and for the
+/// bytes of a write.
 pub(super) const TITLES: [&str; 3] = ["PROFINET record read", "PROFINET record write", "PROFINET record bytes"];
 
 /// Maximum length in bytes of a record whose bytes are shown.

@@ -20,7 +20,7 @@ pub struct RecordUsage {
     /// Code that reads and writes the items. In this code, the variable `records` is a `RecordAccess`, and `address` is
     /// the address of the submodule.
     pub calls: Calls,
-    /// Default bytes of the records, by the position of the record in the submodule; empty if they are not
-    /// completely known.
+    /// Default bytes of each record, by its position in the submodule. The bytes of a record are empty unless all of them
+    /// are known.
     pub default_bytes: HashMap<u32, Vec<u8>>,
 }

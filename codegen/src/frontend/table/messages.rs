@@ -140,7 +140,8 @@ fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
     reader.diagnostics.push(found.label("this and all later messages are left out"));
 }
 
-/// Reports a `counts` key that does not name a field of its list. `fields` is this list.
+/// Reports each `counts` key in `tables` that does not name a field of the same list. `fields` contains the fields of this
+/// list.
 fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<FieldTable>]) {
     let echoes = fields.iter().filter_map(|field| match field {
         MessageField::Echo { field, .. } => Some(&field.name),
