@@ -11,8 +11,8 @@ input=${1:-}
 runs=${2:-7}
 target=${CARGO_TARGET_DIR:-target}
 cargo build --quiet --release -p lexibus-cli
-# Cargo reports the path of the runtime, because the target folder also contains the runtime of the command line, which has more
-# features.
+# Ask Cargo for the path of the runtime, because the target folder also contains the runtime built for the command line, which has
+# more features.
 runtime=$(cargo check --quiet --release -p lexibus --message-format json | grep -o '"[^"]*/liblexibus-[^"]*\.rmeta"' | tail -n 1 | tr -d '"')
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

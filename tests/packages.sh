@@ -13,8 +13,8 @@ source=$folder/source
 scratch=$folder/scratch
 crates=(lexibus lexibus-codegen lexibus-macros lexibus-site lexibus-export lexibus-import lexibus-network lexibus-device lexibus-cli lexibus-drives)
 
-# Cargo considers a crate from a directory source unchanged if its version is the same. Remove Cargo's records of our crates, so
-# that it compiles their new contents.
+# Cargo considers a crate from a directory source unchanged if its version is the same. Remove the fingerprints of our crates,
+# so that Cargo compiles their new contents.
 rm -rf "$source" "$scratch" "$folder/installed" "$folder"/build/debug/.fingerprint/lexibus*
 mkdir -p "$source" "$scratch"
 

@@ -69,7 +69,7 @@ fn compiled(path: &str) -> lexibus_network::ethercat::SubDevice {
     compilation.network.and_then(|network| network.segment).expect("a segment").subdevices.swap_remove(0)
 }
 
-/// Checks that the registers of each sync manager and each FMMU contain the settings that the network compiler states for
+/// Checks that the registers of each sync manager and each FMMU contain the settings that the network compiler computes for
 /// the device. The logical addresses are not compared, because the master places inputs before outputs. `lengths` contains
 /// the lengths of the sync managers.
 async fn check_registers(maindevice: &MainDevice<'_>, group: &Group<Op>, path: &str, lengths: &[u16]) {

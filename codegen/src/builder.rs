@@ -299,7 +299,7 @@ pub enum BuildError {
         /// Error of the operating system.
         error: std::io::Error,
     },
-    /// The compilation of the input has errors. The text contains the rendered errors.
+    /// The compiler reported errors in the input. The text contains the rendered errors.
     Input(String),
     /// The input describes no device or module for which code is generated.
     Empty {

@@ -28,9 +28,9 @@
 //! # Timeouts
 //!
 //! The timeout of a blocking line, by default [`TIMEOUT`], limits the wait for each reply, whether the line is silent or
-//! noise arrives continuously. For this, the line needs a clock, and must know whether a read returns at once (see
-//! below). It then reads only bytes that have arrived. With the feature `std`, the line has a clock, and pauses while it
-//! waits. Without `std`, set a clock with [`SerialLine::with_time`].
+//! noise arrives continuously. For this, the line needs a clock, and must know whether a read returns at once (see below).
+//! It then reads only bytes that have arrived. With the feature `std`, the line uses the clock of the standard library, and
+//! sleeps between two polls of the stream. Without `std`, set a clock with [`SerialLine::with_time`].
 //!
 //! If the line has no clock, or does not know whether a read returns at once, a read can block. If no byte arrives, only the
 //! stream can end the read, for example with a timeout. The exchange then returns the error of the stream. Without a clock,
@@ -147,10 +147,10 @@ impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
         Self::with_ready(stream, framing, Some(|stream| stream.read_ready().unwrap_or(true)))
     }
 
-    /// Creates a client for a stream that doesn't implement `embedded_io::ReadReady`. `ready` returns whether a read of
-    /// the stream returns at once. For a port of the crate `serialport` in a `FromStd` adapter, `ready` is
-    /// `|port| port.inner().bytes_to_read().map_or(true, |count| count > 0)`. Return true after an error, so that the
-    /// exchange returns the error of the read.
+    /// Creates a client for a stream that doesn't implement `embedded_io::ReadReady`. `ready` returns whether a read of the
+    /// stream returns at once. For a port of the crate `serialport` in a `FromStd` adapter, `ready` is `|port|
+    /// port.inner().bytes_to_read().map_or(true, |count| count > 0)`. `ready` must return true if its query fails, so that
+    /// the exchange reads the stream and returns the error of this read.
     ///
     /// Pass `None` only if the stream has no such information. Then a repeated reply, or a message that the device
     /// sends without a request, is taken for the reply to the next request, unless the protocol detects it. The stream
@@ -292,7 +292,7 @@ fn is_timeout<E: embedded_io::Error>(error: &Error<SerialError<E>>) -> bool {
     matches!(error, Error::Client(SerialError::Stream(error)) if error.kind() == embedded_io::ErrorKind::TimedOut)
 }
 
-/// Time limit for waiting for bytes on a line.
+/// Limit of the time that a line waits for bytes.
 trait Limit {
     /// Returns whether there is a limit.
     fn is_set(&self) -> bool;
@@ -300,7 +300,7 @@ trait Limit {
     /// Returns whether the limit has expired.
     fn is_over(&mut self) -> bool;
 
-    /// Pauses between two reads.
+    /// Waits for a moment between two polls of the stream.
     fn pause(&mut self);
 }
 

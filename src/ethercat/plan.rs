@@ -173,9 +173,8 @@ impl<const N: usize> SlotPlan<N> {
         self.modules.get(usize::from(slot)).copied().flatten()
     }
 
-    /// Checks that every series of slots has its minimum number of modules. Also checks the length of the process data
-    /// of each sync manager, and the number of entries of each list object. The list objects are described at
-    /// [`PlanError::TooMany`].
+    /// Checks that every series of slots has its minimum number of modules. Also checks the length of the process data of
+    /// each sync manager, and the number of entries of each list object. [`PlanError::TooMany`] describes the list objects.
     ///
     /// # Errors
     ///

@@ -64,9 +64,9 @@ impl FmmuSettings {
         0x0600 + 16 * self.number as u16
     }
 
-    /// Returns the 16 bytes of the registers, which enable the FMMU. The mapping starts at bit 0 of the first byte and ends
-    /// at bit 7 of the last byte. The FMMU writes outputs to the slave, and reads inputs. The bytes do not depend on
-    /// [`op_only`](Self::op_only): if it is set, write them only at the transition to Operational.
+    /// Returns the 16 bytes for the registers of the FMMU. Writing these bytes enables the FMMU. The mapping starts at bit 0
+    /// of the first byte and ends at bit 7 of the last byte. The FMMU writes outputs to the slave, and reads inputs. The
+    /// bytes do not depend on [`op_only`](Self::op_only): if it is set, write them only at the transition to Operational.
     #[must_use]
     pub const fn bytes(&self) -> [u8; 16] {
         let [a, b, c, d] = self.logical_address.to_le_bytes();

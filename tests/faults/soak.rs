@@ -1,4 +1,4 @@
-//! Soak tests: an hour of simulated time for each bus, with random faults. They cover the clients of SDO (CANopen and
+//! Soak tests: an hour of simulated time for each bus, with random faults. They cover the clients for SDO (CANopen and
 //! EtherCAT), Modbus and serial lines, and the state machine walker. No value may be wrong, no buffer may grow, and the
 //! memory of the process may grow by at most 1 MiB.
 

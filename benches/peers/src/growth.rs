@@ -85,7 +85,7 @@ fn mark(bad: bool) -> &'static str {
     }
 }
 
-/// Measures the inputs alternately in several rounds. Returns the cost of each input. The times are minimums.
+/// Measures all inputs in turn, in several rounds. Returns the cost of each input. Each time is the minimum of several runs.
 fn costs(name: &str, inputs: &[Vec<u8>]) -> Vec<Cost> {
     let options = Options::default();
     let read = |bytes: Vec<u8>| compile::read(Source::new(name, bytes), &options);

@@ -13,7 +13,7 @@ use lexibus_network::output::node_catalog;
 use crate::files::read;
 use crate::Failure;
 
-/// Name of the network file in the working directory.
+/// Default path of the network file, relative to the working directory.
 pub(super) const DEFAULT: &str = "network.toml";
 
 /// A network file without errors.

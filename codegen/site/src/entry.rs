@@ -136,7 +136,7 @@ pub(super) struct Known<'d> {
     /// Lines of Rust code that read and write each item.
     pub calls: &'d Calls,
     pub diagnostics: &'d ShownDiagnostics,
-    /// PROFINET record that contains the items. Not used for other items.
+    /// PROFINET record that contains the items. Used only for items in a PROFINET record.
     pub record: OfRecord<'d>,
 }
 

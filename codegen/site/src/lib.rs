@@ -128,7 +128,7 @@ pub struct Site {
     revisions: Revisions,
     index: Index,
     catalogs: Vec<ListedCatalog>,
-    /// Paths and titles of comparisons, networks and segments.
+    /// Paths and titles of the pages of comparisons, networks and segments.
     further: Vec<(String, String)>,
 }
 

@@ -29,7 +29,7 @@ pub(super) fn is_of_record((title, _): &Request) -> bool {
 /// Returns the requests of an item. The node-ID or the Modbus unit identifier is 1. Write requests contain the default
 /// value. If the item has no valid default value, the bytes of the value are shown as `xx`.
 ///
-/// `record` is the PROFINET record that contains the item. It is not used for other items.
+/// `record` is the PROFINET record that contains the item. It is used only for an item in a PROFINET record.
 pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], record: &OfRecord<'_>) -> Vec<Request> {
     let mut all = Vec::new();
     for binding in &item.bindings {

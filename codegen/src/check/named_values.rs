@@ -92,8 +92,8 @@ impl Check<'_, '_> {
             if base.integer_range().is_some_and(|(low, high)| value == low || value == high) {
                 continue;
             }
-            // A limit just outside the named values is probably wrong. A limit far outside them probably allows
-            // values without names.
+            // A limit just outside the named values is probably wrong. A limit far outside them probably means that values
+            // without names are allowed.
             let named = || values.iter().filter(|label| label.is_named());
             let is_slip = match is_upper {
                 true => named().any(|label| label.range().1 + 1 == value) && !named().any(|label| label.value > value),

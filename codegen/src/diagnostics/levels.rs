@@ -19,8 +19,9 @@ pub enum Level {
 
 /// Levels of all codes in one compilation.
 ///
-/// The level of a code takes precedence over the mode. If a level is set twice, the last setting applies. The name `warnings` means
-/// all codes that are warnings by default. Codes that have their own level are excluded, and so are repairs in strict mode.
+/// The level of a code takes precedence over the mode. If a level is set twice, the last setting applies. The name
+/// `warnings` means all codes that are warnings by default. Codes whose level is set individually are excluded, and so are
+/// repairs in strict mode.
 #[derive(Clone, Debug, Default)]
 pub struct Levels {
     strict: bool,

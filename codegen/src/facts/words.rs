@@ -339,9 +339,9 @@ impl Words<'_> {
     }
 
     /// Formats a value of an item. A COB-ID is followed by its flags. A special value is shown as its meaning, followed by
-    /// the raw value. If the scale of the item changes values, the text contains the physical and the raw value. If the
-    /// physical value is unknown, the text contains only the raw value. A reference to an object is hexadecimal. `raw`
-    /// formats all other values.
+    /// the raw value. If the item has a scale other than factor 1 with offset 0, the text contains the physical and the raw
+    /// value. If the physical value is unknown, the text contains only the raw value. A reference to an object is
+    /// hexadecimal. `raw` formats all other values.
     pub fn of_item(&self, item: &Item, value: &Value, raw: &dyn Fn(&Value) -> String) -> String {
         let cob_id = cob_id::of(item).and_then(|kind| cob_id::text(value, kind));
         if let Some(text) = cob_id {

@@ -195,7 +195,8 @@ pub struct MessageValue {
     pub counts: Option<FieldRef>,
     /// The command whose completion the value indicates, if the value is in a reply and not in a repeated field. If several
     /// commands poll a value with this name, this is the command that the reply answers. If the reply answers none of these
-    /// commands, it is the first one, provided that all have the same condition. Set by the stage `resolve`.
+    /// commands, this is the first of them, provided that all have the same completion condition. Set by the stage
+    /// `resolve`.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub completes: Option<PolledCommand>,
 }
@@ -246,8 +247,8 @@ pub struct Framing {
     pub escaped: Vec<u8>,
     /// Name of the checksum algorithm: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
-    /// Name of the first field that the checksum covers; `None` = the checksum starts at the first byte after `start`. If the
-    /// request of a message has this field, [`Message::check_from`] is the id of the field.
+    /// Name of the first field that the checksum covers; `None` = the checksum covers all data bytes. If the request of a
+    /// message has this field, [`Message::check_from`] is the id of the field.
     pub check_from: Option<CompactString>,
     /// True if bytes of the checksum are escaped.
     pub check_escaped: bool,

@@ -1,5 +1,5 @@
-//! Identity of a device without EtherCAT: numbers that are missing or 0 come from object 0x1018 (CiA 301 7.5.2.21), if it
-//! contains them.
+//! Completes the identity of a device without EtherCAT. Numbers that are missing or 0 get the default values in object
+//! 0x1018 (CiA 301 7.5.2.21), if there are any.
 
 use crate::ir::{Device, FactOrigin, Identity, IdentityNumber, Rule, Value};
 use crate::source::Span;

@@ -243,7 +243,8 @@ mod tests {
         assert_eq!(values.map(|value| value.completes).collect::<Vec<_>>(), expected);
     }
 
-    /// A value that several commands poll with different conditions refers to a command only in the reply to this command.
+    /// If several commands poll a value with different conditions, the value refers to a command only in the reply to that
+    /// command.
     #[test]
     fn values_with_several_conditions_refer_only_to_the_command_of_their_reply() {
         let mut messages = [("status", "status"), ("status", "status"), ("speed", "status")]

@@ -84,8 +84,8 @@ impl CanFrame {
     /// ([`CanPort::now`](super::CanPort::now)). Returns `None` if the port has no clock, and for a frame that wasn't
     /// received.
     ///
-    /// The sockets of SocketCAN use the timestamps of the kernel. If the system's clock is set between the arrival and the
-    /// read of a frame, the time of the frame is wrong. If the interface has no timestamps, as with
+    /// The sockets of SocketCAN use the timestamps of the kernel. If the system clock is changed between the arrival and the
+    /// reading of a frame, the time of the frame is wrong. If the interface has no timestamps, as with
     /// [`Polled`](super::Polled), this is the time at which the frame is taken from the interface. The frame then arrived at
     /// this time or earlier, because it may have waited in the receive queue.
     #[must_use]

@@ -61,12 +61,14 @@ impl CanPort for CanSocket {
     }
 }
 
-/// Makes the kernel report when each frame arrived. If the kernel refuses, frames have the time at which they are read.
+/// Makes the kernel report when each frame arrived. If the kernel rejects this option, the time of a frame is the time at
+/// which it is read.
 pub(super) fn stamp(socket: &impl SocketOptions) {
     let _ = socket.set_recv_timestamp(true);
 }
 
-/// Waits for a frame. Returns the frame and, if the kernel reports it, the time of its arrival on the system's clock.
+/// Waits for a frame. Returns the frame and its arrival time according to the system clock. The time is `None` if the kernel
+/// reports no timestamp.
 fn read(socket: &CanSocket, patience: Duration) -> io::Result<(socketcan::CanFrame, Option<SystemTime>)> {
     let timeout = PollTimeout::try_from(patience).unwrap_or(PollTimeout::MAX);
     match poll(&mut [PollFd::new(socket.as_fd(), PollFlags::POLLIN)], timeout)? {
@@ -103,8 +105,8 @@ pub(super) fn received(frame: &socketcan::CanFrame, arrival: Option<SystemTime>)
     Ok(from_socket(frame)?.map(|frame| frame.at(monotonic(arrival))))
 }
 
-/// Converts a time of the system's clock to the time of the [`DefaultClock`]. Returns the current time if `arrival` is
-/// `None` or in the future.
+/// Converts a time of the system clock to a time of the [`DefaultClock`]. Returns the current time if `arrival` is `None` or
+/// in the future.
 fn monotonic(arrival: Option<SystemTime>) -> Option<Duration> {
     let age = arrival.and_then(|arrival| arrival.elapsed().ok());
     DefaultClock.now().map(|now| now.saturating_sub(age.unwrap_or_default()))

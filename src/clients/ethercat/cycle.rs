@@ -123,8 +123,8 @@ pub enum CycleError {
         subdevice: usize,
         /// State of the SubDevice.
         state: SubDeviceState,
-        /// AL status code of the SubDevice: its error, or no error. `None` if the code was not read, because
-        /// [`Cycle::check`] doesn't read it, or because the read failed.
+        /// AL status code of the SubDevice; `NoError` if the SubDevice reports no error. `None` if the code was not read,
+        /// because [`Cycle::check`] doesn't read it, or because the read failed.
         code: Option<AlStatusCode>,
     },
 }

@@ -50,7 +50,7 @@ fn lists_of_the_device_have_room_for_255() {
     assert_eq!(std::format!("{many}"), "object 0xF030 cannot hold 256 entries");
 }
 
-/// The coupler, whose second group has an alignment that needs more padding than a mapping can describe.
+/// A variant of the coupler: the alignment of the second group needs more padding than a mapping can describe.
 static WIDELY_ALIGNED: Device = Device {
     slots: Some(Slots {
         pdo_groups: &[

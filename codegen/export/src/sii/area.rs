@@ -93,7 +93,8 @@ fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8>
     let declared = declared.filter(|bytes| !bytes.is_empty());
     let given = context.options.config_data().map(|octets| octets.0);
     let mut bytes = missing.require(given.or(declared), "config-data", super::Options::KEYS);
-    // The bytes of a description may include the checksum. The image always contains a computed checksum.
+    // The bytes of a description may include the checksum. It is only checked, because `configure` computes the checksum of
+    // the image.
     let is_more = !matches!(bytes.len(), 0..=CHECKED | CHECKED_WITH_SUM);
     context.notes.add_many(NoteKind::ConfigData, is_more, Subject::Named("ConfigData"));
     if let [.., low, high] = bytes.get(..CHECKED_WITH_SUM).unwrap_or_default() {
@@ -130,8 +131,7 @@ fn checksum(bytes: &[u8]) -> u8 {
 mod tests {
     use super::*;
 
-    /// Checks the first words of the EEPROM of a published device. The CRC of the first 14 bytes followed by their
-    /// checksum is 0.
+    /// Checks the first words of the EEPROM of a published device. The CRC over the first 14 bytes and their checksum is 0.
     #[test]
     fn checksums() {
         let image = [0x80, 0x06, 0x03, 0x4C, 0x64, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xEC, 0];

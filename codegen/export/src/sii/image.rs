@@ -99,9 +99,9 @@ fn with_detail(
     Ok(Image { bytes, notes: context.notes.finish() })
 }
 
-/// Returns the size of the EEPROM from the options, or from the description if the options contain none. If neither
-/// contains a valid size, returns the smallest power of two into which the content fits, and at least the default size.
-/// Returns `None` if this power of two is too large for an EEPROM.
+/// Returns the size of the EEPROM from the options, or from the description if the options contain none. If neither contains
+/// a valid size, returns the smallest power of two into which the content fits, but at least the default size. Returns
+/// `None` if this power of two is too large for an EEPROM.
 fn size(context: &mut Context<'_>, needed: usize) -> Option<EepromSize> {
     let declared = context.settings.eeprom.as_ref().and_then(|eeprom| eeprom.byte_size);
     let known = context.options.eeprom_size().or(declared.and_then(EepromSize::new));

@@ -1,4 +1,4 @@
-//! Options for facts of an SII image.
+//! Options that supply facts for an SII image.
 
 use crate::options::{options, OptionValue};
 

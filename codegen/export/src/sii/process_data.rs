@@ -70,8 +70,8 @@ fn length(assigned: &[(&Pdo, u8)], manager: &SyncManager) -> u16 {
     })
 }
 
-/// Returns the content of the category of the TxPDOs or RxPDOs: the PDOs of one direction. Leaves out PDOs with more than
-/// 255 entries. Each part of a split entry counts as an entry. `with_names` selects whether the entries have names.
+/// Returns the content of the category "TxPDO" or "RxPDO", which lists the PDOs of this direction. Leaves out PDOs with more
+/// than 255 entries. Each part of a split entry counts as an entry. `with_names` selects whether the entries have names.
 pub(super) fn pdos(context: &mut Context<'_>, direction: Direction, with_names: bool) -> Vec<u8> {
     let mut bytes = Vec::new();
     for pdo in context.pdos().filter(|pdo| pdo.direction == direction) {

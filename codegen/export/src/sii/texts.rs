@@ -42,8 +42,9 @@ impl Texts {
     }
 }
 
-/// Returns a text in ISO 8859-1. Replaces characters that ISO 8859-1 lacks with question marks, and shortens the text to 255
-/// bytes. For each kind of change, the notes count the text once.
+/// Returns a text in ISO 8859-1. Replaces characters outside ISO 8859-1 with question marks, and truncates texts that are
+/// longer than 255 bytes. Each call adds at most 1 to the count of each kind of note, even if it replaces several
+/// characters.
 fn encoded(text: &str, notes: &mut Notes) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut unknown = false;

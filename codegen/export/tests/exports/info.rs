@@ -13,7 +13,7 @@ fn read(text: &str) -> Compilation {
     check(Source::new("t.toml", text.into()), &Options::default())
 }
 
-/// The list of diagnostics contains a limited number for each file and code. The counts also include the diagnostics beyond
+/// The list contains a limited number of diagnostics for each file and code. The counts also include the diagnostics beyond
 /// this number.
 #[test]
 fn info_counts_all_warnings() {

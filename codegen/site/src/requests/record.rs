@@ -5,8 +5,8 @@ use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Bus, Item, TypeDef};
 
-/// Titles of the requests for records, in this order: for the address of a read, for the address of a write, and for the
-/// bytes of a write.
+/// Titles of the requests for records, in this order: address of a read request, address of a write request, and bytes of a
+/// write request.
 pub(super) const TITLES: [&str; 3] = ["PROFINET record read", "PROFINET record write", "PROFINET record bytes"];
 
 /// Maximum length in bytes of a record whose bytes are shown.

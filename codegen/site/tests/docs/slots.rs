@@ -131,7 +131,7 @@ fn links_to_submodules_without_a_name_have_a_text() {
     assert!(!texts.is_empty() && texts.iter().all(|text| *text == "0x0000FFFF"), "{texts:?}");
 }
 
-/// Returns the page with the modules of a station with records.
+/// Returns the page of `safe.gsdml.xml` whose path ends with `name`.
 fn station(format: Format, name: &str) -> String {
     let pages = files(format, &["tests/data/safe.gsdml.xml"]);
     pages.into_iter().find(|page| page.path.ends_with(name)).expect("the modules").text

@@ -71,8 +71,8 @@ pub fn usage_of_modules(catalog: &Catalog) -> HashMap<ModuleId, Calls> {
     modules.into_iter().zip(&names).map(|(module, name)| calls(module, name)).collect()
 }
 
-/// Returns the code for the items of records, and the default bytes of the records, for each submodule with generated
-/// code. The map is empty without the feature `gsdml`.
+/// Returns the calls that read and write the items of records, and the default bytes of the records, for each submodule with
+/// generated code. The map is empty without the feature `gsdml`.
 pub fn usage_of_records(catalog: &Catalog) -> HashMap<SubmoduleId, RecordUsage> {
     #[cfg(feature = "gsdml")]
     return super::profinet::usage_of_records(catalog);

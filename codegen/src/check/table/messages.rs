@@ -183,7 +183,8 @@ fn states(device: &Device, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Compares a row of the matrix of a state machine with a message. `number` is the position of the machine in the device.
+/// Compares a row of the matrix of a state machine with a message. `number` is the index of the state machine in
+/// `Device::machines`.
 fn cells(number: u32, machine: &StateMachine, row: &CommandOutcomes, message: &Message, diagnostics: &mut Diagnostics) {
     for cell in row.cells.iter().filter(|cell| !cell.outcomes.is_empty()) {
         let id = cell.state.id.map(|state| DeviceStateId { machine: number, state });

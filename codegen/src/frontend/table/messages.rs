@@ -150,7 +150,12 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
     let known: Vec<&CompactString> = field_names(fields).chain(echoes).collect();
     for counts in tables.iter().filter_map(|table| table.value.counts.as_ref()) {
         if !known.iter().any(|name| **name == counts.value) {
-            reader.unresolved("field", &counts.value, reader.span(counts), known.iter().map(|name| name.as_str()));
+            reader.unresolved(
+                "field of this list",
+                &counts.value,
+                reader.span(counts),
+                known.iter().map(|name| name.as_str()),
+            );
         }
     }
 }
@@ -231,7 +236,8 @@ fn completion(
     found.unwrap_or_default()
 }
 
-/// Returns the names of the values in `fields`. Values in repeated groups are left out, because references cannot name them.
+/// Returns the names of the values in `fields`. Values in repeated fields are left out, because only fields of the same list
+/// can refer to them.
 pub(super) fn field_names(fields: &[MessageField]) -> impl Iterator<Item = &CompactString> {
     fields.iter().filter_map(|field| match field {
         MessageField::Value(value) => Some(&value.item.name),
@@ -368,7 +374,12 @@ impl Fields<'_, '_, '_> {
     fn echo(&mut self, echo: &At<String>, field: &At<FieldTable>) -> MessageField {
         if !self.request.iter().any(|name| *name == echo.value) {
             let known = self.request.iter().map(CompactString::as_str);
-            self.reader.unresolved("field of the request", &echo.value, self.reader.span(echo), known);
+            self.reader.unresolved(
+                "field of the request outside repeated groups",
+                &echo.value,
+                self.reader.span(echo),
+                known,
+            );
         }
         let bytes = field.value.part.as_ref().and_then(|part| self.bytes(part));
         MessageField::Echo { field: self.reader.reference(echo), bytes }

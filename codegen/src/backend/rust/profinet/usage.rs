@@ -7,7 +7,7 @@ use crate::backend::rust::calls::RecordUsage;
 use crate::collections::HashMap;
 use crate::ir::{Catalog, ItemId, SubmoduleId};
 
-/// Returns the usage of the records of each submodule for which code is generated.
+/// Returns the calls and default bytes for the records of each submodule for which code is generated.
 pub(in crate::backend::rust) fn usage_of_records(catalog: &Catalog) -> HashMap<SubmoduleId, RecordUsage> {
     let options = RustOptions::default();
     let scope = Scope::new(catalog, &options);

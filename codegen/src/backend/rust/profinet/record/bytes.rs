@@ -22,9 +22,9 @@ pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Ve
     bytes
 }
 
-/// Returns whether the default value of an item has the kind of its field. A byte string needs bytes, or a text in ISO
-/// 8859-1, that fit into the field. Any other field needs a number or a Boolean. Also returns true if the item has no
-/// default value.
+/// Returns whether the default value of an item matches the type of its field. A byte-string field accepts bytes, or text
+/// that ISO 8859-1 can encode, if the value fits into the field. Any other field accepts a number or a Boolean. Also returns
+/// true if the item has no default value.
 pub(super) fn has_bytes(Parameter { item, field, .. }: &Parameter<'_>) -> bool {
     item.default.as_ref().is_none_or(|default| match (field.byte_string(), default) {
         (Some(length), Value::Text(text)) => {
