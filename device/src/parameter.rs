@@ -168,7 +168,7 @@ impl<'d> Parameter<'d> {
     #[must_use]
     pub fn text(&self, value: &Value) -> String {
         let text = facts::value(self.item, value, self.types());
-        // The text of a COB-ID, of a value with a special meaning or of a mapping needs no names of bits.
+        // No names of bits or values follow a COB-ID, a value with a special meaning, or a mapping.
         let is_explained =
             PLAIN.is_named(self.item, value) || self.address.object().is_some_and(|object| is_mapping(object.index));
         if let Some(meaning) = facts::meaning(self.ty(), value, self.types()).filter(|_| !is_explained) {

@@ -7,7 +7,8 @@ use std::collections::HashMap;
 
 /// First byte of an abort. No segment has this first byte.
 const ABORT: u8 = 0x80;
-/// Bit of the last segment of a value. The other bits of the first byte are the sequence number.
+/// Bit in the first byte of a segment: set in the last segment of a value. The other bits of this byte are the sequence
+/// number.
 const LAST: u8 = 0x80;
 
 /// The block transfers that are in progress, by node-ID.

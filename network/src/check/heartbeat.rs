@@ -35,7 +35,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports a consumer time that is not longer than the producer time, or longer than `MAX_TIME`.
+/// Reports a consumer time that is longer than `MAX_TIME`, or not longer than the producer time.
 fn times(who: &str, heartbeat: &At<u16>, multiplier: &At<f64>, span: Span, diagnostics: &mut Diagnostics) {
     let (producer, consumer) = (heartbeat.value, consumer_time(heartbeat.value, multiplier.value));
     if producer == 0 {

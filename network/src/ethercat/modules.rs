@@ -84,8 +84,8 @@ struct Modular<'d> {
     modules: Vec<&'d Module>,
 }
 
-/// Returns the modules of a SubDevice, sorted by slot. If the file lists no modules, these are the default modules of the
-/// description.
+/// Returns the modules of a SubDevice, sorted by slot. If the SubDevice has no key `modules`, these are the default modules
+/// of the description.
 pub(super) fn plug<'d>(
     catalog: &'d Catalog,
     device: &'d Device,

@@ -178,7 +178,7 @@ pub struct Clock {
     pub sync0: ClockSignal,
     /// Times of SYNC1.
     pub sync1: ClockSignal,
-    /// Settings that the mode requires of sync managers. They are not applied.
+    /// Sync manager settings that the mode requires. They are not applied.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sync_managers: Vec<ClockSyncManager>,
 }

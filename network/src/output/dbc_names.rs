@@ -48,7 +48,7 @@ impl Names {
     }
 }
 
-/// Returns an identifier of DBC.
+/// Converts a text to a DBC identifier.
 fn identifier(text: &str) -> String {
     let mut name = String::new();
     for letter in text.chars() {

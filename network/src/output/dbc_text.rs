@@ -86,7 +86,7 @@ fn on_line(list: &str, letter: char) -> Option<&'static str> {
     ON_LINE.get(at..=at)
 }
 
-/// Returns whether Windows-1252 has a character.
+/// Returns whether Windows-1252 contains this character.
 fn exists(letter: char) -> bool {
     let (_, _, is_missing) = WINDOWS_1252.encode(letter.encode_utf8(&mut [0; 4]));
     !is_missing
