@@ -1,4 +1,4 @@
-//! Hash tables with a faster hash function than those of the standard library.
+//! Hash tables whose hash function is faster than that of the standard library.
 //!
 //! The seed of the function is random in each run, so that no author of a file can predict which names collide.
 

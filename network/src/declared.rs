@@ -25,7 +25,7 @@ pub struct DeclaredNetwork {
     pub segment: Option<DeclaredSegment>,
 }
 
-/// The master as its section declares it. Times have the unit of the object that contains them.
+/// The master as its section declares it. Times have the unit of their CANopen object.
 #[derive(Clone, Debug)]
 pub struct DeclaredMaster {
     /// Location of the section.
@@ -96,7 +96,7 @@ pub const HEARTBEAT_MULTIPLIER: f64 = 3.0;
 /// Default retry factor of a node (0x1F81).
 pub const RETRY_FACTOR: u8 = 3;
 
-/// A node as its section declares it. Times have the unit of the object that contains them.
+/// A node as its section declares it. Times have the unit of their CANopen object.
 #[derive(Clone, Debug)]
 pub struct DeclaredNode {
     /// Name of the node.

@@ -190,7 +190,7 @@ impl<'a> Frame<'a> {
         Some(self.bytes.len().saturating_sub(self.offset(first)? / 8))
     }
 
-    /// Returns the bit offset of a field, or `None` if the field comes after a field with a variable length.
+    /// Returns the bit offset of a field, or `None` if the length of a preceding field is unknown.
     fn offset(&self, id: FieldId) -> Option<usize> {
         self.fields.get(..id.0 as usize)?.iter().map(|field| self.bits(field)).sum()
     }

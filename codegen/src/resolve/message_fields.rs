@@ -73,9 +73,9 @@ impl Commands {
     }
 
     /// Returns the command that polls `value`, a value in the reply to the message `replied`. If `replied` polls the value,
-    /// the result is `replied`. Otherwise, it is the first command that polls the value, provided that all of these commands
-    /// have the same condition. Returns `None` if there is no such command, or if the type of the value does not have the
-    /// bit that the command polls.
+    /// the result is `replied`. Otherwise, it is the first command that polls the value, provided that all commands that
+    /// poll the value have the same condition. Returns `None` if there is no such command, or if the type of the value does
+    /// not have the bit that the command polls.
     fn of(&self, replied: MessageId, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
         let all = self.0.get(&value.item.name)?;
         let own = all.iter().find(|polling| polling.command == replied);
@@ -207,8 +207,8 @@ mod tests {
         assert_eq!((message.address, message.check_from), (Some(FieldId(0)), Some(FieldId(1))));
         assert_eq!((other.address, other.check_from), (None, None));
         assert_eq!(targets(&message.request), [Some(1)]);
-        // The first field named `speed` in the reply is the copy. Repeated fields and the field with the number of
-        // repetitions are in the same list.
+        // The first field named `speed` in the reply is the copy. The field with the number of repetitions must be in the
+        // list that contains the `Repeat`, so the last reference is not resolved.
         assert_eq!(targets(&message.reply), [Some(1), Some(1), None, Some(2), Some(0), Some(0), None]);
     }
 

@@ -73,8 +73,8 @@ impl CanFrame {
         self.data
     }
 
-    /// Returns the frame with this time: the time at which the frame arrived, or `None` if there is no clock. A port sets
-    /// the time of each received frame.
+    /// Returns the frame with the arrival time `time`, which is `None` if there is no clock. A port sets the time of each
+    /// received frame.
     #[must_use]
     pub const fn at(self, time: Option<Duration>) -> Self {
         Self { time, ..self }
@@ -84,7 +84,7 @@ impl CanFrame {
     /// ([`CanPort::now`](super::CanPort::now)). Returns `None` if the port has no clock, and for a frame that wasn't
     /// received.
     ///
-    /// The sockets of SocketCAN use the timestamps of the kernel. If the system clock is changed between the arrival and the
+    /// SocketCAN sockets use the timestamps of the kernel. If the system clock is changed between the arrival and the
     /// reading of a frame, the time of the frame is wrong. If the interface has no timestamps, as with
     /// [`Polled`](super::Polled), this is the time at which the frame is taken from the interface. The frame then arrived at
     /// this time or earlier, because it may have waited in the receive queue.
