@@ -102,3 +102,22 @@ fn exception(code: u8) -> &'static str {
         _ => "unknown code",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unconfirmed_request_counts_as_a_timeout_and_names_the_exception() {
+        let failure = Failure::Unconfirmed(11);
+        assert!(failure.is_timeout() && !failure.is_refusal());
+        let text = "the request is not confirmed: Modbus exception 11 (gateway target device failed to respond)";
+        assert_eq!(failure.to_string(), text);
+        let mut attempts = 0;
+        let result: Result<(), _> = retried(|| {
+            attempts += 1;
+            Err(Failure::Unconfirmed(5))
+        });
+        assert_eq!((attempts, result), (3, Err(Failure::Unconfirmed(5))));
+    }
+}

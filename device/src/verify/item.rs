@@ -241,3 +241,15 @@ fn changed(node_id: Option<u8>, parameter: &Parameter<'_>, value: &Value) -> Opt
     let finding = Finding::of(parameter, FindingKind::Changed, "value");
     differs(&default, value).then(|| finding.compared(parameter.text(&default), parameter.text(value)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_formula_without_a_node_id_is_not_compared() {
+        assert!(differs(&Value::Int(5), &Value::Int(6)) && !differs(&Value::Int(5), &Value::Int(5)));
+        assert!(!differs(&Value::NodeId(0x180), &Value::Int(0x185)));
+        assert!(!differs(&Value::Raw("text".into()), &Value::Bytes(vec![1])));
+    }
+}
