@@ -2,4 +2,4 @@
 //!
 //! The seed of the function is random in each run, so that no author of a file can predict which names collide.
 
-pub use foldhash::{HashMap, HashSet};
+pub use foldhash::{HashMap, HashMapExt, HashSet};

@@ -7,8 +7,8 @@
 //! gets a suffix: its address, or its position if it has no address. With addresses, the order of elements does not affect
 //! identifiers. A new element then changes only the identifiers of elements with the same name.
 
-use crate::collections::HashMap;
 use crate::collections::HashSet;
+use crate::collections::{HashMap, HashMapExt};
 use std::borrow::Cow;
 
 use crate::limits::MAX_IDENTIFIER;
@@ -80,7 +80,7 @@ pub fn distinct<'s>(
     reserved: &[&str],
     case: Case,
 ) -> Vec<String> {
-    let mut count: HashMap<&str, usize> = HashMap::with_capacity_and_hasher(plain.len(), Default::default());
+    let mut count: HashMap<&str, usize> = HashMap::with_capacity(plain.len());
     for name in plain {
         *count.entry(name).or_default() += 1;
     }

@@ -1,7 +1,7 @@
 //! PDOs of EtherCAT slaves and modules: duplicate indices and wrong lengths (ETG.2000, RxPdo and TxPdo).
 
 use super::context::PdoOwner;
-use crate::collections::HashMap;
+use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{stated, Item, Pdo, PdoEntry, PdoEntryKind};
 use crate::resolve::address;
@@ -11,8 +11,7 @@ use crate::text::count_of;
 /// Reports PDOs that share an index, and PDO entries whose length differs from that of the mapped item.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     // Two PDOs may share an index if they are on different buses.
-    let mut seen: HashMap<(u16, Option<bool>), Span> =
-        HashMap::with_capacity_and_hasher(owner.data.pdos.len(), Default::default());
+    let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(owner.data.pdos.len());
     for pdo in &owner.data.pdos {
         if pdo.mapping_index != 0 {
             let key = (pdo.mapping_index, pdo.buses.map(|buses| buses.coe));

@@ -63,13 +63,8 @@ impl Backup {
         if table.get("lexibus-backup").and_then(toml::Value::as_integer) != Some(VERSION) {
             return Err(TableError(format!("the file is not a backup: `lexibus-backup = {VERSION}` is missing")));
         }
-        let node_id = match table.get("node-id") {
-            Some(id) => {
-                let wrong = || TableError("`node-id` must be an integer from 1 to 255".to_owned());
-                Some(address(id).ok_or_else(wrong)?)
-            }
-            None => None,
-        };
+        let wrong = || TableError("`node-id` must be an integer from 1 to 255".to_owned());
+        let node_id = table.get("node-id").map(|id| address(id).ok_or_else(wrong)).transpose()?;
         let rows = table.get("parameters").and_then(toml::Value::as_array);
         let rows = rows.ok_or_else(|| TableError("the file has no list `parameters`".to_owned()))?;
         let entries = rows.iter().map(|row| entry(row, description)).collect::<Result<_, _>>()?;

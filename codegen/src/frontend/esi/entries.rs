@@ -4,7 +4,7 @@ use super::data_type::{RawField, RawType};
 use super::object::{RawObject, RawSub};
 use super::reader::Reader;
 use super::types::Types;
-use crate::collections::HashMap;
+use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Type;
 use crate::text::brief;
@@ -134,7 +134,7 @@ pub(super) fn match_up(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], s
     }
     let singles = entries.iter().enumerate().filter(|(_, entry)| entry.element.is_none_or(|number| number == 1));
     let singles: Vec<_> = singles.collect();
-    let mut by_name: HashMap<&str, usize> = HashMap::with_capacity_and_hasher(entries.len(), Default::default());
+    let mut by_name: HashMap<&str, usize> = HashMap::with_capacity(entries.len());
     for &(at, entry) in &singles {
         by_name.entry(entry.field.name.text.as_ref()).or_insert(at);
     }

@@ -9,7 +9,7 @@ use super::description::{Description, EntryType, Owner, Reference, Target};
 use super::document::document;
 use super::lower::check_length;
 use super::types::guessed;
-use crate::collections::{HashMap, HashSet};
+use crate::collections::{HashMap, HashMapExt, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::source::{References, Source, Span};
@@ -104,7 +104,7 @@ fn entry_types(description: &mut Description, diagnostics: &mut Diagnostics) {
             _ => None,
         };
         let Some((types, data)) = found else { continue };
-        let mut by_name = HashMap::with_capacity_and_hasher(types.len(), Default::default());
+        let mut by_name = HashMap::with_capacity(types.len());
         for (at, def) in types.iter().enumerate() {
             by_name.entry(def.name.as_str()).or_insert((TypeId(at as u32), def));
         }

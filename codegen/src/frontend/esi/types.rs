@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::data_type::{Dimension, RawField, RawType};
 use super::reader::{Names, Reader};
-use crate::collections::HashMap;
+use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::etg::type_name::{self, Basic, Spelling};
 use crate::frontend::xml::Given;
@@ -124,12 +124,7 @@ impl<'t, 'a> Types<'t, 'a> {
     ///
     /// `values` contains the enumeration values of each data type.
     pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>], values: Vec<Vec<EnumValue>>) -> Self {
-        let mut types = Types {
-            raw,
-            values,
-            by_name: HashMap::with_capacity_and_hasher(raw.len(), Default::default()),
-            ..Types::default()
-        };
+        let mut types = Types { raw, values, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
         for (at, ty) in raw.iter().enumerate() {
             types.note_name(reader, at, ty);
         }

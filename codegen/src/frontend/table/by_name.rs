@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::at::At;
-use crate::collections::HashMap;
+use crate::collections::{HashMap, HashMapExt};
 
 /// Definitions in the order of the table, with a lookup by name in constant time. Copies of this list share the
 /// definitions.
@@ -19,7 +19,7 @@ struct Lookup<T> {
 
 impl<T> ByName<T> {
     pub fn new(all: Vec<(At<String>, T)>) -> Self {
-        let mut positions = HashMap::with_capacity_and_hasher(all.len(), Default::default());
+        let mut positions = HashMap::with_capacity(all.len());
         for (at, (name, _)) in all.iter().enumerate() {
             positions.entry(name.value.clone()).or_insert(at);
         }

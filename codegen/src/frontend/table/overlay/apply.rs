@@ -8,7 +8,7 @@ use super::super::tree::Reader;
 use super::super::{code_tables, device, machines};
 use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
-use crate::collections::{HashMap, HashSet};
+use crate::collections::{HashMap, HashMapExt, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
@@ -418,8 +418,7 @@ fn merge(tables: &mut Vec<CodeTable>, change: &Change) {
         return;
     };
     let rows = table.rows.to_mut();
-    let mut known: HashMap<(i128, Option<i128>), usize> =
-        HashMap::with_capacity_and_hasher(rows.len(), Default::default());
+    let mut known: HashMap<(i128, Option<i128>), usize> = HashMap::with_capacity(rows.len());
     for (position, row) in rows.iter().enumerate() {
         known.entry((row.code, row.last)).or_insert(position);
     }

@@ -78,8 +78,8 @@ impl RowPatcher<'_> {
         }
     }
 
-    /// Returns the reason for the change that a row makes: the key `why` of the row, else that of the overlay. The text is
-    /// empty if neither has this key.
+    /// Returns the reason for the change that a row makes: the key `why` of the row or, without it, the key `why` of the
+    /// overlay. The text is empty if neither has this key.
     fn why<'r>(&'r self, row: &'r Row) -> &'r str {
         row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
     }
