@@ -99,8 +99,8 @@ fn subdevice(
     }
 }
 
-/// Returns the location for diagnostics of the process data: the location of `pdos`, else that of `modules`, else that of
-/// the SubDevice's name.
+/// Returns the location for diagnostics of the process data: the location of the first of these that exists: `pdos`,
+/// `modules`, the SubDevice's name.
 fn assignment_at(declared: &DeclaredSubDevice) -> Span {
     let pdos = declared.pdos.as_ref().map(|pdos| pdos.span);
     pdos.or(declared.modules.as_ref().map(|modules| modules.span)).unwrap_or(declared.name.span)

@@ -94,8 +94,8 @@ impl CobIds {
         Some(cob_id & 0x3FFF_FFFF)
     }
 
-    /// Returns the COB-ID of a PDO after the configuration: the COB-ID in `parameters`, else the assigned one, else the one
-    /// of the description.
+    /// Returns the COB-ID of a PDO after the configuration: the first that exists of the COB-ID in `parameters`, the
+    /// assigned one, and that of the description.
     fn last(&self, node: &DescribedNode<'_>, direction: Direction, number: u16) -> Option<u32> {
         let values = node.values();
         if node.declares(direction, number) && !values.is_set((communication_index(direction, number), 1)) {
@@ -139,8 +139,8 @@ fn services(node: &DescribedNode<'_>) -> Vec<u32> {
     consumed.chain(sdo.chain([values.number((0x1014, 0))]).flatten()).collect()
 }
 
-/// Returns the COB-ID of a PDO if it does not depend on other PDOs. This is the declared COB-ID, else that of the
-/// description, else that of the predefined connection set.
+/// Returns the COB-ID of a PDO if it does not depend on other PDOs. This is the first that exists of the declared COB-ID,
+/// that of the description, and that of the predefined connection set.
 fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let of_description = || {
         let pdo = pdo(node.initial(), direction(declared), declared.number.value)?;
