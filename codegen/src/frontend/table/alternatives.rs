@@ -1,9 +1,8 @@
 //! Reads keys whose value can have one of two forms: a scale factor or a rule, a number or a text, a Boolean or a text,
 //! values or bits.
 
-use toml::de::DeValue;
-
 use super::at::{Literal, OneOrMany};
+use super::document::Value;
 use super::format::{ConditionTable, ConditionValues, FlagOrText, NumberOrText, ScaleRule, Scaling};
 use super::read::{literal, number, Mistake, Node, Read};
 
@@ -11,8 +10,8 @@ impl Read for Scaling {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         const EXPECTED: &str =
             "a factor, or a table with `factor`, `by`, `times`, `reciprocal`, `fraction` or `exponent`";
-        match node.get_ref() {
-            DeValue::Table(_) => ScaleRule::read(node).map(|rule| Scaling::Rule(Box::new(rule))),
+        match &node.value {
+            Value::Table(_) => ScaleRule::read(node).map(|rule| Scaling::Rule(Box::new(rule))),
             _ => number(node).map(Scaling::Factor).ok_or_else(|| Mistake::ty(node, EXPECTED)),
         }
     }
@@ -60,8 +59,8 @@ enum LiteralOrTable {
 
 impl Read for LiteralOrTable {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::Table(_) => ConditionTable::read(node).map(LiteralOrTable::Table),
+        match &node.value {
+            Value::Table(_) => ConditionTable::read(node).map(LiteralOrTable::Table),
             _ => {
                 let literal = literal(node).map(LiteralOrTable::Literal);
                 literal.ok_or_else(|| Mistake::ty(node, "a value, or a table with `mask` and `value`"))

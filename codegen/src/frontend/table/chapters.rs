@@ -1,17 +1,15 @@
 //! Reads the chapters of a register table: their registers and objects.
 
-use toml::de::DeValue;
-
 use super::at::At;
+use super::document::{Node, Value};
 use super::format::{ChapterTable, Row};
 use super::in_use::InUse;
 use super::objects::Dictionary;
 use super::rows::Rows;
-use super::tree::{Node, Reader};
+use super::tree::Reader;
 use super::{defaults, lints, misplaced, notation, objects, registers};
 use crate::diagnostics::codes;
 use crate::ir::{Group, GroupKind, ObjectCode};
-use crate::source::Span;
 
 /// Reads the rows of a chapter. Returns the registers of the chapter as a group, and adds the objects of the chapter to
 /// `dictionary`.
@@ -22,7 +20,7 @@ pub(super) fn chapter<'a>(
     in_use: &mut InUse,
     node: Node<'a>,
 ) -> Option<Group> {
-    let (start, end) = (node.span().start as u32, node.span().end as u32);
+    let (start, end) = (node.start, node.end);
     let (registers, objects, mut node) = divide(reader, node)?;
     defaults::of_chapter(reader, &mut node);
     let chapter: ChapterTable = reader.piece(node)?;
@@ -70,22 +68,15 @@ pub(super) type RowList = Vec<(At<String>, At<Row>)>;
 /// Separates the rows of a chapter from its other keys, so that an error in one row does not affect the other rows.
 pub(super) fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, RowList, Node<'a>)> {
     let mut node = node;
-    let span = node.span();
-    let DeValue::Table(table) = node.get_mut() else {
-        let span = Span::new(reader.file, span.start as u32, span.end as u32);
+    let span = reader.span(&node);
+    let Value::Table(table) = &mut node.value else {
         reader.report_with_help(&codes::TABLE_VALUE, span, "a chapter must be a table", "write `[[chapters]]`");
         return None;
     };
     let (registers, objects) = (table.remove("registers"), table.remove("objects"));
     let mut read = |part: Option<Node<'a>>, what| -> RowList {
         let entries = part.map(|part| reader.entries(part, what)).unwrap_or_default();
-        entries
-            .into_iter()
-            .filter_map(|(key, node)| {
-                let (start, end) = (node.span().start as u32, node.span().end as u32);
-                Some((key, At { value: reader.piece(node)?, start, end }))
-            })
-            .collect()
+        entries.into_iter().filter_map(|(key, node)| Some((key, reader.piece_at(node)?))).collect()
     };
     let registers = read(registers, "chapters.registers");
     let objects = read(objects, "chapters.objects");

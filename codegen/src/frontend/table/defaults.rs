@@ -1,11 +1,9 @@
 //! Applies the table `defaults` to rows.
 
-use toml::de::DeValue;
-
+use super::document::{Node, Value};
 use super::format::Row;
-use super::tree::{Node, Reader};
+use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::source::Span;
 
 /// Declares the keys of `defaults`, each with the field that it sets in a row.
 macro_rules! inherited {
@@ -101,7 +99,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<Ro
 
 /// Checks the `defaults` table of a chapter.
 pub(super) fn of_chapter(reader: &mut Reader<'_, '_>, chapter: &mut Node<'_>) {
-    if let DeValue::Table(table) = chapter.get_mut() {
+    if let Value::Table(table) = &mut chapter.value {
         if let Some(node) = table.get_mut("defaults") {
             check(reader, node);
         }
@@ -110,15 +108,14 @@ pub(super) fn of_chapter(reader: &mut Reader<'_, '_>, chapter: &mut Node<'_>) {
 
 /// Reports and removes keys that rows do not inherit from `defaults`.
 fn check(reader: &mut Reader<'_, '_>, node: &mut Node<'_>) {
-    let DeValue::Table(table) = node.get_mut() else { return };
+    let Value::Table(table) = &mut node.value else { return };
     let is_excluded = |key: &str| NOT_INHERITED.contains(&key) && !INHERITED.contains(&key);
-    let found: Vec<_> = table.keys().filter(|key| is_excluded(key.get_ref())).cloned().collect();
+    let found: Vec<_> = table.iter().map(|(key, _)| key).filter(|key| is_excluded(&key.value)).cloned().collect();
     for key in found {
-        table.remove(&key);
-        let (span, name) = (key.span(), key.get_ref());
+        table.remove(&key.value);
+        let name = &key.value;
         let message = format!("rows do not inherit `{name}` from `defaults`");
-        let span = Span::new(reader.file, span.start as u32, span.end as u32);
-        let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
+        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&key), message);
         let help = format!("write `{name}` in each row; rows inherit only {}", INHERITED.join(", "));
         reader.diagnostics.push(found.help(help));
     }

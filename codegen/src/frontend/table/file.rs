@@ -122,8 +122,7 @@ pub(super) struct Table<'a> {
 impl<'a> Table<'a> {
     /// Parses a file, and replaces each text `$name` with the value of the chosen or default choice of the option `name`.
     pub(super) fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
-        let mut parts: Vec<_> =
-            tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();
+        let mut parts: Vec<_> = tree::entries(reader.parse()?).map(|(key, node)| (key, Some(node))).collect();
         let known = || KEYS.into_iter().chain(["doubts"]);
         for (key, node) in &mut parts {
             if !known().any(|known| known == key.value) {
@@ -173,8 +172,7 @@ impl<'a> Table<'a> {
     /// Reads the value of the top-level key `key`.
     pub(super) fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
         let node = self.node(key)?;
-        let (start, end) = (node.span().start as u32, node.span().end as u32);
-        Some(At { value: reader.piece(node)?, start, end })
+        reader.piece_at(node)
     }
 
     /// Returns the elements of the array of tables below the key `key`.
@@ -185,13 +183,7 @@ impl<'a> Table<'a> {
     /// Reads the elements of the array of tables below the key `key`.
     pub(super) fn list<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
         let nodes = self.nodes(reader, key);
-        nodes
-            .into_iter()
-            .filter_map(|node| {
-                let (start, end) = (node.span().start as u32, node.span().end as u32);
-                Some(At { value: reader.piece(node)?, start, end })
-            })
-            .collect()
+        nodes.into_iter().filter_map(|node| reader.piece_at(node)).collect()
     }
 
     /// Returns the tables below the key `key`, with their names.

@@ -161,8 +161,8 @@ macro_rules! table {
             fn read(node: &Node<'_>) -> Result<Self, Mistake> {
                 const KEYS: &[&str] = &[$(key!($field $($key)?)),*];
                 let mut table = Self::default();
-                for (key, value) in read::table(node, concat!("struct ", stringify!($name)))? {
-                    match key.get_ref().as_ref() {
+                for (key, value) in read::table(node, concat!("struct ", stringify!($name)))?.iter() {
+                    match key.value.as_ref() {
                         $(key!($field $($key)?) => table.$field = Read::read(value)?,)*
                         _ => return Err(Mistake::unknown_key(key, KEYS)),
                     }

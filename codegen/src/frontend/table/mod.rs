@@ -35,6 +35,7 @@ mod conditions;
 mod defaults;
 mod definitions;
 mod device;
+mod document;
 mod ethercat;
 mod file;
 pub mod format;

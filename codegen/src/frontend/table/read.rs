@@ -1,14 +1,8 @@
 //! Converts TOML values to the types of `format`.
 
-use std::ops::Range;
-
-use serde_spanned::Spanned;
-use toml::de::{DeInteger, DeString, DeTable, DeValue};
-
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
-
-/// TOML value with its byte range.
-pub(super) type Node<'a> = Spanned<DeValue<'a>>;
+pub(super) use super::document::Node;
+use super::document::{Key, Table, Value};
 
 /// Type that can be read from a TOML value.
 pub(super) trait Read: Sized {
@@ -20,7 +14,7 @@ pub(super) trait Read: Sized {
 #[derive(Debug)]
 pub(super) struct Mistake {
     /// Byte range of the error in the file.
-    pub span: Range<usize>,
+    pub range: (u32, u32),
     pub kind: MistakeKind,
 }
 
@@ -35,56 +29,55 @@ pub(super) enum MistakeKind {
 impl Mistake {
     /// Creates the error for a value of the wrong type.
     pub fn ty(node: &Node<'_>, expected: &str) -> Self {
-        let found = match node.get_ref() {
-            DeValue::String(text) => format!("string {text:?}"),
-            DeValue::Integer(number) => format!("integer `{}`", decimal(number)),
-            DeValue::Float(number) => format!("floating point `{}`", number.as_str()),
-            DeValue::Boolean(flag) => format!("boolean `{flag}`"),
-            DeValue::Datetime(_) => "date or time".to_owned(),
-            DeValue::Array(_) => "sequence".to_owned(),
-            DeValue::Table(_) => "map".to_owned(),
+        let found = match &node.value {
+            Value::Text(text) => format!("string {text:?}"),
+            Value::Integer(digits, radix) => format!("integer `{}`", decimal(digits, *radix)),
+            Value::Float(number) => format!("floating point `{number}`"),
+            Value::Boolean(flag) => format!("boolean `{flag}`"),
+            Value::Date => "date or time".to_owned(),
+            Value::List(_) => "sequence".to_owned(),
+            Value::Table(_) => "map".to_owned(),
         };
         Mistake::value(node, format!("invalid type: {found}, expected {expected}"))
     }
 
     pub fn value(node: &Node<'_>, message: String) -> Self {
-        Mistake { span: node.span(), kind: MistakeKind::Value(message) }
+        Mistake { range: (node.start, node.end), kind: MistakeKind::Value(message) }
     }
 
-    pub fn unknown_key(key: &Spanned<DeString<'_>>, known: &'static [&'static str]) -> Self {
-        let span = key.span();
-        Mistake { span, kind: MistakeKind::UnknownKey { key: key.get_ref().to_string(), known } }
+    pub fn unknown_key(key: &Key<'_>, known: &'static [&'static str]) -> Self {
+        Mistake { range: (key.start, key.end), kind: MistakeKind::UnknownKey { key: key.value.to_string(), known } }
     }
 }
 
 /// Returns the entries of a table, or an error for any other value. `expected` describes the expected table in the
 /// error message.
-pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n DeTable<'a>, Mistake> {
-    match node.get_ref() {
-        DeValue::Table(table) => Ok(table),
+pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n Table<'a>, Mistake> {
+    match &node.value {
+        Value::Table(table) => Ok(table),
         _ => Err(Mistake::ty(node, expected)),
     }
 }
 
 /// Returns a key of a table with its span.
-pub(super) fn key(key: &Spanned<DeString<'_>>) -> At<String> {
-    let span = key.span();
-    At { value: key.get_ref().to_string(), start: span.start as u32, end: span.end as u32 }
+pub(super) fn key(key: &Key<'_>) -> At<String> {
+    At { value: key.value.to_string(), start: key.start, end: key.end }
 }
 
-fn integer(number: &DeInteger<'_>) -> Option<i128> {
-    i128::from_str_radix(number.as_str(), number.radix()).ok()
+fn integer(digits: &str, radix: u32) -> Option<i128> {
+    i128::from_str_radix(digits, radix).ok()
 }
 
-fn decimal(number: &DeInteger<'_>) -> String {
-    integer(number).map_or_else(|| number.to_string(), |number| number.to_string())
+/// Returns an integer in decimal notation, or its digits if it has more than 128 bits.
+fn decimal(digits: &str, radix: u32) -> String {
+    integer(digits, radix).map_or_else(|| digits.to_owned(), |number| number.to_string())
 }
 
 /// Returns a TOML value as a number, or `None` if it is not a number.
 pub(super) fn number(node: &Node<'_>) -> Option<f64> {
-    match node.get_ref() {
-        DeValue::Integer(number) => integer(number).map(|number| number as f64),
-        DeValue::Float(number) => number.as_str().parse().ok(),
+    match &node.value {
+        Value::Integer(digits, radix) => integer(digits, *radix).map(|number| number as f64),
+        Value::Float(number) => number.parse().ok(),
         _ => None,
     }
 }
@@ -93,9 +86,9 @@ macro_rules! integers {
     ($($ty:ident)*) => {$(
         impl Read for $ty {
             fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-                let DeValue::Integer(number) = node.get_ref() else { return Err(Mistake::ty(node, stringify!($ty))) };
-                integer(number).and_then(|number| number.try_into().ok()).ok_or_else(|| {
-                    let message = format!("invalid value: integer `{}`, expected {}", decimal(number), stringify!($ty));
+                let Value::Integer(digits, radix) = &node.value else { return Err(Mistake::ty(node, stringify!($ty))) };
+                integer(digits, *radix).and_then(|number| number.try_into().ok()).ok_or_else(|| {
+                    let message = format!("invalid value: integer `{}`, expected {}", decimal(digits, *radix), stringify!($ty));
                     Mistake::value(node, message)
                 })
             }
@@ -112,8 +105,8 @@ impl Read for f64 {
 
 impl Read for bool {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::Boolean(flag) => Ok(*flag),
+        match &node.value {
+            Value::Boolean(flag) => Ok(*flag),
             _ => Err(Mistake::ty(node, "a boolean")),
         }
     }
@@ -121,8 +114,8 @@ impl Read for bool {
 
 impl Read for String {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::String(text) => Ok(text.to_string()),
+        match &node.value {
+            Value::Text(text) => Ok(text.to_string()),
             _ => Err(Mistake::ty(node, "a string")),
         }
     }
@@ -136,8 +129,8 @@ impl<T: Read> Read for Option<T> {
 
 impl<T: Read> Read for Vec<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::Array(list) => list.iter().map(T::read).collect(),
+        match &node.value {
+            Value::List(list) => list.iter().map(T::read).collect(),
             _ => Err(Mistake::ty(node, "a sequence")),
         }
     }
@@ -145,25 +138,21 @@ impl<T: Read> Read for Vec<T> {
 
 impl<T: Read> Read for At<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        let span = node.span();
-        Ok(At { value: T::read(node)?, start: span.start as u32, end: span.end as u32 })
+        Ok(At { value: T::read(node)?, start: node.start, end: node.end })
     }
 }
 
 impl<T: Read> Read for Entries<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        let entry = |(key, value): (&Spanned<DeString<'_>>, &Node<'_>)| Ok((self::key(key), At::read(value)?));
-        let mut list = table(node, "a table")?.iter().map(entry).collect::<Result<Vec<_>, Mistake>>()?;
-        // The parser sorts entries by name, so the order of the file must be restored.
-        list.sort_by_key(|(key, _)| key.start);
-        Ok(Entries(list))
+        let entries = table(node, "a table")?.iter().map(|(key, value)| Ok((self::key(key), At::read(value)?)));
+        entries.collect::<Result<_, Mistake>>().map(Entries)
     }
 }
 
 impl<T: Read> Read for OneOrMany<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::Array(list) => list.iter().map(T::read).collect::<Result<_, _>>().map(OneOrMany),
+        match &node.value {
+            Value::List(list) => list.iter().map(T::read).collect::<Result<_, _>>().map(OneOrMany),
             _ => T::read(node).map(|value| OneOrMany(vec![value])),
         }
     }
@@ -171,9 +160,9 @@ impl<T: Read> Read for OneOrMany<T> {
 
 impl<T: Read> Read for TextOr<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::String(text) => Ok(TextOr::Text(text.to_string())),
-            DeValue::Table(_) => T::read(node).map(|table| TextOr::Table(Box::new(table))),
+        match &node.value {
+            Value::Text(text) => Ok(TextOr::Text(text.to_string())),
+            Value::Table(_) => T::read(node).map(|table| TextOr::Table(Box::new(table))),
             _ => Err(Mistake::ty(node, "a text or a table")),
         }
     }
@@ -181,9 +170,9 @@ impl<T: Read> Read for TextOr<T> {
 
 impl<T: Read> Read for FlagOr<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        match node.get_ref() {
-            DeValue::Boolean(flag) => Ok(FlagOr::Flag(*flag)),
-            DeValue::Table(_) => T::read(node).map(|table| FlagOr::Table(Box::new(table))),
+        match &node.value {
+            Value::Boolean(flag) => Ok(FlagOr::Flag(*flag)),
+            Value::Table(_) => T::read(node).map(|table| FlagOr::Table(Box::new(table))),
             _ => Err(Mistake::ty(node, "true, false or a table")),
         }
     }
@@ -191,11 +180,11 @@ impl<T: Read> Read for FlagOr<T> {
 
 /// Returns a TOML value as a literal, or `None` if it is a date, a list, a table, or an integer of more than 128 bits.
 pub(super) fn literal(node: &Node<'_>) -> Option<Literal> {
-    match node.get_ref() {
-        DeValue::Boolean(flag) => Some(Literal::Bool(*flag)),
-        DeValue::Integer(number) => integer(number).map(Literal::Int),
-        DeValue::Float(_) => number(node).map(Literal::Real),
-        DeValue::String(text) => Some(Literal::Text(text.to_string())),
+    match &node.value {
+        Value::Boolean(flag) => Some(Literal::Bool(*flag)),
+        Value::Integer(digits, radix) => integer(digits, *radix).map(Literal::Int),
+        Value::Float(_) => number(node).map(Literal::Real),
+        Value::Text(text) => Some(Literal::Text(text.to_string())),
         _ => None,
     }
 }

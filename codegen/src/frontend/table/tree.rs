@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use compact_str::CompactString;
-use serde_spanned::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml_parser::{Expected, ParseError};
 
 use super::at::{At, Literal};
+use super::document::{self, Table, Value};
 use super::format::{Cited, Documented, DoubtTable, Doubted, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
@@ -52,25 +52,25 @@ impl<'a, 'd> Reader<'a, 'd> {
 
 impl<'a> Reader<'a, '_> {
     /// Parses the file and reports syntax errors. Returns `None` if the file is not valid TOML.
-    pub fn parse(&mut self) -> Option<DeTable<'a>> {
+    pub fn parse(&mut self) -> Option<Table<'a>> {
         let source = self.source;
-        let (table, errors) = DeTable::parse_recoverable(source.text());
+        let (table, errors) = document::parse(source.text());
         // A syntax error causes follow-up errors. Follow-up errors on the same line, or without a span, are not useful.
         let mut last_line = 0;
         for (position, error) in errors.iter().enumerate() {
-            let span = self.range(error.span());
-            let line = self.source.line_at(span.start);
-            let follows = std::mem::replace(&mut last_line, line) == line || error.span().is_none();
+            let (start, end) = error.unexpected().map_or((0, 0), |span| (span.start() as u32, span.end() as u32));
+            let line = self.source.line_at(start);
+            let follows = std::mem::replace(&mut last_line, line) == line || error.unexpected().is_none();
             if position == 0 || !follows {
-                let message = format!("invalid TOML: {}", first_line(error.message()));
-                let diagnostic = Diagnostic::new(&codes::TABLE_SYNTAX, self.visible(span), message);
-                self.diagnostics.push(match hint(error.message()) {
+                let (span, message) = (Span::new(self.file, start, end), message(error));
+                let diagnostic = Diagnostic::new(&codes::TABLE_SYNTAX, self.visible(span), message.clone());
+                self.diagnostics.push(match hint(&message) {
                     Some(hint) => diagnostic.help(hint),
                     None => diagnostic,
                 });
             }
         }
-        errors.is_empty().then(|| table.into_inner())
+        errors.is_empty().then_some(table)
     }
 
     /// Reads a value as the type `T` and reports errors. An unknown key is removed, or replaced with the most similar
@@ -82,14 +82,14 @@ impl<'a> Reader<'a, '_> {
                 Ok(piece) => return Some(piece),
                 Err(mistake) => mistake,
             };
-            let span = self.range(Some(mistake.span));
+            let span = Span::new(self.file, mistake.range.0, mistake.range.1);
             match mistake.kind {
                 MistakeKind::UnknownKey { .. } if attempt == MAX_UNKNOWN_KEYS => break,
                 MistakeKind::UnknownKey { key, known } => {
                     self.unknown_key(&key, known, span);
                     // A misspelled key is read as the most similar known key, to avoid follow-up errors.
                     let suggestion = similar(&key, known.iter().copied());
-                    if !remove(node.get_mut(), span, &key, suggestion) {
+                    if !remove(&mut node.value, span, &key, suggestion) {
                         return None;
                     }
                 }
@@ -101,33 +101,37 @@ impl<'a> Reader<'a, '_> {
                 }
             }
         }
-        let whole = self.range(Some(node.span()));
+        let whole = self.span(&node);
         let message = format!("the table has more than {MAX_UNKNOWN_KEYS} unknown keys");
         let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, whole, message);
         self.diagnostics.push(diagnostic.label("the whole table is left out"));
         None
     }
 
+    /// Reads a value with its byte range as the type `T`, and reports errors.
+    pub fn piece_at<T: Read>(&mut self, node: Node<'a>) -> Option<At<T>> {
+        let (start, end) = (node.start, node.end);
+        Some(At { value: self.piece(node)?, start, end })
+    }
+
     /// Returns the entries of a table in the order of the file.
     pub fn entries(&mut self, node: Node<'a>, what: &str) -> Vec<(At<String>, Node<'a>)> {
-        let span = node.span();
-        let DeValue::Table(table) = node.into_inner() else {
+        let Value::Table(table) = node.value else {
             let message = format!("`{what}` must be a table");
-            self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.range(Some(span)), message));
+            self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.span(&node), message));
             return Vec::new();
         };
-        sorted(table)
+        entries(table).collect()
     }
 
     /// Returns the elements of an array of tables. Reports any other value.
     pub fn elements(&mut self, node: Node<'a>, what: &str) -> Vec<Node<'a>> {
-        let span = node.span();
-        match node.into_inner() {
-            DeValue::Array(list) => list.into_iter().collect(),
+        match node.value {
+            Value::List(list) => list,
             _ => {
                 let message = format!("`{what}` must be a list of tables");
                 let help = format!("write `[[{what}]]`");
-                self.report_with_help(&codes::TABLE_VALUE, self.range(Some(span)), message, help);
+                self.report_with_help(&codes::TABLE_VALUE, self.span(&node), message, help);
                 Vec::new()
             }
         }
@@ -215,11 +219,6 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    fn range(&self, range: Option<std::ops::Range<usize>>) -> Span {
-        let range = range.unwrap_or(0..0);
-        Span::new(self.file, range.start as u32, range.end as u32)
-    }
-
     /// Returns the literals of the list at the byte range `whole`, each with its span. The span is that of the whole
     /// list if the list in the file and `list` differ in length.
     pub fn each(&self, list: &[Literal], whole: ByteRange) -> Vec<At<Literal>> {
@@ -240,10 +239,9 @@ impl<'a> Reader<'a, '_> {
     fn element_ranges(&self, list: ByteRange) -> Rc<[ByteRange]> {
         let mut known = self.lists.borrow_mut();
         let find = || {
-            let parsed = DeValue::parse(self.source.slice(Span::new(self.file, list.0, list.1))).ok();
-            let Some(DeValue::Array(elements)) = parsed.as_ref().map(Spanned::get_ref) else { return Rc::from([]) };
-            let range = |span: std::ops::Range<usize>| (list.0 + span.start as u32, list.0 + span.end as u32);
-            elements.iter().map(|element| range(element.span())).collect()
+            let parsed = document::parse_value(self.source.slice(Span::new(self.file, list.0, list.1)));
+            let Some(Value::List(elements)) = parsed else { return Rc::from([]) };
+            elements.iter().map(|element| (list.0 + element.start, list.0 + element.end)).collect()
         };
         Rc::clone(known.entry(list).or_insert_with(find))
     }
@@ -334,11 +332,24 @@ pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
     list.0.iter().map(NumberOrText::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the entries of a table in the order of the file. The parser sorts them by name.
-pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
-    let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (read::key(&key), value)).collect();
-    entries.sort_by_key(|(key, _)| key.start);
-    entries
+/// Returns the entries of a table in the order of the file.
+pub(super) fn entries<'a>(table: Table<'a>) -> impl Iterator<Item = (At<String>, Node<'a>)> {
+    table.into_entries().into_iter().map(|(key, value)| (read::key(&key), value))
+}
+
+/// Returns the message for a syntax error.
+fn message(error: &ParseError) -> String {
+    let expected = error.expected().map(|expected| {
+        let shown = |expected: &Expected| match expected {
+            Expected::Literal("\n") => "newline".to_owned(),
+            Expected::Literal(text) => format!("`{}`", text.escape_debug()),
+            Expected::Description(text) => (*text).to_owned(),
+            _ => "etc".to_owned(),
+        };
+        let list: Vec<String> = expected.iter().map(shown).collect();
+        format!(", expected {}", if list.is_empty() { "nothing".to_owned() } else { list.join(", ") })
+    });
+    format!("invalid TOML: {}{}", first_line(error.description()), expected.unwrap_or_default())
 }
 
 /// Returns a help text for the usual cause of a TOML syntax error.
@@ -360,39 +371,33 @@ fn first_line(message: &str) -> &str {
 
 /// Removes the key at `span` from `value` or a table in `value`, or renames the key to `suggestion`. Returns whether the key was
 /// found.
-fn remove(value: &mut DeValue<'_>, span: Span, key: &str, suggestion: Option<&str>) -> bool {
+fn remove(value: &mut Value<'_>, span: Span, key: &str, suggestion: Option<&str>) -> bool {
     match value {
-        DeValue::Table(table) => {
-            let found_key =
-                table.keys().find(|known| known.get_ref() == key && known.span().start == span.start as usize).cloned();
-            match found_key {
-                Some(found_key) => {
-                    let value = table.remove(&found_key);
-                    if let Some((suggestion, value)) =
-                        suggestion.filter(|suggestion| !table.contains_key(*suggestion)).zip(value)
-                    {
-                        table.insert(Spanned::new(found_key.span(), suggestion.to_owned().into()), value);
-                    }
-                    true
-                }
-                None => table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, key, suggestion)),
+        Value::Table(table) => {
+            if !table.iter().any(|(known, _)| known.value == key && known.start == span.start) {
+                return table.values_mut().any(|inner| remove(&mut inner.value, span, key, suggestion));
             }
+            match suggestion.filter(|suggestion| table.get(suggestion).is_none()) {
+                Some(suggestion) => table.rename(key, suggestion),
+                None => drop(table.remove(key)),
+            }
+            true
         }
-        DeValue::Array(list) => list.iter_mut().any(|inner| remove(inner.get_mut(), span, key, suggestion)),
+        Value::List(list) => list.iter_mut().any(|inner| remove(&mut inner.value, span, key, suggestion)),
         _ => false,
     }
 }
 
 /// Replaces each text `$name` with the chosen value of the option `name`.
-pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, DeValue<'a>>) {
-    match value.get_mut() {
-        DeValue::String(text) => {
+pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, Value<'a>>) {
+    match &mut value.value {
+        Value::Text(text) => {
             if let Some(choice) = text.strip_prefix('$').and_then(|name| chosen.get(name)) {
-                *value.get_mut() = choice.clone();
+                value.value = choice.clone();
             }
         }
-        DeValue::Array(list) => list.iter_mut().for_each(|inner| choose(inner, chosen)),
-        DeValue::Table(table) => table.iter_mut().for_each(|(_, inner)| choose(inner, chosen)),
+        Value::List(list) => list.iter_mut().for_each(|inner| choose(inner, chosen)),
+        Value::Table(table) => table.values_mut().for_each(|inner| choose(inner, chosen)),
         _ => {}
     }
 }
@@ -402,7 +407,7 @@ pub(super) fn choices<'a>(
     reader: &mut Reader<'a, '_>,
     options: &[(At<String>, OptionTable, Node<'a>)],
     chosen: &[(String, String)],
-) -> HashMap<String, DeValue<'a>> {
+) -> HashMap<String, Value<'a>> {
     let mut values = HashMap::default();
     for (name, option, node) in options {
         let by_caller = chosen.iter().rev().find(|(option_name, _)| *option_name == name.value);
@@ -415,16 +420,16 @@ pub(super) fn choices<'a>(
                 continue;
             }
         };
-        let choices = node.get_ref().as_table().and_then(|table| table.get("choices"));
-        let choices = choices.and_then(|choices| choices.get_ref().as_table());
+        let choices = node.value.as_table().and_then(|table| table.get("choices"));
+        let choices = choices.and_then(|choices| choices.value.as_table());
         let value = choices.and_then(|choices| choices.get(choice));
         if value.is_none() {
             let known = option.choices.iter().map(|(key, _)| key.value.as_str());
             reader.unresolved(&format!("choice of the option `{}`", name.value), choice, span, known);
         }
         // After an unknown choice, the table is read with another choice to find further errors.
-        if let Some(value) = value.or_else(|| choices?.values().next()) {
-            values.insert(name.value.clone(), value.get_ref().clone());
+        if let Some(value) = value.or_else(|| choices?.iter().next().map(|(_, value)| value)) {
+            values.insert(name.value.clone(), value.value.clone());
         }
     }
     for (name, _) in chosen {
@@ -438,17 +443,17 @@ pub(super) fn choices<'a>(
 
 /// Reports a text `$name` that names no option.
 pub(super) fn undecided(reader: &mut Reader<'_, '_>, value: &Node<'_>, known: &[String]) {
-    match value.get_ref() {
-        DeValue::String(text) => {
+    match &value.value {
+        Value::Text(text) => {
             let is_name = |name: &str| name.starts_with(|c: char| c.is_ascii_lowercase());
             let is_known = |name: &str| known.iter().any(|known_name| known_name == name);
             if let Some(name) = text.strip_prefix('$').filter(|name| is_name(name) && !is_known(name)) {
-                let span = reader.range(Some(value.span()));
+                let span = reader.span(value);
                 reader.unresolved("option", name, span, known.iter().map(String::as_str));
             }
         }
-        DeValue::Array(list) => list.iter().for_each(|inner| undecided(reader, inner, known)),
-        DeValue::Table(table) => table.iter().for_each(|(_, inner)| undecided(reader, inner, known)),
+        Value::List(list) => list.iter().for_each(|inner| undecided(reader, inner, known)),
+        Value::Table(table) => table.iter().for_each(|(_, inner)| undecided(reader, inner, known)),
         _ => {}
     }
 }
