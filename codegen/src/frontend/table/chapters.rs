@@ -58,6 +58,7 @@ pub(super) fn chapter<'a>(
         misplaced::object(reader, &key, &row);
         objects::add(reader, rows, dictionary, &key, &row, space, defaults);
     }
+    group.items.shrink_to_fit();
     let says_something = !group.doubts.is_empty() || group.documentation.is_some();
     (!group.items.is_empty() || says_something).then_some(group)
 }

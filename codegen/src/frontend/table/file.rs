@@ -103,6 +103,7 @@ pub fn read(
     table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
+    device.types.shrink_to_fit();
     device.doubts.append(&mut rows.definitions.doubts);
     table.rest(&mut reader, &mut rows, &mut device);
     resolve(&mut reader, &rows, &device);
