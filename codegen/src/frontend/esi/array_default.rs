@@ -8,7 +8,6 @@ use super::info_value::{Form, RawInfo, RawValue};
 use super::object::RawSub;
 use super::types::Types;
 use crate::collections::HashMap;
-use crate::frontend::xml::Given;
 
 /// Selects the field to set: the default value, the minimum or the maximum.
 type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>>;
@@ -50,29 +49,29 @@ pub(super) fn split<'a>(
 /// part has `digits` digits. Returns an empty list and leaves `whole` unchanged if `others` is 0, or if `whole` is not
 /// hexadecimal data with the length of the array.
 fn divide<'a>(whole: &mut RawValue<'a>, others: usize, digits: usize) -> Vec<RawValue<'a>> {
-    let data = without_blanks(&whole.given);
+    let data = without_blanks(whole);
     let text = data.text.as_ref();
     let is_whole = text.len() == digits * (others + 1) && text.bytes().all(|digit| digit.is_ascii_hexdigit());
     if whole.form != Form::Data || others == 0 || !is_whole {
         return Vec::new();
     }
-    whole.given = part(&data, 0, digits);
-    (1..=others).map(|number| RawValue { form: Form::Data, given: part(&data, number, digits) }).collect()
+    *whole = part(&data, 0, digits);
+    (1..=others).map(|number| part(&data, number, digits)).collect()
 }
 
 /// Returns the data without white space. Files may wrap long data over several lines.
-fn without_blanks<'a>(given: &Given<'a>) -> Given<'a> {
+fn without_blanks<'a>(value: &RawValue<'a>) -> RawValue<'a> {
     let is_blank = |letter: char| letter.is_ascii_whitespace();
-    let text = match given.text.contains(is_blank) {
-        true => Cow::Owned(given.text.replace(is_blank, "")),
-        false => given.text.clone(),
+    let text = match value.text.contains(is_blank) {
+        true => Cow::Owned(value.text.replace(is_blank, "")),
+        false => value.text.clone(),
     };
-    Given { text, span: given.span }
+    RawValue { text, ..*value }
 }
 
 /// Returns the data of the element `number`, counted from 0. The result has the span of the whole value if the data differ from
 /// the text of the file, for example because white space was removed.
-fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
+fn part<'a>(whole: &RawValue<'a>, number: usize, digits: usize) -> RawValue<'a> {
     let range = number * digits..(number + 1) * digits;
     let is_verbatim = whole.text.len() == (whole.span.end - whole.span.start) as usize;
     let start = whole.span.start + range.start as u32;
@@ -81,5 +80,5 @@ fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
         Cow::Owned(text) => Cow::Owned(text[range].to_owned()),
     };
     let part = crate::source::Span { start, end: start + digits as u32, ..whole.span };
-    Given { text, span: if is_verbatim { part } else { whole.span } }
+    RawValue { text, span: if is_verbatim { part } else { whole.span }, form: whole.form }
 }

@@ -47,8 +47,14 @@ pub(super) struct RawField<'a> {
     pub info: RawInfo<'a>,
     pub comment: Option<Box<Names<'a>>>,
     pub origin: Origin,
-    /// Number of text bytes that are copied from this sub-item to each item that is created from it.
-    pub weight: usize,
+}
+
+impl RawField<'_> {
+    /// Returns the number of text bytes that are copied from this sub-item to each item that is created from it.
+    pub fn weight(&self) -> usize {
+        let of_comment = self.comment.as_deref().map_or(0, Names::weight);
+        self.name.text.len() + of_comment + self.info.weight() + self.flags.weight()
+    }
 }
 
 /// Reads a `DataType` element.
@@ -113,8 +119,6 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
             _ => raw.info.read(reader, &tag)?,
         }
     }
-    let of_comment = raw.comment.as_deref().map_or(0, Names::weight);
-    raw.weight = raw.name.text.len() + of_comment + raw.info.weight() + raw.flags.weight();
     Ok(())
 }
 

@@ -1,11 +1,14 @@
 //! Default value, limits, unit and properties of an object or sub-item, before conversion.
 
+use std::borrow::Cow;
+
 use compact_str::format_compact;
 
 use super::reader::{Names, Reader};
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
 use crate::ir::Extension;
+use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
@@ -25,10 +28,22 @@ pub(super) struct MoreInfo<'a> {
     pub unit: Given<'a>,
 }
 
-/// Value as written in the file, and its notation.
+/// Value as written in the file, and its notation. The fields of a [`Given`] are its own fields, because a large
+/// dictionary has many values and they need less memory in this form.
 pub(super) struct RawValue<'a> {
+    pub text: Cow<'a, str>,
+    pub span: Span,
     pub form: Form,
-    pub given: Given<'a>,
+}
+
+impl<'a> RawValue<'a> {
+    pub fn new(form: Form, Given { text, span }: Given<'a>) -> Self {
+        RawValue { text, span, form }
+    }
+
+    pub fn given(&self) -> Given<'_> {
+        Given { text: Cow::Borrowed(&self.text), span: self.span }
+    }
 }
 
 /// Notation of a value.
@@ -45,7 +60,7 @@ pub(super) enum Form {
 impl<'a> RawInfo<'a> {
     /// Returns the number of text bytes that a copy of the default value, limits, unit and display name needs.
     pub fn weight(&self) -> usize {
-        let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.given.text.len());
+        let length = |raw: &Option<RawValue<'a>>| raw.as_ref().map_or(0, |raw| raw.text.len());
         let of_more = |more: &MoreInfo<'a>| length(&more.min) + length(&more.max) + more.unit.text.len();
         let of_display = self.display.as_deref().map_or(0, Names::weight);
         length(&self.default) + self.more.as_deref().map_or(0, of_more) + of_display
@@ -73,8 +88,8 @@ impl<'a> RawInfo<'a> {
             [b'M', b'i', ..] => &mut self.more().min,
             _ => &mut self.more().max,
         };
-        if let Some(earlier) = value.replace(RawValue { form, given }) {
-            reader.note(tag.name, &earlier.given);
+        if let Some(earlier) = value.replace(RawValue::new(form, given)) {
+            reader.note(tag.name, &earlier.given());
         }
         Ok(())
     }

@@ -148,7 +148,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         for (position, entry) in entries.iter().enumerate() {
             let sub = matched.of_entry.get(position).copied().flatten().and_then(|at| subs.get_mut(at));
             let described = sub.is_some() || parts.contains_key(&position);
-            let cost = Cost { items: usize::from(!described), bytes: entry.field.weight + of_object };
+            let cost = Cost { items: usize::from(!described), bytes: entry.field.weight() + of_object };
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
@@ -178,7 +178,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         let limits = more.into_iter().flat_map(|more| [("Min", more.min.as_ref()), ("Max", more.max.as_ref())]);
         for (key, value) in [("Default", raw.info.default.as_ref())].into_iter().chain(limits) {
             if let Some(value) = value {
-                group.extensions.extend(value.given.extension(key));
+                group.extensions.extend(value.given().extension(key));
             }
         }
         if let Some(more) = more {
@@ -336,17 +336,17 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         let default = raw.default.as_ref().or_else(|| of_type.and_then(|info| info.default.as_ref()));
         if let Some(raw) = default {
             item.default = value::convert(reader, raw, base, Role::Default);
-            item.at.default = raw.given.span;
+            item.at.default = raw.span;
         }
         let more = [raw.more.as_deref(), of_type.and_then(|info| info.more.as_deref())];
         let more = more.into_iter().flatten();
         if let Some(raw) = more.clone().find_map(|more| more.min.as_ref()) {
             item.limits.low = value::convert(reader, raw, base, Role::Limit);
-            item.at.others.low = raw.given.span;
+            item.at.others.low = raw.span;
         }
         if let Some(raw) = more.clone().find_map(|more| more.max.as_ref()) {
             item.limits.high = value::convert(reader, raw, base, Role::Limit);
-            item.at.others.high = raw.given.span;
+            item.at.others.high = raw.span;
         }
         if let Some(given) = more.map(|more| &more.unit).find(|unit| !unit.is_empty()) {
             let unit = self.unit(reader, given);

@@ -63,6 +63,7 @@ impl Links {
             links.first.push(links.fields.len());
             links.fields.extend(ty.fields.iter().map(|field| find(&field.ty.text)));
         }
+        links.fields.shrink_to_fit();
         links
     }
 
@@ -151,6 +152,7 @@ impl<'t, 'a> Types<'t, 'a> {
                 (def.shape, def.bits) = (shape, bits);
             }
         }
+        types.values = Vec::new();
         types
     }
 
@@ -404,6 +406,10 @@ impl<'t, 'a> Types<'t, 'a> {
             }
         };
         let ty = Type::Named(TypeId(self.defs.len() as u32));
+        if self.defs.len() == self.defs.capacity() {
+            // Only few types have such names, so the list must not double.
+            self.defs.reserve_exact(self.defs.len() / 8 + 16);
+        }
         self.defs.push(TypeDef::new(name, shape, bits));
         self.made.insert(name.into(), ty);
         ty

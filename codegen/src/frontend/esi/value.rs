@@ -29,7 +29,7 @@ pub(super) fn convert(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type,
 /// Converts bytes in hexadecimal notation to a value. The least significant byte of a number comes first. Returns `None` if the
 /// text contains characters other than hexadecimal digits and white space.
 fn data(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Option<Value> {
-    let bytes = reader.octets(&raw.given)?;
+    let bytes = reader.octets(&raw.given())?;
     match ty {
         Type::Boolean | Type::Integer(_) | Type::Unsigned(_) | Type::Real32 | Type::Real64 => {
             Some(scalar(reader, raw, ty, bytes))
@@ -67,7 +67,7 @@ fn scalar(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, bytes: Vec<
             _ => "the zeros after the value are ignored",
         };
         let message = format!("{ty} has {}, but the value has {}", count_of(length, "byte"), bytes.len());
-        reader.report(&codes::HEX_LENGTH, raw.given.span, message, label);
+        reader.report(&codes::HEX_LENGTH, raw.span, message, label);
     }
     if rest.iter().any(|&byte| byte != 0) {
         return Value::Bytes(bytes);
@@ -93,7 +93,7 @@ fn signed(pattern: u64, bits: u8) -> i128 {
 }
 
 fn number(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -> Value {
-    let given = &raw.given;
+    let given = &raw.given();
     match ty {
         Type::Real32 | Type::Real64 => real(reader, raw, ty),
         Type::Boolean => match given.text.as_ref() {
@@ -115,7 +115,7 @@ fn number(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role)
 }
 
 fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -> Value {
-    let given = &raw.given;
+    let given = &raw.given();
     let Some(number) = reader.parse(given) else { return fraction(reader, raw, ty) };
     let value = number.value;
     let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
@@ -142,7 +142,7 @@ fn integer(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role
 /// Reads and reports a text that is not an integer, although its type is an integer type. A number with a zero
 /// fraction, such as `5.0`, becomes an integer. Any other text is kept unchanged.
 fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
-    let given = &raw.given;
+    let given = &raw.given();
     let whole = given.text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));
     if let Some(number) = whole.and_then(|(whole, _)| number::parse(whole)) {
         let message = format!("the value is a decimal fraction, but the type is {ty}");
@@ -161,7 +161,7 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
 /// Converts a number to a real type. A hexadecimal number is a bit pattern if it has exactly as many digits as the type
 /// needs.
 fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
-    let given = &raw.given;
+    let given = &raw.given();
     let decimal = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E');
     let value = given.text.parse::<f64>().ok().filter(|value| value.is_finite());
     if let Some(value) = value.filter(|_| given.text.bytes().all(decimal)) {
@@ -187,12 +187,12 @@ fn real(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value {
 
 fn text(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role) -> Value {
     match ty {
-        Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(raw.given.compact()),
-        Type::OctetString(_) => Value::Bytes(raw.given.text.as_bytes().to_vec()),
-        Type::Opaque(_) | Type::Named(_) | Type::Domain => Value::Text(raw.given.compact()),
+        Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(raw.given().compact()),
+        Type::OctetString(_) => Value::Bytes(raw.text.as_bytes().to_vec()),
+        Type::Opaque(_) | Type::Named(_) | Type::Domain => Value::Text(raw.given().compact()),
         _ => {
             let message = format!("the value is in DefaultString, but the type is {ty}");
-            reader.report(&codes::VALUE_FORM, raw.given.span, message, "read as a number");
+            reader.report(&codes::VALUE_FORM, raw.span, message, "read as a number");
             number(reader, raw, ty, role)
         }
     }
