@@ -1,6 +1,7 @@
 //! Tests overlays: which facts they change or keep, and which errors they cause.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Access, Device, Fact, FactOrigin, Item, OverlayOrigin, Shape, Type, Value};
 use lexibus_codegen::limits;
 use lexibus_codegen::source::Source;
@@ -314,9 +315,9 @@ fn names_within_a_module_are_those_of_its_items() {
     let doubt = "doubt = { says = \"V and mV\", chose = \"V\", why = \"the scale\" }";
     let actual = applied(&format!("0x2000 = {{ enum = \"E\" }}\n[enums.E]\n{doubt}\nvalues = {{ 0 = \"off\" }}\n"));
     assert_eq!(findings(&actual), []);
-    let devices = &actual.catalog.as_ref().expect("a catalog").devices;
-    let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
-    assert_eq!(doubts, [0, 1], "the device that accepts the module has its doubts");
+    let catalog = actual.catalog.as_ref().expect("a catalog");
+    let doubts = catalog.devices.iter().map(|device| doubts::of_device(catalog, device).len());
+    assert_eq!(doubts.collect::<Vec<_>>(), [0, 1], "the device that accepts the module lists the doubts of its types");
 }
 
 #[test]
