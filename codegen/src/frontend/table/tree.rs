@@ -298,12 +298,12 @@ impl<'a> Reader<'a, '_> {
         doubts
     }
 
-    /// Returns the ambiguities in `lists`. An ambiguity without a citation has the citation `cite`.
     pub fn doubts(&mut self, lists: [Option<&OneOrMany<DoubtTable>>; 2], origin: Origin, cite: Option<&str>) -> Doubts {
         let tables = lists.into_iter().flatten().flat_map(|list| &list.0);
         tables.map(|table| self.doubt(table, origin, cite)).collect()
     }
 
+    /// Returns an ambiguity. An ambiguity without a citation has the citation `cite`.
     pub fn doubt(&mut self, table: &DoubtTable, origin: Origin, cite: Option<&str>) -> Doubt {
         let words = [Severity::Hazard, Severity::Value, Severity::Print].map(|severity| (severity.name(), severity));
         Doubt {
