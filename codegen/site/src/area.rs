@@ -170,7 +170,7 @@ fn pages(part: &Part<'_>, mut filler: Filler<'_>, files: &mut Names) -> Vec<Area
             file: files.file(&part.title),
             title,
             facts,
-            doubts: about.map(|group| entry::doubts(&group.doubts, known.manual)).unwrap_or_default(),
+            doubts: about.map(|group| entry::doubts(&group.doubts, "", known.manual)).unwrap_or_default(),
             sections,
         }
     };
@@ -197,7 +197,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| address::object(index, sub));
     let mut diagnostics = rows.known.diagnostics.of_group(group);
-    let doubts = entry::doubts(&group.doubts, rows.known.manual);
+    let doubts = entry::doubts(&group.doubts, "", rows.known.manual);
     let mut row = |id: ItemId, item: &Item| {
         let row = rows.row(id, item, sub(item), false);
         Row { name: item::entry_name(item, group), ..row }

@@ -94,25 +94,24 @@ impl<'d> AmbiguitySources<'d> {
         let mut all: Vec<Assumption<'d>> = Vec::new();
         let mut known = HashMap::new();
         self.visit(&mut |link, title, doubt| {
-            // Ignore the prefix: it differs between the device's list and the element, although the ambiguity is the
-            // same.
-            let at = *known.entry(Doubt { prefix: String::new(), ..doubt.clone() }).or_insert(all.len());
+            // Ignore the subject and the prefix: they differ between the types of one definition, and between the overview and
+            // the element, although the ambiguity is the same.
+            let key = Doubt { subject: String::new(), prefix: String::new(), ..doubt.clone() };
+            let at = *known.entry(key).or_insert(all.len());
             if at == all.len() {
                 all.push(Assumption { elements: Vec::new(), doubt });
             }
-            // An ambiguity with a subject occurs in the device's list and again at each element with the subject's
-            // type.
-            match doubt.subject.as_str() {
-                "" => all[at].elements.push(Element { link, title: title.to_owned() }),
-                _ if !all[at].elements.is_empty() => {}
-                subject => all[at].elements.push(Element { link, title: subject.to_owned() }),
+            // An ambiguity with a subject occurs on the overview and again at each element with the subject's type.
+            let title = if doubt.subject.is_empty() { title } else { &doubt.subject };
+            if doubt.subject.is_empty() || all[at].elements.iter().all(|element| element.title != title) {
+                all[at].elements.push(Element { link, title: title.to_owned() });
             }
         });
         all
     }
 
-    /// Calls `visitor` for each ambiguity with the link and title of the affected element. Ambiguities in the device's
-    /// list that have a subject come last.
+    /// Calls `visitor` for each ambiguity with the link and title of the affected element. Ambiguities on the overview
+    /// that have a subject come last.
     fn visit(&self, visitor: &mut impl FnMut(String, &str, &'d Doubt)) {
         let (first, doubts) = self.overview;
         let (of_device, with_subject): (Vec<_>, Vec<_>) = doubts.iter().partition(|doubt| doubt.subject.is_empty());

@@ -7,7 +7,7 @@ use super::split::Section;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::code;
 use lexibus_codegen::facts::words::capital;
-use lexibus_codegen::ir::{CodeTable, Device, Manual, SubjectKind};
+use lexibus_codegen::ir::{CodeTable, Device, Manual};
 
 /// A code table on a page.
 #[derive(Debug)]
@@ -64,10 +64,10 @@ impl Section for Codes {
 pub(super) fn tables(device: &Device, manual: &Manual) -> Vec<Codes> {
     let mut names = Names::default();
     let with = device.code_tables.iter().enumerate().filter(|(_, table)| !table.rows.is_empty());
-    with.map(|(position, table)| Codes { position, ..self::table(table, device, manual, &mut names) }).collect()
+    with.map(|(position, table)| Codes { position, ..self::table(table, manual, &mut names) }).collect()
 }
 
-fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names) -> Codes {
+fn table(table: &CodeTable, manual: &Manual, names: &mut Names) -> Codes {
     let anchor = names.anchor(&table.name);
     let mut facts = PLAIN.description(table.documentation.as_deref());
     if !table.buses.is_empty() {
@@ -95,7 +95,7 @@ fn table(table: &CodeTable, device: &Device, manual: &Manual, names: &mut Names)
     });
     let rows = rows.collect();
     let columns = table.columns.iter().map(|column| capital(column)).collect();
-    let doubts = entry::about(&device.doubts, SubjectKind::Codes, &table.name, manual);
+    let doubts = entry::doubts(&table.doubts, &table.name, manual);
     let title = table.name.to_string();
     Codes { position: 0, is_continued: false, anchor, title, facts, doubts, relations: Vec::new(), columns, rows }
 }

@@ -11,7 +11,7 @@ use lexibus_codegen::backend::rust::Calls;
 use lexibus_codegen::facts::number::ALLOWED_SHOWN;
 use lexibus_codegen::facts::words::{capital, row_of, sentence};
 use lexibus_codegen::facts::{address, item, types};
-use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Subject, SubjectKind, Type, TypeDef};
+use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Type, TypeDef};
 
 /// The row of an item in a table.
 #[derive(Debug)]
@@ -64,11 +64,11 @@ pub(super) struct Row {
 /// An ambiguity in the source.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Doubt {
-    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty if the affected element has its own list of
-    /// ambiguities.
+    /// Subject of the ambiguity, such as `HomingMethod, 33`; empty for the device, and for objects, items, PDOs and messages.
     pub subject: String,
-    /// Subject that is shown before the text of the ambiguity. It does not contain the name of the element under which
-    /// the ambiguity is shown.
+    /// Row, bit, value or command of the subject; empty for the whole subject.
+    pub part: String,
+    /// Text that is shown before the ambiguity: the part if the page shows the name of the subject, otherwise the subject.
     pub prefix: String,
     pub severity: Severity,
     pub says: String,
@@ -129,8 +129,6 @@ impl Row {
 #[derive(Clone, Copy)]
 pub(super) struct Known<'d> {
     pub manual: &'d Manual,
-    /// Ambiguities of the device.
-    pub doubts: &'d [lexibus_codegen::ir::Doubt],
     /// The Modbus tables with the requests that they accept.
     pub modbus: &'d [ModbusTable],
     /// Lines of Rust code that read and write each item.
@@ -138,17 +136,6 @@ pub(super) struct Known<'d> {
     pub diagnostics: &'d ShownDiagnostics,
     /// PROFINET record that contains the items. Used only for items in a PROFINET record.
     pub record: OfRecord<'d>,
-}
-
-/// Returns the ambiguities in `all` that are about the element with this kind and name.
-pub(super) fn about(all: &[lexibus_codegen::ir::Doubt], kind: SubjectKind, name: &str, manual: &Manual) -> Vec<Doubt> {
-    let mut shown = doubts(all.iter().filter(|doubt| doubt.is_about(kind, name)), manual);
-    for doubt in &mut shown {
-        if let Some(rest) = doubt.prefix.strip_prefix(name) {
-            doubt.prefix = rest.trim_start_matches([',', ' ']).to_owned();
-        }
-    }
-    shown
 }
 
 /// Data that the rows of a page share.
@@ -204,9 +191,9 @@ impl Rows<'_> {
             translations: words::translations(&item.name, &names, item.documentation.as_deref()),
             names,
             elsewhere,
-            doubts: doubts(&item.doubts, self.known.manual),
+            doubts: doubts(&item.doubts, "", self.known.manual),
             doubts_of_type: definition
-                .map(|definition| about(self.known.doubts, SubjectKind::Type, &definition.name, self.known.manual))
+                .map(|definition| doubts(&definition.doubts, &definition.name, self.known.manual))
                 .unwrap_or_default(),
             diagnostics: self.known.diagnostics.of_item(item),
             relations: Vec::new(),
@@ -252,30 +239,34 @@ impl Rows<'_> {
     }
 }
 
-/// Returns the subject of an ambiguity, such as `HomingMethod, 33`.
-fn subject(subject: &Subject) -> String {
-    match subject.element.as_str() {
-        "" => subject.name.to_string(),
-        element => format!("{}, {element}", subject.name),
-    }
+/// Converts the ambiguities of an element for display on a page. `name` is the name of the element that the page shows; empty for
+/// the device, and for objects, items, PDOs and messages.
+pub(super) fn doubts(list: &[lexibus_codegen::ir::Doubt], name: &str, manual: &Manual) -> Vec<Doubt> {
+    let mut ready = doubts_with_subjects(list.iter().map(|doubt| (name, doubt)), manual);
+    ready.iter_mut().for_each(|doubt| doubt.prefix.clone_from(&doubt.part));
+    ready
 }
 
-/// Converts ambiguities for display on a page.
-pub(super) fn doubts<'d>(
-    doubts: impl IntoIterator<Item = &'d lexibus_codegen::ir::Doubt>,
+/// Converts ambiguities, each with the name of its element, for display on a page that does not show the elements.
+pub(super) fn doubts_with_subjects<'d>(
+    list: impl Iterator<Item = (&'d str, &'d lexibus_codegen::ir::Doubt)>,
     manual: &Manual,
 ) -> Vec<Doubt> {
-    let subject = |doubt: &lexibus_codegen::ir::Doubt| doubt.subject.as_deref().map(subject).unwrap_or_default();
-    let doubt = |doubt: &lexibus_codegen::ir::Doubt| Doubt {
-        subject: subject(doubt),
-        prefix: subject(doubt),
-        says: sentence(&doubt.says),
-        chosen: sentence(&doubt.chosen),
-        why: if doubt.why.is_empty() { String::new() } else { sentence(&doubt.why) },
-        cite: doubt.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite)).unwrap_or_default(),
-        severity: doubt.severity,
+    let doubt = |(name, doubt): (&str, &lexibus_codegen::ir::Doubt)| {
+        let names = [name, &doubt.part].into_iter().filter(|name| !name.is_empty());
+        let subject = names.collect::<Vec<_>>().join(", ");
+        Doubt {
+            prefix: subject.clone(),
+            subject,
+            part: doubt.part.to_string(),
+            says: sentence(&doubt.says),
+            chosen: sentence(&doubt.chosen),
+            why: if doubt.why.is_empty() { String::new() } else { sentence(&doubt.why) },
+            cite: doubt.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite)).unwrap_or_default(),
+            severity: doubt.severity,
+        }
     };
-    let mut ready: Vec<Doubt> = doubts.into_iter().map(doubt).collect();
+    let mut ready: Vec<Doubt> = list.map(doubt).collect();
     ready.sort_by_key(|doubt| doubt.severity);
     ready
 }

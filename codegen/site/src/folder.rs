@@ -242,7 +242,6 @@ impl<'a> Folder<'a> {
         let usage = rust::usage(device);
         let known = Known {
             manual,
-            doubts: &device.doubts,
             modbus: &device.modbus,
             calls: &usage.calls,
             diagnostics: self.diagnostics,
@@ -258,11 +257,7 @@ impl<'a> Folder<'a> {
             pages.extend(file.clone().map(|file| (file, title.to_owned())));
             file
         };
-        let frames = process::frames(
-            &device.process_data,
-            &device.types,
-            About { buses: pdo::buses(device), manual, doubts: &device.doubts },
-        );
+        let frames = process::frames(&device.process_data, &device.types, About { buses: pdo::buses(device), manual });
         let protocol = protocol::protocol(device, manual);
         let behavior = machines::behavior(device, manual);
         let tables = split::pages(codes::tables(device, manual));

@@ -9,9 +9,7 @@ use super::link::Link;
 use super::words::{self, readable, PLAIN};
 use lexibus_codegen::facts::machine::{fault_states, is_energized};
 use lexibus_codegen::facts::{pattern, types};
-use lexibus_codegen::ir::{
-    Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, Step, SubjectKind, Transition,
-};
+use lexibus_codegen::ir::{Device, ItemRef, Manual, Outcome, Pattern, Procedure, StateMachine, Step, Transition};
 
 /// Text in place of the command, for transitions that need no command.
 const AUTOMATIC: &str = "automatic";
@@ -107,7 +105,7 @@ pub(super) fn behavior(device: &Device, manual: &Manual) -> Option<Behavior> {
     let mut names = Names::default();
     let machines: Vec<_> = device.machines.iter().map(|each| machine(each, device, manual, &mut names)).collect();
     let procedures = device.procedures.iter();
-    let sequences: Vec<_> = procedures.map(|procedure| sequence(procedure, device, manual, &mut names)).collect();
+    let sequences: Vec<_> = procedures.map(|procedure| sequence(procedure, manual, &mut names)).collect();
     (!machines.is_empty() || !sequences.is_empty()).then_some(Behavior { machines, sequences })
 }
 
@@ -149,7 +147,7 @@ fn machine(machine: &StateMachine, device: &Device, manual: &Manual, names: &mut
         title: machine.name.to_string(),
         facts,
         items: Vec::new(),
-        doubts: entry::about(&device.doubts, SubjectKind::Machine, &machine.name, manual),
+        doubts: entry::doubts(&machine.doubts, &machine.name, manual),
         diagram: diagram::diagram(machine, &patterns),
         initial: machine.initial.as_ref().map(|state| readable(state)),
         states,
@@ -218,14 +216,14 @@ fn outcome(outcome: &Outcome) -> String {
     }
 }
 
-fn sequence(procedure: &Procedure, device: &Device, manual: &Manual, names: &mut Names) -> Sequence {
+fn sequence(procedure: &Procedure, manual: &Manual, names: &mut Names) -> Sequence {
     let mut facts = PLAIN.description(procedure.documentation.as_deref());
     if !procedure.arguments.is_empty() {
         let arguments: Vec<&str> = procedure.arguments.iter().map(|argument| argument.as_str()).collect();
         facts.push(format!("Given: {}.", arguments.join(", ")));
     }
     facts.extend(PLAIN.manual_entry(manual, "", procedure.documentation.as_deref(), &procedure.names));
-    let doubts = entry::about(&device.doubts, SubjectKind::Procedure, &procedure.name, manual);
+    let doubts = entry::doubts(&procedure.doubts, &procedure.name, manual);
     let step = |step: &Step| SequenceStep { text: PLAIN.step(step), item: None };
     Sequence {
         anchor: names.anchor(&procedure.name),

@@ -164,7 +164,7 @@ fn sections<'g>(groups: impl Iterator<Item = &'g Group>, items: Items<'_>, ancho
     let Items { types, calls, submodule, default_bytes, diagnostics } = items;
     let calls = calls.unwrap_or(&none);
     let record = OfRecord { submodule, length: 0, default_bytes: &[] };
-    let known = Known { manual: &manual, doubts: &[], modbus: &[], calls, diagnostics, record };
+    let known = Known { manual: &manual, modbus: &[], calls, diagnostics, record };
     let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
     let section = |(position, group): (u32, &Group)| {
         rows.known.record = OfRecord {
@@ -197,7 +197,7 @@ fn module(module: &Module, anchor: String, parts: Vec<(String, String)>, items: 
         frames: process::frames(
             &module.process_data,
             &module.types,
-            About { buses: ObjectBuses::COE, manual: &Manual::default(), doubts: &[] },
+            About { buses: ObjectBuses::COE, manual: &Manual::default() },
         ),
         sections: sections(module.fixed_objects.iter().chain(&module.groups), items, &anchor),
         parts,

@@ -67,16 +67,20 @@ pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> O
         identity,
         access_point: profinet::access_point(catalog, device),
         models: models.collect(),
-        doubts: entry::doubts(doubts(device), manual),
+        doubts: entry::doubts_with_subjects(doubts(catalog, device), manual),
     }
 }
 
-/// Returns the ambiguities that the first page shows: those in the device's own list, those of machine constants, and
+/// Returns the ambiguities that the first page shows: those of the device and its definitions, those of machine constants, and
 /// those of chapters and process images without items.
-fn doubts(device: &Device) -> impl Iterator<Item = &lexibus_codegen::ir::Doubt> {
+fn doubts<'d>(
+    catalog: &'d Catalog,
+    device: &'d Device,
+) -> impl Iterator<Item = (&'d str, &'d lexibus_codegen::ir::Doubt)> {
     let given = device.given.iter().flat_map(|given| &given.doubts);
     let empty = device.groups.iter().filter(|group| group.index().is_none() && group.items.is_empty());
-    device.doubts.iter().chain(given).chain(empty.flat_map(|group| &group.doubts))
+    let others = given.chain(empty.flat_map(|group| &group.doubts));
+    lexibus_codegen::facts::doubts::of_device(catalog, device).into_iter().chain(others.map(|doubt| ("", doubt)))
 }
 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {

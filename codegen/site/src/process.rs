@@ -9,8 +9,7 @@ use lexibus_codegen::facts::cob_id::{self, CobId};
 use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
-    Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SubjectKind,
-    TypeDef, Value,
+    Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, TypeDef, Value,
 };
 
 /// The process data of a device.
@@ -76,8 +75,6 @@ pub(super) struct About<'d> {
     /// Buses on which the objects of the device or module exist.
     pub buses: ObjectBuses,
     pub manual: &'d Manual,
-    /// Ambiguities of the device.
-    pub doubts: &'d [lexibus_codegen::ir::Doubt],
 }
 
 /// Returns all cyclic data of a device or module.
@@ -94,7 +91,7 @@ pub(super) fn frames(data: &ProcessData, types: &[TypeDef], about: About<'_>) ->
         }
     });
     let images = data.images.iter().map(|each| Frame {
-        doubts: super::entry::about(about.doubts, SubjectKind::Image, &each.name, about.manual),
+        doubts: super::entry::doubts(&each.doubts, &each.name, about.manual),
         ..image(each, types, &format!("image-{}", each.name), "")
     });
     let mut names = Names::default();
@@ -143,7 +140,7 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         anchor: index,
         title: pdo::title(pdo, about.buses) + &name,
         facts,
-        doubts: super::entry::doubts(&pdo.doubts, about.manual),
+        doubts: super::entry::doubts(&pdo.doubts, "", about.manual),
         ..drawn(&pdo.entries, pdo.bits(), types)
     }
 }

@@ -135,7 +135,7 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
         name: message.name.to_string(),
         names: words::names(&message.name, &message.names),
         facts,
-        doubts: entry::doubts(&parts.doubts, manual),
+        doubts: entry::doubts(&parts.doubts, "", manual),
         request,
         reply: parts.all,
         examples: message

@@ -190,10 +190,8 @@ fn is_capitalized(word: &str) -> bool {
 mod tests {
     use super::*;
     use crate::ir::{
-        Binding, BitMeaning, Buses, Condition, Group, Item, Message, ObjectCode, Pattern, SharedList, StateMachine,
-        Type, TypeDef, TypeId,
+        Binding, BitMeaning, Condition, Group, Item, Message, ObjectCode, Pattern, StateMachine, Type, TypeDef, TypeId,
     };
-    use crate::source::Origin;
     use compact_str::CompactString;
 
     #[test]
@@ -203,15 +201,7 @@ mod tests {
         let text = "Number of the alarm. The code table \"alarms\" lists the numbers".into();
         group.items[0].documentation = Some(Box::new(Documentation { text, ..Documentation::default() }));
         let mut device = Device { groups: vec![group], ..Device::default() };
-        let table = |name: &str| CodeTable {
-            name: name.into(),
-            columns: Vec::new(),
-            rows: SharedList::default(),
-            buses: Buses::NONE,
-            documentation: None,
-            stated_by: None,
-            origin: Origin::default(),
-        };
+        let table = |name: &str| CodeTable { name: name.into(), ..CodeTable::default() };
         device.code_tables.extend([table("alarms"), table("numbers")]);
         let mentions = Mentions::new(&device);
         assert_eq!(mentions.of_table(&table("alarms")), [Mention::Item(ItemId { group: 0, item: 0 })]);
@@ -272,15 +262,8 @@ mod tests {
             name: "motor".into(),
             status_item: "digital_inputs".into(),
             control_item: "digital_inputs".into(),
-            state_type: None,
             states,
-            initial: None,
-            commands: SharedList::default(),
-            transitions: SharedList::default(),
-            outcomes: Vec::new(),
-            faults: Vec::new(),
-            documentation: None,
-            stated_by: None,
+            ..StateMachine::default()
         });
         let mentions = Mentions::new(&device);
         let item = |group| Mention::Item(ItemId { group, item: 0 });

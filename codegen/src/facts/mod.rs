@@ -8,6 +8,7 @@
 //! | `code` | codes as their source prints them |
 //! | `configuration` | configured values in the order in which a device accepts them |
 //! | `device` | titles of devices, and modules that slots accept |
+//! | `doubts` | ambiguities of a device and of its definitions |
 //! | `encoding` | values as the bytes of an SDO transfer |
 //! | `item` | default value, range, unit and PDO mapping of an item |
 //! | `machine` | fault states and energized states of state machines |
@@ -28,6 +29,7 @@ pub mod cob_id;
 pub mod code;
 pub mod configuration;
 pub mod device;
+pub mod doubts;
 pub mod encoding;
 pub mod item;
 pub mod machine;

@@ -465,9 +465,8 @@ impl Words<'_> {
         let citation = doubt.cite.as_deref().map(|cite| format!(" {}.", self.citation(manual, "", cite)));
         let hazard = if doubt.severity == Severity::Hazard { "Hazard" } else { "Note" };
         let citation = citation.unwrap_or_default();
-        let element = doubt.subject.as_deref().map(|subject| subject.element.as_str()).unwrap_or_default();
-        let element = if element.is_empty() { String::new() } else { format!(" for {}", self.escaped(element)) };
-        format!("{hazard}{element}: {}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
+        let part_of = if doubt.part.is_empty() { String::new() } else { format!(" for {}", self.escaped(&doubt.part)) };
+        format!("{hazard}{part_of}: {}. Assumed: {}{why}.{citation}", part(&doubt.says), part(&doubt.chosen))
     }
 
     /// Returns a citation: `Manual: PARAMETRI MOVIMENTO, Rvel (page 12)`, or `Manual, line 2178` if the sections of the manual are

@@ -101,7 +101,7 @@ pub type Extensions = ThinVec<Extension>;
 pub type Doubts = ThinVec<Doubt>;
 
 /// An ambiguity in the source, with the assumption that was made.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Doubt {
     /// The contradictory statements of the source, or the fact that the source lacks.
@@ -117,51 +117,9 @@ pub struct Doubt {
     /// Consequence of a wrong assumption.
     #[cfg_attr(feature = "serde", serde(default))]
     pub severity: Severity,
-    /// Element that the ambiguity is about, if that element has no list of ambiguities.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub subject: Option<Box<Subject>>,
-}
-
-/// The element that an ambiguity is about.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Subject {
-    /// Kind of the element.
-    pub kind: SubjectKind,
-    /// Name of the element.
-    pub name: CompactString,
-    /// Row, bit, value or code in the element; empty for the whole element.
-    pub element: CompactString,
-}
-
-/// The kind of element that an ambiguity is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum SubjectKind {
-    /// A type definition: a bit field or an enumeration.
-    Type,
-    /// A code table.
-    Codes,
-    /// A state machine, or one of its commands or outcomes.
-    Machine,
-    /// A procedure.
-    Procedure,
-    /// A process image.
-    Image,
-    /// A number that is split over several items.
-    Composite,
-    /// A model of the family.
-    Model,
-    /// An option of a register table, for which the user chooses a value.
-    Option,
-}
-
-impl Doubt {
-    /// Returns whether the ambiguity is about the element of this kind and name.
-    pub fn is_about(&self, kind: SubjectKind, name: &str) -> bool {
-        self.subject.as_ref().is_some_and(|subject| subject.kind == kind && subject.name == name)
-    }
+    /// Row, bit, value, command or option that the ambiguity is about; empty for the whole element.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub part: CompactString,
 }
 
 /// The consequence of a wrong assumption. The variants are sorted from the most serious to the mildest consequence.

@@ -1,6 +1,6 @@
 //! Numbers that are split over several items.
 
-use super::{CompactString, Documentation, ItemRef, Texts};
+use super::{CompactString, Documentation, Doubts, ItemRef, Texts};
 use crate::source::Origin;
 
 /// A number whose digits, and optionally its sign, are in several items.
@@ -22,6 +22,9 @@ pub struct Composite {
     pub unit: CompactString,
     /// Description of the number from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Ambiguities in the source about the number, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
     /// Location of the number in the source.
     pub origin: Origin,
 }

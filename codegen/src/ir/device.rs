@@ -81,7 +81,7 @@ pub struct Device {
     /// Manual that the description was transcribed from.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub manual: Option<Box<super::Manual>>,
-    /// Ambiguities in the source about the device, with the assumptions made.
+    /// Ambiguities in the source about the device as a whole or the options of its register table, with the assumptions made.
     pub doubts: Doubts,
     /// Facts about the device that have no field in the IR.
     pub extensions: Extensions,
@@ -331,6 +331,9 @@ pub struct Variant {
     pub constants: Vec<(CompactString, Value)>,
     /// Description of the variant from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Ambiguities in the source about the variant, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
     /// Location of the variant in the source.
     pub origin: Origin,
 }

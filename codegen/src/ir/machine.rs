@@ -1,13 +1,13 @@
 //! State machines and procedures.
 
 use super::{
-    Availability, CommandRef, CompactString, Direction, Documentation, FactOrigin, ItemRef, MessageRef, SharedList,
-    StateRef, Texts, TypeRef, Value,
+    Availability, CommandRef, CompactString, Direction, Documentation, Doubts, FactOrigin, ItemRef, MessageRef,
+    SharedList, StateRef, Texts, TypeRef, Value,
 };
 use crate::source::{Origin, Span};
 
 /// A state machine of a device.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateMachine {
     /// Name of the state machine.
@@ -38,6 +38,9 @@ pub struct StateMachine {
     pub outcomes: Vec<CommandOutcomes>,
     /// Description of the state machine from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Ambiguities in the source about the state machine and its commands, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
     /// Origin of the state machine; `None` = the description itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stated_by: Option<Box<FactOrigin>>,
@@ -120,7 +123,7 @@ pub struct Transition {
 }
 
 /// A procedure: a sequence of steps.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Procedure {
     /// Name of the procedure.
@@ -135,6 +138,9 @@ pub struct Procedure {
     pub step_spans: Vec<Span>,
     /// Description of the procedure from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Ambiguities in the source about the procedure, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
     /// Location of the procedure in the source.
     pub origin: Origin,
 }

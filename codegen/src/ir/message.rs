@@ -267,7 +267,7 @@ pub struct Framing {
 }
 
 /// A table of codes with their meanings: alarms, emergency codes, abort codes, channel diagnosis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeTable {
     /// Name of the code table.
@@ -282,6 +282,9 @@ pub struct CodeTable {
     /// Description of the code table.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub documentation: Option<Box<Documentation>>,
+    /// Ambiguities in the source about the code table and its rows, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
     /// Origin of the code table; `None` = the description itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stated_by: Option<Box<FactOrigin>>,

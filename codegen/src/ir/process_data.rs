@@ -398,4 +398,7 @@ pub struct ProcessImage {
     pub big_endian: bool,
     /// Fields of the process image. On a bus without an object dictionary, `index` and `sub_index` of the fields are 0.
     pub fields: Vec<PdoEntry>,
+    /// Ambiguities in the source about the process image, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
 }

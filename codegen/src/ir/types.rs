@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Access, Availability, CompactString, Documentation, FactOrigin, ItemRef, Mark, Texts, Value};
+use super::{Access, Availability, CompactString, Documentation, Doubts, FactOrigin, ItemRef, Mark, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: a basic type, or a reference to a [`TypeDef`] of the item's device, module or catalog.
@@ -222,6 +222,9 @@ pub struct TypeDef {
     pub bits: Option<u32>,
     /// Description of the type from the source.
     pub documentation: Option<Box<Documentation>>,
+    /// Ambiguities in the source about the type and its bits or values, with the assumptions made.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
+    pub doubts: Doubts,
     /// Origin of the definition; `None` = the description itself.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stated_by: Option<Box<FactOrigin>>,
@@ -233,7 +236,8 @@ impl TypeDef {
     /// Creates a definition without a number, a description or an origin.
     pub fn new(name: impl Into<CompactString>, shape: Shape, bits: Option<u32>) -> Self {
         let name = name.into();
-        TypeDef { name, code: None, shape, bits, documentation: None, stated_by: None, origin: Origin::default() }
+        let (doubts, origin) = Default::default();
+        TypeDef { name, code: None, shape, bits, documentation: None, doubts, stated_by: None, origin }
     }
 }
 

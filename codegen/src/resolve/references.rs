@@ -281,9 +281,9 @@ mod tests {
     use super::super::{mentions::target, removal};
     use super::*;
     use crate::ir::{
-        CommandOutcomes, Conversion, Direction, EtherCatSettings, Family, GivenNumber, GroupKind, ImageBinding, Item,
-        MachineUnit, Message, ObjectCode, ParameterSpace, Pattern, ProcessImage, Quantity, RelatedItems, StateOutcome,
-        Value, Variant,
+        CommandOutcomes, Conversion, Direction, Doubts, EtherCatSettings, Family, GivenNumber, GroupKind, ImageBinding,
+        Item, MachineUnit, Message, ObjectCode, ParameterSpace, Pattern, ProcessImage, Quantity, RelatedItems,
+        StateOutcome, Value, Variant,
     };
 
     fn item(name: &str, index: u16) -> Item {
@@ -314,17 +314,12 @@ mod tests {
         };
         let mut machine = StateMachine {
             name: "Drive".into(),
-            status_item: Default::default(),
-            control_item: Default::default(),
-            state_type: None,
             states: vec![pattern("off"), pattern("on")].into(),
             initial: Some("off".into()),
             faults: vec!["on".into(), "lost".into()],
             commands: vec![pattern("stop")].into(),
             transitions: vec![transition("off", "on", "Start"), transition("on", "off", "stop")].into(),
-            outcomes: Vec::new(),
-            documentation: None,
-            stated_by: None,
+            ..StateMachine::default()
         };
         machine.outcomes.push(CommandOutcomes {
             commands: vec!["Start".into(), "stop".into()],
@@ -396,8 +391,9 @@ mod tests {
     }
 
     fn process_image(name: &str) -> ProcessImage {
-        let (length, overhead, fields) = (8, 0, Vec::new());
-        ProcessImage { name: name.into(), direction: Direction::Receive, length, overhead, big_endian: true, fields }
+        let (length, overhead, fields, doubts) = (8, 0, Vec::new(), Doubts::new());
+        let name = name.into();
+        ProcessImage { name, direction: Direction::Receive, length, overhead, big_endian: true, fields, doubts }
     }
 
     #[test]
@@ -427,15 +423,8 @@ mod tests {
         };
         device.groups[0].items[0].related = Some(Box::new(related));
         let steps = ["Speed", "0x2001", "Limit"].map(|name| Step::Write(name.into(), Value::Int(1)));
-        let procedure = crate::ir::Procedure {
-            name: "Start".into(),
-            names: Default::default(),
-            arguments: Vec::new(),
-            steps: steps.into(),
-            step_spans: Vec::new(),
-            documentation: None,
-            origin: Default::default(),
-        };
+        let procedure =
+            crate::ir::Procedure { name: "Start".into(), steps: steps.into(), ..crate::ir::Procedure::default() };
         device.procedures.push(procedure);
         assert!(super::device(&mut device));
         let ids: Vec<_> = device.procedures[0].steps.iter_mut().filter_map(|step| target(step)?.id).collect();

@@ -8,7 +8,7 @@ use crate::manual_text;
 use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
-use lexibus_codegen::ir::{Binding, Device, EnumValue, Group, GroupKind, Item, Message, Shape};
+use lexibus_codegen::ir::{Binding, Catalog, Device, EnumValue, Group, GroupKind, Item, Message, Shape};
 use lexibus_codegen::source::Source;
 
 pub fn table() -> Compilation {
@@ -108,9 +108,11 @@ pub fn number(cell: &str) -> Option<i128> {
     }
 }
 
-/// Returns the texts of the `doubt` entries of the device and its groups, items and messages.
+/// Returns the texts of the `doubt` entries of the device and its definitions, groups, items and messages.
 pub fn doubts(device: &Device) -> Vec<String> {
-    let mut all: Vec<&lexibus_codegen::ir::Doubt> = device.doubts.iter().collect();
+    let without_modules = Catalog::default();
+    let of_device = lexibus_codegen::facts::doubts::of_device(&without_modules, device);
+    let mut all: Vec<&lexibus_codegen::ir::Doubt> = of_device.into_iter().map(|(_, doubt)| doubt).collect();
     let items = device.groups.iter().flat_map(|group| &group.items);
     all.extend(items.flat_map(|item| &item.doubts));
     all.extend(device.groups.iter().flat_map(|group| &group.doubts));

@@ -1,6 +1,7 @@
 //! Tests overlays: which facts they change or keep, and which errors they cause.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Access, Device, Fact, FactOrigin, Item, OverlayOrigin, Shape, Type, Value};
 use lexibus_codegen::limits;
 use lexibus_codegen::source::Source;
@@ -162,18 +163,20 @@ fn objects_are_added_and_removed() {
 #[test]
 fn tables_of_the_device_are_added_or_replaced() {
     let text = rows("0x2000 = { unit = \"rpm\" }\n")
-        + "[codes.alarm.rows]\n1 = \"hot\"\n\
-           [machines.pump]\nstatus = \"0x2002\"\ncontrol = \"Mode\"\n[machines.pump.states]\noff = { mask = 1, value = 0 }\n\
+        + "[codes.alarm.rows]\n1 = { name = \"hot\", doubt = { says = \"d\", chose = \"e\", why = \"f\" } }\n\
+           [machines.pump]\ndoubt = { says = \"g\", chose = \"h\", why = \"i\" }\nstatus = \"0x2002\"\ncontrol = \"Mode\"\n[machines.pump.states]\noff = { mask = 1, value = 0 }\n\
            [procedures.start]\nsteps = [{ write = \"Mode\", value = 1 }]\n\
            [[doubts]]\nsays = \"a\"\nchose = \"b\"\nwhy = \"c\"\n";
     let compilation = apply(&text);
     assert_eq!(findings(&compilation), []);
     let device = device(&compilation);
     assert_eq!((device.code_tables.len(), device.procedures.len(), device.doubts.len()), (1, 1, 1));
+    assert_eq!((device.code_tables[0].doubts.len(), device.machines[0].doubts.len()), (1, 1));
     assert_eq!(device.machines[0].status_item, "Flags", "an object refers to its item");
     // A second overlay with the same names replaces the rows and machines of the first.
     let first = Source::new("a.toml", text.as_bytes().to_vec());
-    let more = "lexibus = 1\n[overlay]\n[codes.alarm.rows]\n1 = \"too hot\"\n2 = \"cold\"\n[machines.pump]\nstatus = \"Flags\"\n";
+    let more = "lexibus = 1\n[overlay]\n[codes.alarm.rows]\n1 = \"too hot\"\n\
+                2 = { name = \"cold\", doubt = { says = \"j\", chose = \"k\", why = \"l\" } }\n[machines.pump]\nstatus = \"Flags\"\n";
     let second = Source::new("b.toml", more.as_bytes().to_vec());
     let options = Options { overlays: vec![first, second], no_profiles: true, ..Options::default() };
     let compilation = check(Source::new("pump.eds", EDS.into()), &options);
@@ -186,6 +189,8 @@ fn tables_of_the_device_are_added_or_replaced() {
         other => panic!("{other:?}"),
     };
     let table = &device.code_tables[0];
+    let parts: Vec<&str> = table.doubts.iter().map(|doubt| doubt.part.as_str()).collect();
+    assert_eq!((parts, device.machines[0].doubts.len()), (vec!["1", "2"], 0), "a machine is replaced with its doubts");
     assert_eq!(origin(&table.stated_by), ("a.toml".to_owned(), false));
     let rows: Vec<_> = table.rows.iter().map(|row| origin(&row.stated_by)).collect();
     assert_eq!(rows, [("b.toml".to_owned(), true), ("b.toml".to_owned(), false)]);
@@ -314,9 +319,11 @@ fn names_within_a_module_are_those_of_its_items() {
     let doubt = "doubt = { says = \"V and mV\", chose = \"V\", why = \"the scale\" }";
     let actual = applied(&format!("0x2000 = {{ enum = \"E\" }}\n[enums.E]\n{doubt}\nvalues = {{ 0 = \"off\" }}\n"));
     assert_eq!(findings(&actual), []);
-    let devices = &actual.catalog.as_ref().expect("a catalog").devices;
-    let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
-    assert_eq!(doubts, [0, 1], "the device that accepts the module has its doubts");
+    let catalog = actual.catalog.as_ref().expect("a catalog");
+    let doubts = catalog.devices.iter().map(|device| doubts::of_device(catalog, device).len());
+    assert_eq!(doubts.collect::<Vec<_>>(), [0, 1], "the device that accepts the module lists the doubts of its types");
+    let rust = actual.rust(&Options::default().rust).expect("bindings");
+    assert!(rust.contains("Note: V and mV. Assumed: V (the scale)."), "the type of the module shows its doubts");
 }
 
 #[test]

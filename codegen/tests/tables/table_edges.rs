@@ -1,7 +1,8 @@
 //! Tests register tables with numbers and ranges that are at or beyond their limits.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::ir::{Binding, Item, Scale, Shape, Value};
+use lexibus_codegen::facts::doubts;
+use lexibus_codegen::ir::{Binding, Item, Scale, Shape, TypeDef, Value};
 use lexibus_codegen::source::Source;
 
 /// Compiles a table that contains `head`, followed by `chapters`.
@@ -39,6 +40,39 @@ fn the_ends_of_a_list_are_its_least_and_its_greatest() {
     let compilation = read(SPACE, row);
     let limits = &items(&compilation)[0].variants[0].limits;
     assert_eq!((&limits.low, &limits.high), (&Some(Value::Real(1.0)), &Some(Value::Real(5.0))));
+}
+
+/// Checks that each element has its ambiguities, and that the list of the device contains those of a definition with two types
+/// once, in the order of the file.
+#[test]
+fn ambiguities_of_definitions() {
+    let doubt = |says: &str| format!("doubt = {{ says = \"{says}\", chose = \"x\", why = \"y\" }}");
+    let [option, bits, bit, value] = ["option", "bits", "bit", "value"].map(doubt);
+    let head = format!(
+        "{SPACE}[bits.B]\nbase = \"u16\"\n{bits}\n[bits.B.at]\n\"3-0\" = {{ name = \"x{{n}}\", {bit} }}\n\
+         8 = {{ name = \"mode\", values = {{ 1 = {{ name = \"on\", {value} }} }} }}\n\
+         [options.site]\nchoices = {{ a = 1, b = 2 }}\ndefault = \"a\"\n{option}\n"
+    );
+    let rows = "[chapters.registers]\na = { reg = 0, bits = \"B\", access = \"ro\" }\n\
+                b = { reg = 1, type = \"u32\", bits = \"B\", access = \"ro\" }\n";
+    let compilation = read(&head, rows);
+    let catalog = compilation.catalog.as_ref().expect("a catalog");
+    let device = &catalog.devices[0];
+    let of_type = |definition: &TypeDef| -> Vec<String> {
+        definition.doubts.iter().map(|doubt| format!("{}: {} {}", definition.name, doubt.part, doubt.says)).collect()
+    };
+    let of_types: Vec<Vec<String>> = device.types.iter().map(of_type).collect();
+    let expected = [
+        vec!["B mode: 1 value"],
+        vec!["B:  bits", "B: 3-0 bit"],
+        vec!["BU32 mode: 1 value"],
+        vec!["BU32:  bits", "BU32: 3-0 bit"],
+    ];
+    assert_eq!(of_types, expected);
+    let listed = doubts::of_device(catalog, device);
+    let listed: Vec<_> = listed.iter().map(|(name, doubt)| (*name, doubt.part.as_str(), doubt.says.as_str())).collect();
+    let expected = [("B", "", "bits"), ("B", "3-0", "bit"), ("B mode", "1", "value"), ("", "site", "option")];
+    assert_eq!(listed, expected);
 }
 
 #[test]

@@ -36,6 +36,7 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         commands: commands.into(),
         transitions: transitions.into(),
         documentation: names::documentation(b),
+        doubts: names::doubts(b),
         stated_by: names::stated_by(b),
     }
 }
@@ -90,6 +91,7 @@ pub fn procedure(b: &mut Bytes<'_>, items: &[CompactString], messages: &[Compact
         step_spans: Vec::new(),
         steps,
         documentation: names::documentation(b),
+        doubts: names::doubts(b),
         origin: Origin::default(),
     }
 }
@@ -118,6 +120,7 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
         rows: rows.into(),
         buses,
         documentation: names::documentation(b),
+        doubts: names::doubts(b),
         stated_by: names::stated_by(b),
         origin: Origin::default(),
     }
@@ -143,6 +146,7 @@ pub fn composite(b: &mut Bytes<'_>, items: &[CompactString]) -> Composite {
         sign: b.maybe(3, |b| (names::of(b, items).into(), b.any())),
         unit: names::unit(b),
         documentation: names::documentation(b),
+        doubts: names::doubts(b),
         origin: Origin::default(),
     }
 }
@@ -152,6 +156,7 @@ pub fn variant(b: &mut Bytes<'_>) -> Variant {
         name: names::model(b),
         constants: b.list(3, |b| (names::name(b), values::any(b))),
         documentation: names::documentation(b),
+        doubts: names::doubts(b),
         identity: identity(b),
         origin: Origin::default(),
     }

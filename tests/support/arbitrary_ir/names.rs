@@ -2,7 +2,7 @@
 
 use lexibus_codegen::ir::{
     Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
-    FactOrigins, LocalText, Manual, ManualSection, OverlayOrigin, Rule, Severity, Subject, SubjectKind, Texts,
+    FactOrigins, LocalText, Manual, ManualSection, OverlayOrigin, Rule, Severity, Texts,
 };
 use lexibus_codegen::source::Origin;
 
@@ -290,12 +290,9 @@ pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
 pub fn doubts(b: &mut Bytes<'_>) -> Doubts {
     b.few(12, 2, |b| {
         let [says, chosen, why] = [text(b), text(b), text(b)].map(String::from);
-        let subject = b.maybe(6, |b| {
-            let kind = b.pick(&[SubjectKind::Type, SubjectKind::Codes, SubjectKind::Machine, SubjectKind::Image]);
-            Box::new(Subject { kind, name: text(b), element: text(b) })
-        });
+        let part = b.maybe(6, text).unwrap_or_default();
         let severity = b.pick(&[Severity::Hazard, Severity::Value, Severity::Print]);
-        Doubt { says, chosen, why, origin: Origin::default(), cite: b.maybe(2, text), severity, subject }
+        Doubt { says, chosen, why, origin: Origin::default(), cite: b.maybe(2, text), severity, part }
     })
     .into()
 }

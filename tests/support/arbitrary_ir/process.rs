@@ -165,5 +165,6 @@ pub fn image(b: &mut Bytes<'_>, name: CompactString, types: &[TypeDef], least: u
         overhead: b.pick(&[0, 0, 0, 4, 5]),
         big_endian: b.any(),
         fields,
+        doubts: names::doubts(b),
     }
 }

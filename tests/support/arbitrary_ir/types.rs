@@ -79,10 +79,10 @@ pub fn definitions(b: &mut Bytes<'_>, most: usize) -> Vec<TypeDef> {
     let mut types: Vec<TypeDef> = Vec::new();
     for _ in 0..b.within(0..=most) {
         let shape = shape(b, &types);
-        let documentation = names::documentation(b);
+        let (documentation, doubts) = (names::documentation(b), names::doubts(b));
         let (code, bits) = (b.maybe(4, |b| b.within(0x40..=0x60)), b.maybe(4, |b| b.within(1..=64)));
         let (name, stated_by) = (names::name(b), names::stated_by(b));
-        types.push(TypeDef { name, code, shape, bits, documentation, stated_by, origin: Origin::default() });
+        types.push(TypeDef { name, code, shape, bits, documentation, doubts, stated_by, origin: Origin::default() });
     }
     types
 }

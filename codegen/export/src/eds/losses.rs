@@ -5,6 +5,7 @@ use super::note::{self, NoteKind, Notes, Subject};
 use super::registers;
 use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavor};
+use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Behavior, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
 /// Adds notes for facts of the device and its PDOs that CiA 306 cannot express, and for objects and items that are left
@@ -27,7 +28,7 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
     notes.add_many(NoteKind::Axis, axes, subject);
     notes.add_many(NoteKind::Language, device.names.len(), subject);
     notes.add_many(NoteKind::Documentation, device.documentation.is_some(), subject);
-    notes.add_many(NoteKind::Doubt, device.doubts.len(), subject);
+    notes.add_many(NoteKind::Doubt, doubts::of_device(catalog, device).len(), subject);
     notes.add_many(NoteKind::Duplicate, registers::duplicates(device, Item::object), subject);
     settings(device, notes);
     pdos(device, notes);

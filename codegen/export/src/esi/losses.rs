@@ -2,6 +2,7 @@
 
 use super::{diagnosis, extras, Context};
 use crate::note::{self, NoteKind, Subject};
+use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Device, Module};
 
 /// Adds notes for facts of the catalog that ETG.2000 cannot express, except those of devices and modules.
@@ -29,7 +30,7 @@ pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
     notes.add_many(NoteKind::OtherPart, parts, subject);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
     notes.add_many(NoteKind::Axis, axes, subject);
-    notes.add_many(NoteKind::Doubt, device.doubts.len(), subject);
+    notes.add_many(NoteKind::Doubt, doubts::of_device(context.catalog, device).len(), subject);
     notes.add_many(NoteKind::Extension, extras::lost(device), subject);
     for group in device.groups.iter().filter(|group| group.index().is_none()) {
         let others = group.items.iter().filter(|item| item.object().is_none()).count();

@@ -8,6 +8,7 @@ use super::options::TrackedOptions;
 use super::Options;
 use crate::note::{self, NoteKind, Notes, Subject};
 use crate::options::MissingFacts;
+use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
     ProcessImage, ProfinetSettings, Shape, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type,
@@ -29,7 +30,7 @@ pub(super) fn catalog(
 ) -> Option<Catalog> {
     let mut target = Catalog::default();
     for device in source.devices.iter().filter(|device| !device.process_data.images.is_empty()) {
-        losses(device, notes);
+        losses(source, device, notes);
         let position = target.devices.len();
         let mut maker = Maker { options, missing, notes, target: &mut target, position };
         let device = maker.device(device);
@@ -365,13 +366,13 @@ fn bits(
 }
 
 /// Adds notes for facts of the device that its process images do not contain.
-fn losses(device: &Device, notes: &mut Notes) {
+fn losses(catalog: &Catalog, device: &Device, notes: &mut Notes) {
     let subject = Subject::Named(&device.name);
     let others = [device.canopen.is_some(), device.ethercat.is_some()].iter().filter(|is_there| **is_there).count();
     notes.add_many(NoteKind::OtherBus, others + device.modbus.len(), subject);
     let parts = note::parts_of_tables(device) + device.code_tables.len();
     notes.add_many(NoteKind::OtherPart, parts, subject);
-    notes.add_many(NoteKind::Doubt, device.doubts.len(), subject);
+    notes.add_many(NoteKind::Doubt, doubts::of_device(catalog, device).len(), subject);
     notes.add_many(NoteKind::Pdo, device.process_data.pdos.len(), subject);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
     notes.add_many(NoteKind::Axis, axes, subject);

@@ -20,7 +20,7 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
         columns: fact("columns", Judgment::API),
         rows: list(rows(), row),
         buses: only_on,
-        documentation, stated_by,
+        documentation, doubts, stated_by,
     }, POSITION => [origin]);
 }
 

@@ -217,7 +217,7 @@ fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) 
         base: fact("base", Judgment::WIRE),
         sign: fact("sign", Judgment::API_AND_WIRE),
         unit: fact("unit", Judgment::API_AND_BEHAVIOR),
-        documentation,
+        documentation, doubts,
     }, POSITION => [origin]);
 }
 
@@ -226,7 +226,7 @@ fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
         name,
         identity: identity,
         constants: fact_as("constants", Judgment::BEHAVIOR, constants),
-        documentation,
+        documentation, doubts,
     }, POSITION => [origin]);
 }
 

@@ -23,7 +23,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
                 .judged(|_| Judgment::BEHAVIOR_COMPATIBLE, |_| Judgment::BEHAVIOR),
             command_outcomes,
         ),
-        documentation, stated_by,
+        documentation, doubts, stated_by,
     });
 }
 
@@ -101,7 +101,7 @@ pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Compa
         steps: fact_as("steps", Judgment::BEHAVIOR, |steps: &Vec<Step>| {
             steps.iter().map(step).collect::<Vec<_>>().join(" ")
         }),
-        documentation,
+        documentation, doubts,
     }, POSITION => [step_spans, origin]);
 }
 

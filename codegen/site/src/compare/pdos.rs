@@ -289,6 +289,6 @@ pub(super) fn image(old: &ProcessImage, new: &ProcessImage, comparison: &mut Com
         big_endian: fact_as("byte order", Judgment::WIRE, |big_endian| {
             if *big_endian { "big-endian" } else { "little-endian" }.to_owned()
         }),
-        fields: slice(entries),
+        fields: slice(entries), doubts,
     });
 }

@@ -69,13 +69,8 @@ pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>
 }
 
 fn doubt(doubt: &Doubt) -> String {
-    let subject = doubt.subject.as_deref().map(|subject| {
-        let element = if subject.element.is_empty() { String::new() } else { format!(", {}", subject.element) };
-        format!(", {:?} {}{element}", subject.kind, subject.name)
-    });
-    let without_citation = Doubt { cite: None, subject: None, ..doubt.clone() };
-    let text = PLAIN.doubt(&Manual::default(), &without_citation);
-    format!("({}{}) {text}", doubt.severity.name(), subject.unwrap_or_default())
+    let without_citation = Doubt { cite: None, ..doubt.clone() };
+    format!("({}) {}", doubt.severity.name(), PLAIN.doubt(&Manual::default(), &without_citation))
 }
 
 /// Compares extensions: facts of the source for which the intermediate representation has no field.

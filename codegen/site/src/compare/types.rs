@@ -136,7 +136,7 @@ fn definitions(old: &TypeDef, new: &TypeDef, is_same_type: bool, comparison: &mu
                 fact("length of the type in bits", Judgment::WIRE)(old, new, comparison);
             }
         },
-        documentation, stated_by,
+        documentation, doubts, stated_by,
     }, POSITION => [origin]);
 }
 

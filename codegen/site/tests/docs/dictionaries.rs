@@ -22,7 +22,7 @@ fn every_doubt_is_on_the_page_of_assumptions() {
         let manual = catalog.devices[0].manual.as_deref().expect("a manual");
         let fact = |doubt: &Doubt| {
             let cite = doubt.cite.as_ref().map(|cite| PLAIN.citation(manual, "", cite));
-            (doubt.says.clone(), doubt.chosen.clone(), doubt.why.clone(), cite, format!("{:?}", doubt.subject))
+            (doubt.says.clone(), doubt.chosen.clone(), doubt.why.clone(), cite, doubt.part.clone())
         };
         let distinct: HashSet<_> = all.iter().map(fact).collect();
         let rows: Vec<_> = pages.flat_map(|page| page.text.split("<tr><th scope=\"row\">").skip(1)).collect();

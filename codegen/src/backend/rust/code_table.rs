@@ -10,7 +10,7 @@ use super::links::is_derive;
 use super::literal;
 use super::options::RustOptions;
 use crate::facts::words::bus_names;
-use crate::ir::{CodeRow, CodeTable, Device, SubjectKind, Value};
+use crate::ir::{CodeRow, CodeTable, Device, Value};
 use crate::names::{self, Case};
 
 /// A code table, ready to be printed.
@@ -56,7 +56,7 @@ fn model(
     );
     let origin = WORDS.defined_by(table.stated_by.as_deref(), table.documentation.as_deref());
     docs.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
-    docs::doubts_about(context, SubjectKind::Codes, &table.name, &mut docs);
+    docs::doubtful(&table.doubts, manual, &mut docs);
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("These codes occur on {}.", bus_names(table.buses))]);
     }

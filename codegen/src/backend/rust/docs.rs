@@ -12,7 +12,7 @@ pub(super) use crate::facts::words::sentence;
 use crate::facts::words::Words;
 use crate::facts::words::{capital, row_of};
 use crate::facts::{self};
-use crate::ir::{Binding, Condition, Documentation, Doubt, ElementId, Item, Manual, SubjectKind, Type, TypeId, Value};
+use crate::ir::{Binding, Condition, Documentation, Doubt, ElementId, Item, Manual, Type, TypeId, Value};
 
 /// Returns a builder of sentences for doc comments. The sentences link to the elements that they mention.
 pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<'_> {
@@ -77,7 +77,7 @@ pub(super) fn item(
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
     let chapter = chapter.map(|chapter| format!("Chapter: {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
-    paragraphs.extend(doubts(item.doubts.iter(), &context.manual));
+    paragraphs.extend(doubts(&item.doubts, &context.manual));
     for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
         lines.extend([String::new(), paragraph]);
     }
@@ -110,9 +110,7 @@ pub(super) fn method(
     let storage = item.behavior.as_ref().and_then(|behavior| words.storage(&behavior.storage));
     lines.extend(storage.map(|storage| sentence(&capital(&storage))));
     lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
-    for doubt in doubts(item.doubts.iter(), &context.manual) {
-        lines.extend([String::new(), doubt]);
-    }
+    doubtful(&item.doubts, &context.manual, &mut lines);
     lines
 }
 
@@ -163,18 +161,15 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
 }
 
 /// Returns sentences about ambiguities in the manual. The most severe ambiguity comes first.
-fn doubts<'d>(list: impl Iterator<Item = &'d Doubt>, manual: &Manual) -> Vec<String> {
-    let mut list: Vec<&Doubt> = list.collect();
+fn doubts(list: &[Doubt], manual: &Manual) -> Vec<String> {
+    let mut list: Vec<&Doubt> = list.iter().collect();
     list.sort_by_key(|doubt| doubt.severity);
     list.into_iter().map(|doubt| WORDS.doubt(manual, doubt)).collect()
 }
 
-/// Adds the ambiguities in the manual that concern one element, each as a paragraph.
-pub(super) fn doubts_about(context: &Context<'_>, kind: SubjectKind, name: &str, lines: &mut Vec<String>) {
-    let all = context.device.into_iter().flat_map(|device| &device.doubts);
-    for doubt in doubts(all.filter(|doubt| doubt.is_about(kind, name)), &context.manual) {
-        lines.extend([String::new(), doubt]);
-    }
+/// Adds the ambiguities of an element, each as a paragraph.
+pub(super) fn doubtful(list: &[Doubt], manual: &Manual, lines: &mut Vec<String>) {
+    lines.extend(doubts(list, manual).into_iter().flat_map(|doubt| [String::new(), doubt]));
 }
 
 /// Returns the first lines of the documentation of the type at `position`: name, description, origin, ambiguities, and
@@ -186,7 +181,7 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     if let Some(origin) = WORDS.defined_by(definition.stated_by.as_deref(), definition.documentation.as_deref()) {
         lines.extend([String::new(), origin]);
     }
-    doubts_about(context, SubjectKind::Type, &definition.name, &mut lines);
+    doubtful(&definition.doubts, &context.manual, &mut lines);
     let users = context.links.users(position, DocModule::TYPES);
     if !users.is_empty() {
         lines.extend([String::new(), users]);

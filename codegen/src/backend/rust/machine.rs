@@ -14,9 +14,7 @@ use super::options::RustOptions;
 use super::value_type;
 use crate::facts::machine::{fault_states, is_energized};
 use crate::facts::pattern;
-use crate::ir::{
-    CommandId, CommandRef, ItemRef, Pattern, Shape, StateMachine, StateRef, SubjectKind, Transition, Type, TypeId,
-};
+use crate::ir::{CommandId, CommandRef, ItemRef, Pattern, Shape, StateMachine, StateRef, Transition, Type, TypeId};
 use crate::names::{self, Case};
 
 /// A state machine, ready to be printed.
@@ -186,7 +184,7 @@ fn documentation(
     docs::described(machine.documentation.as_deref(), &context.manual, &mut lines);
     let origin = docs::WORDS.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref());
     lines.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
-    docs::doubts_about(context, SubjectKind::Machine, &machine.name, &mut lines);
+    docs::doubtful(&machine.doubts, &context.manual, &mut lines);
     let row = |pattern: &PatternModel| {
         [format!("[`{0}`](Self::{0})", pattern.name), format!("`{}`", pattern.bits), pattern.meaning.clone()]
     };

@@ -10,7 +10,7 @@ use super::reader::{Names, Reader};
 use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::frontend::xml::Read;
-use crate::ir::{Buses, CodeRow, CodeTable, Documentation, LocalText, SharedList, Value};
+use crate::ir::{CodeRow, CodeTable, Documentation, LocalText, Value};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -23,11 +23,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Ve
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {
         name: CompactString::const_new(name),
         columns: columns.iter().map(|name| CompactString::const_new(name)).collect(),
-        rows: SharedList::default(),
-        buses: Buses::NONE,
-        documentation: None,
-        stated_by: None,
         origin,
+        ..CodeTable::default()
     };
     let mut messages = table("DiagMessages", &COLUMNS);
     let mut lists = [table("DiagReset", &[]), table("DiagReaction", &[]), table("DiagType", &[])];

@@ -6,7 +6,7 @@ use super::location::Location;
 use super::reader::Reader;
 use crate::frontend::xml::Read;
 use crate::ir::{
-    Buses, Catalog, CodeRow, CodeTable, CompactString, Documentation, Type, UnitDiagnosis, UnitDiagnosisField, Value,
+    Catalog, CodeRow, CodeTable, CompactString, Documentation, Type, UnitDiagnosis, UnitDiagnosisField, Value,
 };
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
@@ -253,10 +253,8 @@ fn table(name: &'static str, columns: &[&'static str], rows: Vec<CodeRow>, origi
         name: name.into(),
         columns: columns.iter().map(|&name| name.into()).collect(),
         rows: rows.into(),
-        buses: Buses::NONE,
-        documentation: None,
-        stated_by: None,
         origin,
+        ..CodeTable::default()
     }
 }
 

@@ -7,7 +7,7 @@ use super::reader::Reader;
 use super::text_references::with_suffix;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Direction, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type};
+use crate::ir::{Direction, Doubts, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type};
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
@@ -58,7 +58,8 @@ impl<'a> Reader<'a, '_> {
         }
         let Layout { fields, items, at, overhead, .. } = layout;
         let length = (at / 8).saturating_sub(overhead);
-        let image = ProcessImage { name: parent.name.into(), direction, length, overhead, big_endian: true, fields };
+        let (name, doubts) = (parent.name.into(), Doubts::new());
+        let image = ProcessImage { name, direction, length, overhead, big_endian: true, fields, doubts };
         Ok(IoData { image, consistent, items, channels })
     }
 

@@ -8,12 +8,12 @@ use super::tree::Reader;
 use super::{buses, notation, value};
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, SubjectKind, Type, Value};
+use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, Doubts, Type, Value};
 use crate::text::brief;
 
 /// Reads a table of codes.
 pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &CodesTable, device: &mut Device) {
-    let owner = name.value.as_str();
+    let mut doubts = Doubts::new();
     let mut rows = Vec::with_capacity(table.rows.0.len());
     let plain = CodeTableRow::default();
     let mut distinct = table.distinct.then(Distinct::default);
@@ -28,8 +28,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             TextOr::Text(name) => (Some(name.as_str()), &plain),
             TextOr::Table(row) => (row.name.as_deref(), &**row),
         };
-        let origin = reader.origin(key);
-        device.doubts.extend(reader.doubts_about(row, origin, SubjectKind::Codes, owner, &key.value));
+        doubts.extend(reader.doubts_of_part(row, key));
         let same_cells = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
         if let Some(other) = same_cells {
             let message = format!(
@@ -62,6 +61,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         rows: rows.into(),
         buses: table.buses.as_ref().map(|list| buses::read(reader, list)).unwrap_or_default(),
         documentation: reader.documentation_of(table),
+        doubts,
         stated_by: None,
         origin: reader.origin(name),
     });

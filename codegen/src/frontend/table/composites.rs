@@ -5,7 +5,7 @@ use super::format::CompositeTable;
 use super::references::{References, ITEM};
 use super::tree::Reader;
 use crate::diagnostics::codes;
-use crate::ir::{Composite, Device, SubjectKind};
+use crate::ir::{Composite, Device};
 
 /// Reads a number that is split over several items.
 pub(super) fn composite(
@@ -16,7 +16,7 @@ pub(super) fn composite(
     references: &mut References,
 ) {
     let origin = reader.origin(name);
-    device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Composite, &name.value, ""));
+    let doubts = reader.doubts_of(table, origin);
     references.extend(table.parts.iter().map(|part| (part.clone(), ITEM)));
     references.extend(table.sign.iter().map(|sign| (sign.clone(), ITEM)));
     let message = match (table.parts.len(), table.base, table.sign.is_some(), table.negative.is_some()) {
@@ -39,6 +39,7 @@ pub(super) fn composite(
         sign: sign.map(|(item, value)| (reader.reference(item), value)),
         unit: table.unit.as_deref().unwrap_or_default().into(),
         documentation: reader.documentation_of(table),
+        doubts,
         origin,
     });
 }

@@ -14,9 +14,7 @@ use super::words::ACCESSES;
 use super::{lints, notation, types, value};
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{
-    BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, SubjectKind, Trigger, Type, TypeDef, TypeId, Zone,
-};
+use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::source::Origin;
 use crate::text::brief;
 
@@ -35,20 +33,26 @@ pub(super) struct Definitions {
     pub units: ByName<UnitTable>,
     /// Types that were created so far.
     pub types: Vec<TypeDef>,
-    /// Ambiguities in the definitions.
-    pub doubts: Doubts,
     /// Types that were created for each definition, one for each underlying integer type.
     pub made: HashMap<(DefinitionKind, String), Vec<(Type, TypeId)>>,
     /// Names to which definitions refer, with their spans.
     pub mentioned: References,
 }
 
-/// Name, documentation and origin of a definition.
+/// Name, documentation, ambiguities and origin of a definition.
 struct About<'t> {
     name: CompactString,
     doc: Option<&'t str>,
     cite: Option<String>,
+    doubts: Doubts,
     origin: Origin,
+}
+
+impl About<'_> {
+    /// Describes a definition that is inside of a row or bit, and has only a name.
+    fn inline(name: CompactString, origin: Origin) -> Self {
+        About { name, doc: None, cite: None, doubts: Doubts::new(), origin }
+    }
 }
 
 impl Definitions {
@@ -78,8 +82,7 @@ impl Definitions {
                     reader.unresolved("enumeration", &name.value, reader.span(name), known);
                     return None;
                 };
-                let mut about = self.about(reader, &found_name, &table);
-                about.name.push_str(&suffix);
+                let about = about(reader, &found_name, &suffix, &table);
                 self.enumeration(reader, about, base, table.closed, &table.values)
             }
             DefinitionKind::Bits => {
@@ -88,8 +91,7 @@ impl Definitions {
                     reader.unresolved("bit field", &name.value, reader.span(name), known);
                     return None;
                 };
-                let mut about = self.about(reader, &found_name, &table);
-                about.name.push_str(&suffix);
+                let about = about(reader, &found_name, &suffix, &table);
                 self.bit_field(reader, about, base, &table.at, table.address)
             }
         };
@@ -147,17 +149,6 @@ impl Definitions {
         }
     }
 
-    fn about<'t, T: Documented + Doubted>(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        name: &At<String>,
-        table: &'t T,
-    ) -> About<'t> {
-        let origin = reader.origin(name);
-        self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, &name.value, ""));
-        About { name: name.value.as_str().into(), doc: table.doc(), cite: table.cited(), origin }
-    }
-
     /// Returns the type of an enumeration that a row defines.
     pub fn inline_values(
         &mut self,
@@ -167,8 +158,7 @@ impl Definitions {
         base: Type,
         values: &ValueEntries,
     ) -> Type {
-        let about = About { name: name.into(), doc: None, cite: None, origin };
-        Type::Named(self.enumeration(reader, about, base, false, values))
+        Type::Named(self.enumeration(reader, About::inline(name.into(), origin), base, false, values))
     }
 
     /// Returns the type of a bit field that a row defines.
@@ -180,14 +170,14 @@ impl Definitions {
         base: Type,
         bits: &BitEntries,
     ) -> Type {
-        let about = About { name: name.into(), doc: None, cite: None, origin };
-        Type::Named(self.bit_field(reader, about, base, bits, None))
+        Type::Named(self.bit_field(reader, About::inline(name.into(), origin), base, bits, None))
     }
 
     fn push(&mut self, reader: &Reader<'_, '_>, about: About<'_>, base: Type, shape: Shape) -> TypeId {
         let id = TypeId(self.types.len() as u32);
         self.types.push(TypeDef {
             documentation: reader.documentation(about.doc, about.cite),
+            doubts: about.doubts,
             origin: about.origin,
             ..TypeDef::new(about.name, shape, base.bits())
         });
@@ -197,7 +187,7 @@ impl Definitions {
     fn enumeration(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        about: About<'_>,
+        mut about: About<'_>,
         base: Type,
         closed: bool,
         entries: &ValueEntries,
@@ -221,8 +211,7 @@ impl Definitions {
             };
             let zones = [("reserved", Zone::Reserved), ("vendor", Zone::Vendor)];
             let zone = more.zone.as_ref().and_then(|zone| reader.word(zone, "zone", &zones));
-            let origin = reader.origin(key);
-            self.doubts.extend(reader.doubts_about(more, origin, SubjectKind::Type, &about.name, &key.value));
+            about.doubts.extend(reader.doubts_of_part(more, key));
             unfilled(reader, key, name);
             let name = name.filter(|name| !nameless(reader, name, key, &about.name, "value"));
             let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
@@ -244,7 +233,7 @@ impl Definitions {
     fn bit_field(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        about: About<'_>,
+        mut about: About<'_>,
         base: Type,
         entries: &BitEntries,
         address: Option<u32>,
@@ -258,6 +247,7 @@ impl Definitions {
                     TextOr::Text(name) => (Some(name.as_str()), &plain),
                     TextOr::Table(table) => (table.name.as_deref(), &**table),
                 };
+                about.doubts.extend(reader.doubts_of_part(table, key));
                 if name.is_some_and(|name| name.contains("{n")) && bits > 1 {
                     for number in 0..bits {
                         let name = name.map(|name| notation::filled(name, number.into(), None));
@@ -283,9 +273,7 @@ impl Definitions {
         table: &BitTable,
     ) -> BitFieldEntry {
         let (offset, bits) = position;
-        let origin = reader.origin(key);
         unfilled(reader, key, name);
-        self.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Type, owner, &key.value));
         let name = name.filter(|name| table.reserved.is_some() || !nameless(reader, name, key, owner, "bit"));
         let is_named = name.is_some();
         let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);
@@ -354,8 +342,7 @@ impl Definitions {
             };
         }
         if let Some(values) = &table.values {
-            let about =
-                About { name: format_compact!("{owner} {name}"), doc: None, cite: None, origin: reader.origin(key) };
+            let about = About::inline(format_compact!("{owner} {name}"), reader.origin(key));
             return BitMeaning::Enumeration(self.enumeration(reader, about, base, false, values));
         }
         match bits {
@@ -363,6 +350,18 @@ impl Definitions {
             _ => BitMeaning::Number,
         }
     }
+}
+
+/// Returns the name with `suffix`, the documentation, the ambiguities and the origin of a named definition.
+fn about<'t, T: Documented + Doubted>(
+    reader: &mut Reader<'_, '_>,
+    name: &At<String>,
+    suffix: &str,
+    table: &'t T,
+) -> About<'t> {
+    let origin = reader.origin(name);
+    let doubts = reader.doubts_of(table, origin);
+    About { name: format_compact!("{}{suffix}", name.value), doc: table.doc(), cite: table.cited(), doubts, origin }
 }
 
 /// Returns the first bit and the number of bits that a key names. The key `0x221:3-2` names the bits 3 and 2 of the byte at the

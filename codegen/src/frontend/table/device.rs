@@ -9,7 +9,7 @@ use super::{lints, value};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     AxisRange, AxisRule, AxisStep, Bus, Buses, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings,
-    Identity, Manual, ManualSection, SubjectKind, Type, Variant,
+    Identity, Manual, ManualSection, Type, Variant,
 };
 use crate::text::brief;
 
@@ -112,7 +112,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
         return;
     };
     let origin = reader.origin(name);
-    device.doubts.extend(reader.doubts_about(model, origin, SubjectKind::Model, &name.value, ""));
+    let doubts = reader.doubts_of(model, origin);
     let constant = |literal: &super::at::Literal| value::convert(literal, Type::Opaque(None), false);
     device.variants.push(Variant {
         name: name.value.as_str().into(),
@@ -129,6 +129,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
             .filter_map(|(key, literal)| Some((key.value.as_str().into(), constant(&literal.value)?)))
             .collect(),
         documentation: reader.documentation_of(model),
+        doubts,
         origin,
     });
 }

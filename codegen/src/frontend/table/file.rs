@@ -104,7 +104,6 @@ pub fn read(
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
     device.types.shrink_to_fit();
-    device.doubts.append(&mut rows.definitions.doubts);
     table.rest(&mut reader, &mut rows, &mut device);
     resolve(&mut reader, &rows, &device);
     numbered::mentioned(&mut reader, &rows.numbered, &device);
@@ -276,15 +275,11 @@ impl<'a> Table<'a> {
         }
         self.sequences(reader, rows, device);
         for (name, option) in &self.options {
-            let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
-            let doubts = [option.doubt.as_ref(), option.doubts.as_ref()];
-            let doubts_of_option = reader.doubts(doubts, origin, cite.as_deref());
-            device.doubts.extend(tree::about(doubts_of_option, crate::ir::SubjectKind::Option, &name.value, ""));
+            device.doubts.extend(reader.doubts_of_part(option, name));
         }
         for doubt in self.list::<format::DoubtTable>(reader, "doubts") {
             let origin = reader.origin(&doubt);
-            let list = at::OneOrMany(vec![doubt.value]);
-            device.doubts.extend(reader.doubts([Some(&list), None], origin, None));
+            device.doubts.push(reader.doubt(&doubt.value, origin, None));
         }
     }
 

@@ -11,7 +11,7 @@ use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Access, Binding, CompactString, Device, Direction, Group, GroupKind, ImageBinding, Item, ObjectCode, PdoEntry,
-    PdoEntryKind, ProcessImage, SubjectKind, Type, TypeDef,
+    PdoEntryKind, ProcessImage, Type, TypeDef,
 };
 use crate::text::brief;
 
@@ -89,7 +89,7 @@ pub(super) fn image(
         return;
     };
     let origin = reader.origin(table);
-    device.doubts.extend(reader.doubts_about(given, origin, SubjectKind::Image, &name, ""));
+    let doubts = reader.doubts_of(given, origin);
     let order =
         given.order.as_ref().and_then(|word| reader.word(word, "byte order", &[("big", true), ("little", false)]));
     let mut group = Group::object(0, ObjectCode::Record);
@@ -119,7 +119,7 @@ pub(super) fn image(
     }
     let fields = fields.0.into_values().collect();
     let big_endian = order.unwrap_or(true);
-    device.process_data.images.push(ProcessImage { name, direction, length, overhead: 0, big_endian, fields });
+    device.process_data.images.push(ProcessImage { name, direction, length, overhead: 0, big_endian, fields, doubts });
     if !group.items.is_empty() {
         images.add(group);
     }

@@ -9,9 +9,7 @@ use super::states::{patterns, states};
 use super::tree::Reader;
 use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
-use crate::ir::{
-    CompactString, Device, ItemRef, MessageField, Procedure, StateMachine, Step, SubjectKind, Transition, Type, Value,
-};
+use crate::ir::{CompactString, Device, ItemRef, MessageField, Procedure, StateMachine, Step, Transition, Type, Value};
 
 fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
@@ -31,8 +29,7 @@ pub(super) fn machine(
         return false;
     }
     lints::machine(reader, table);
-    let origin = reader.origin(name);
-    device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Machine, &name.value, ""));
+    let mut doubts = reader.doubts_of(table, reader.origin(name));
     let (state_type, states) = states(reader, table, device);
     let commands = patterns(reader, &table.commands);
     let names = Names::new(&states, &commands, device);
@@ -52,7 +49,7 @@ pub(super) fn machine(
     let mut rows = Vec::new();
     if let Some(matrix) = &table.matrix {
         rows = outcomes::read(reader, &matrix.value, &names, references);
-        device.doubts.extend(outcomes::doubts(reader, matrix, &name.value));
+        doubts.extend(outcomes::doubts(reader, matrix));
     }
     device.machines.push(StateMachine {
         name: text(name),
@@ -66,6 +63,7 @@ pub(super) fn machine(
         transitions: transitions.into(),
         outcomes: rows,
         documentation: reader.documentation_of(table),
+        doubts,
         stated_by: None,
     });
     true
@@ -121,7 +119,7 @@ pub(super) fn procedure(
     references: &mut References,
 ) {
     let origin = reader.origin(name);
-    device.doubts.extend(reader.doubts_about(table, origin, SubjectKind::Procedure, &name.value, ""));
+    let doubts = reader.doubts_of(table, origin);
     for argument in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
         if !table.arguments.iter().any(|known| known.value == argument.value) {
             let known = table.arguments.iter().map(|known| known.value.as_str());
@@ -143,6 +141,7 @@ pub(super) fn procedure(
         steps,
         step_spans,
         documentation: reader.documentation_of(table),
+        doubts,
         origin,
     });
 }

@@ -8,7 +8,6 @@ use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Availability, CommandOutcomes, Device, Documentation, Doubts, Outcome, Pattern, Reference, StateOutcome, StateRef,
-    SubjectKind,
 };
 use crate::source::Span;
 use crate::text::{brief, count_of};
@@ -63,12 +62,11 @@ pub(super) fn read(
     rows
 }
 
-/// Returns the ambiguities of a state-command matrix and of its rows, marked as ambiguities of the machine.
-pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>, machine: &str) -> Doubts {
-    let mut found = reader.doubts_about(&table.value, reader.origin(table), SubjectKind::Machine, machine, "");
+/// Returns the ambiguities of a state-command matrix and of its rows.
+pub(super) fn doubts(reader: &mut Reader<'_, '_>, table: &At<MatrixTable>) -> Doubts {
+    let mut found = reader.doubts_of(&table.value, reader.origin(table));
     for (name, row) in table.value.rows.iter() {
-        let origin = reader.origin(name);
-        found.extend(reader.doubts_about(&row.value, origin, SubjectKind::Machine, machine, &name.value));
+        found.extend(reader.doubts_of_part(&row.value, name));
     }
     found
 }

@@ -6,16 +6,14 @@ use std::rc::Rc;
 use compact_str::CompactString;
 use toml_parser::{Expected, ParseError};
 
-use super::at::{At, Literal};
+use super::at::{At, Literal, OneOrMany};
 use super::document::{self, Table, Value};
 use super::format::{Cited, Documented, DoubtTable, Doubted, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{
-    Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Subject, SubjectKind, Texts,
-};
+use crate::ir::{Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, similar, standard_and_clause};
@@ -204,8 +202,12 @@ impl<'a> Reader<'a, '_> {
         Reference::new(name.value.as_str(), self.span(name))
     }
 
+    /// Returns the location of an element. An element of a profile has none, because no description contains it.
     pub fn origin<T>(&self, at: &At<T>) -> Origin {
-        Origin { span: self.span(at), line: self.source.line_at(at.start) }
+        match self.standard.is_empty() {
+            true => Origin { span: self.span(at), line: self.source.line_at(at.start) },
+            false => Origin::default(),
+        }
     }
 
     /// Returns a span that messages can show. An empty span is replaced with the span of the last preceding character
@@ -287,48 +289,35 @@ impl<'a> Reader<'a, '_> {
         self.doubts(table.doubt_tables(), origin, table.cited().as_deref())
     }
 
-    /// Returns the ambiguities that a table contains, marked as ambiguities of an element of the device.
-    pub fn doubts_about(
-        &mut self,
-        table: &impl Doubted,
-        origin: Origin,
-        kind: SubjectKind,
-        name: &str,
-        element: &str,
-    ) -> Doubts {
-        about(self.doubts_of(table, origin), kind, name, element)
+    /// Returns the ambiguities that the table of a row, bit, value, command or option contains.
+    pub fn doubts_of_part(&mut self, table: &impl Doubted, part: &At<String>) -> Doubts {
+        let mut doubts = self.doubts_of(table, self.origin(part));
+        doubts.iter_mut().for_each(|doubt| doubt.part = part.value.as_str().into());
+        doubts
     }
 
-    pub fn doubts(
-        &mut self,
-        lists: [Option<&super::at::OneOrMany<DoubtTable>>; 2],
-        origin: Origin,
-        cite: Option<&str>,
-    ) -> Doubts {
+    pub fn doubts(&mut self, lists: [Option<&OneOrMany<DoubtTable>>; 2], origin: Origin, cite: Option<&str>) -> Doubts {
         let tables = lists.into_iter().flatten().flat_map(|list| &list.0);
+        tables.map(|table| self.doubt(table, origin, cite)).collect()
+    }
+
+    /// Returns an ambiguity. An ambiguity without a citation has the citation `cite`.
+    pub fn doubt(&mut self, table: &DoubtTable, origin: Origin, cite: Option<&str>) -> Doubt {
         let words = [Severity::Hazard, Severity::Value, Severity::Print].map(|severity| (severity.name(), severity));
-        let doubt = |table: &DoubtTable| Doubt {
+        Doubt {
             says: table.says.clone(),
             chosen: table.chose.clone(),
             why: table.why.clone(),
             origin,
             cite: table.cite.as_ref().map(cited).or(cite.map(str::to_owned)).map(CompactString::from),
-            subject: None,
+            part: CompactString::default(),
             severity: table.severity.as_ref().and_then(|word| self.word(word, "severity", &words)).unwrap_or_default(),
-        };
-        tables.map(doubt).collect()
+        }
     }
 }
 
-/// Marks ambiguities as ambiguities of an element of the device.
-pub(super) fn about(doubts: Doubts, kind: SubjectKind, name: &str, element: &str) -> Doubts {
-    let subject = Subject { kind, name: name.into(), element: element.into() };
-    let about = |doubt| Doubt { subject: Some(Box::new(subject.clone())), ..doubt };
-    doubts.into_iter().map(about).collect()
-}
-
 /// Returns the cited pages or lines as one text.
-pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
+pub(super) fn cited(list: &OneOrMany<NumberOrText>) -> String {
     list.0.iter().map(NumberOrText::to_string).collect::<Vec<_>>().join(", ")
 }
 

@@ -26,7 +26,7 @@ fn all() -> &'static [Profile] {
     PROFILES.get_or_init(|| {
         let mut profiles: Vec<Profile> = STORED.iter().filter_map(|text| stored::read(text)).collect();
         let machines = profiles.iter_mut().flat_map(|profile| &mut profile.machines);
-        machines.for_each(|(machine, _)| references::machine_of_profile(machine));
+        machines.for_each(references::machine_of_profile);
         profiles
     })
 }

@@ -46,11 +46,10 @@ impl<'p> Completion<'p> {
         let of_manual =
             |table: &CodeTable| is_table(table.origin.span.file) && !is_of_profile(table.stated_by.as_deref());
         let has_codes = device.code_tables.iter().any(of_manual);
-        for (table, doubts) in self.profile.codes.iter().filter(|_| !has_codes) {
+        for table in self.profile.codes.iter().filter(|_| !has_codes) {
             device.code_tables.push(CodeTable { stated_by: self.standard(&table.documentation), ..table.clone() });
-            device.doubts.extend(doubts.iter().cloned());
         }
-        for (machine, doubts) in &self.profile.machines {
+        for machine in &self.profile.machines {
             let exists = |name: &CompactString| item_at(&device.groups, name).is_some();
             if !exists(&machine.status_item) || !exists(&machine.control_item) {
                 continue;
@@ -62,7 +61,6 @@ impl<'p> Completion<'p> {
                 let stated_by = self.standard(&machine.documentation);
                 let completed = StateMachine { status_item, control_item, state_type, stated_by, ..machine.clone() };
                 device.machines.push(completed);
-                device.doubts.extend(doubts.iter().cloned());
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::ir::owner::object;
 use crate::ir::{
-    Behavior, CodeTable, CompactString, Condition, Direction, Documentation, Doubts, Group, ObjectBuses, ObjectCode,
-    Quantity, Shape, StateMachine, Type, TypeDef, TypeId, Value,
+    Behavior, CodeTable, CompactString, Condition, Direction, Documentation, Group, ObjectBuses, ObjectCode, Quantity,
+    Shape, StateMachine, Type, TypeDef, TypeId, Value,
 };
 
 /// Facts of a standard about all devices, modules and submodules that follow it.
@@ -30,10 +30,10 @@ pub(crate) struct Profile {
     pub telegrams: Vec<Telegram>,
     /// Types that name the bits and values of objects and signals.
     pub types: Vec<TypeDef>,
-    /// Code tables of devices that follow the profile, each with its ambiguities.
-    pub codes: Vec<(CodeTable, Doubts)>,
-    /// State machines of devices that follow the profile, each with its ambiguities.
-    pub machines: Vec<(StateMachine, Doubts)>,
+    /// Code tables of devices that follow the profile.
+    pub codes: Vec<CodeTable>,
+    /// State machines of devices that follow the profile.
+    pub machines: Vec<StateMachine>,
 }
 
 /// Facts of a profile about objects or sub-indices.

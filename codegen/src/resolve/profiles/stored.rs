@@ -7,8 +7,8 @@ use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
     Access, Behavior, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CommandRef, CompactString, Condition, Direction,
     Documentation, Doubt, Doubts, ElementRef, EnumValue, FactOrigin, ItemRef, ObjectBuses, Pattern, Quantity, Scale,
-    Severity, Shape, SharedList, StateMachine, StateRef, Storage, Subject, SubjectKind, Transition, Trigger, Type,
-    TypeDef, TypeId, TypeRef, Value, Zone,
+    Severity, Shape, SharedList, StateMachine, StateRef, Storage, Transition, Trigger, Type, TypeDef, TypeId, TypeRef,
+    Value, Zone,
 };
 
 /// The remaining fields of a stored profile.
@@ -114,16 +114,15 @@ structures! {
         | backup, setting, safety, srdo, pdi_access, read_states, write_states
     }
     Condition { item, values, mask | names }
-    TypeDef { name, shape, bits, documentation | code, stated_by, origin }
+    TypeDef { name, shape, bits, documentation, doubts | code, stated_by, origin }
     BitFieldEntry { name, offset, bits, meaning, when, trigger, access, documentation | names, availability, at }
     EnumValue { name, value, last, zone, when, documentation | names, availability, at }
-    CodeTable { name, columns, rows, documentation | buses, stated_by, origin }
+    CodeTable { name, columns, rows, documentation, doubts | buses, stated_by, origin }
     CodeRow { printed, code, last, name, documentation, cells | printed_cells, names, availability, stated_by }
-    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation | faults, outcomes, stated_by }
+    StateMachine { name, status_item, control_item, state_type, states, initial, commands, transitions, documentation, doubts | faults, outcomes, stated_by }
     Pattern { name, mask, value, documentation | names }
     Transition { number, from, to, command, documentation }
-    Doubt { says, chosen, why, cite, severity, subject | origin }
-    Subject { kind, name, element }
+    Doubt { says, chosen, why, cite, severity, part | origin }
 }
 
 /// Implements `Stored` for enumerations. The text contains the name of the variant, followed by its fields.
@@ -169,7 +168,6 @@ enumerations! {
     Severity { Hazard, Value, Print }
     Shape { BitField { base, fields }, Enumeration { base, values, closed } }
     Storage { Unknown, Volatile, Immediate, OnCommand(command) }
-    SubjectKind { Type, Codes, Machine, Procedure, Image, Composite, Model, Option }
     Trigger { Rising, Falling, Toggle, SelfClearing }
     Type { Boolean, Integer(bits), Unsigned(bits), Real32, Real64 }
     Value { Bool(value), Int(value), Real(value), Text(value) }

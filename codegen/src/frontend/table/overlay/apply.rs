@@ -84,7 +84,7 @@ impl<'o> Applied<'o> {
             self.device(reader, device);
             for usage in device.submodules.iter().filter(|usage| done.insert(usage.submodule)) {
                 if let Some(submodule) = submodules.get_mut(usage.submodule.0 as usize) {
-                    if self.submodule(reader, submodule, types, &mut device.doubts) == RowEffect::Changed {
+                    if self.submodule(reader, submodule, types) == RowEffect::Changed {
                         let other = others.submodules.get(&usage.submodule);
                         self.shared(reader, &submodule.name, other);
                     }
@@ -99,17 +99,14 @@ impl<'o> Applied<'o> {
         reader: &mut Reader<'_, '_>,
         submodule: &mut Submodule,
         types: &mut Vec<TypeDef>,
-        doubts: &mut Doubts,
     ) -> RowEffect {
         let effect = self.apply_rows(reader, ObjectSet::of_submodule(submodule, types));
         self.resolve(reader, &mut submodule.records, types);
-        self.keep_doubts(doubts);
         effect
     }
 
-    /// Applies the overlay to the objects of a module, and returns the maximum effect of the rows. Adds the ambiguities of the
-    /// definitions to `doubts`.
-    fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module, doubts: &mut Doubts) -> RowEffect {
+    /// Applies the overlay to the objects of a module, and returns the maximum effect of the rows.
+    fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module) -> RowEffect {
         let buses = buses_of_module(module);
         let Module { groups, fixed_objects, types, extensions, .. } = module;
         let effect = self.apply_rows(reader, ObjectSet { groups, types, extensions, buses });
@@ -120,7 +117,6 @@ impl<'o> Applied<'o> {
         groups.append(fixed_objects);
         self.resolve(reader, groups, types);
         *fixed_objects = groups.split_off(count);
-        self.keep_doubts(doubts);
         effect
     }
 
@@ -138,15 +134,6 @@ impl<'o> Applied<'o> {
         self.patcher.rows.definitions.mentioned.clear();
     }
 
-    /// Adds the ambiguities of definitions to `kept`, each of them once.
-    fn keep_doubts(&mut self, kept: &mut Doubts) {
-        for doubt in std::mem::take(&mut self.patcher.rows.definitions.doubts) {
-            if !kept.contains(&doubt) {
-                kept.push(doubt);
-            }
-        }
-    }
-
     /// Reports that a changed module or submodule is also part of a device that the overlay does not select.
     fn shared(&self, reader: &mut Reader<'_, '_>, name: &str, other: Option<&CompactString>) {
         let Some(other) = other else { return };
@@ -160,7 +147,6 @@ impl<'o> Applied<'o> {
         let buses = buses_of(device);
         let Device { groups, types, extensions, .. } = device;
         self.apply_rows(reader, ObjectSet { groups, types, extensions, buses });
-        self.keep_doubts(&mut device.doubts);
         let patch = &self.patcher.overlay.patch;
         if let Some(axes) = &patch.axes {
             device::axes(reader, axes, device);
@@ -190,7 +176,7 @@ impl<'o> Applied<'o> {
             device.procedures.retain(|procedure| procedure.name != name.value);
             machines::procedure(reader, name, table, device, &mut self.patcher.rows.references);
         }
-        self.overlay_doubts(reader, &mut device.doubts);
+        device.doubts.extend(self.overlay_doubts(reader));
         self.resolve_in(reader, device);
     }
 
@@ -200,12 +186,10 @@ impl<'o> Applied<'o> {
         Change { file: file_name(reader), line, why }
     }
 
-    /// Adds the ambiguities that concern the whole overlay to `kept`.
-    fn overlay_doubts(&self, reader: &mut Reader<'_, '_>, kept: &mut Doubts) {
-        for doubt in &self.patcher.overlay.patch.doubts {
-            let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
-            kept.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
-        }
+    /// Returns the ambiguities that concern the whole overlay.
+    fn overlay_doubts(&self, reader: &mut Reader<'_, '_>) -> Doubts {
+        let given = self.patcher.overlay.patch.doubts.iter();
+        given.map(|doubt| reader.doubt(&doubt.value, reader.origin(doubt), None)).collect()
     }
 
     /// Reports axes, codes, machines and procedures in an overlay for modules. Only an overlay for devices can have these keys.
@@ -248,10 +232,10 @@ impl<'o> Applied<'o> {
         let of_modules: HashSet<usize> = modules.flat_map(|(_, module)| parts(&module.submodules)).collect();
         let others = OtherDevices::new(catalog, applies);
         let Catalog { devices, modules, submodules, types, .. } = catalog;
-        let (mut count, mut doubts) = (0, Doubts::new());
+        let mut count = 0;
         for (position, module) in modules.iter_mut().enumerate().filter(|(position, _)| chosen(&wanted, *position)) {
             count += 1;
-            if self.module(reader, module, &mut doubts) == RowEffect::Changed {
+            if self.module(reader, module) == RowEffect::Changed {
                 self.shared(reader, &module.name, others.modules.get(&ModuleId(position as u32)));
             }
         }
@@ -259,14 +243,12 @@ impl<'o> Applied<'o> {
             let is_called = is_called(pattern, [&submodule.name, &submodule.id], submodule.ident);
             if of_modules.contains(&position) || (is_called && !says_device(applies)) {
                 count += 1;
-                if self.submodule(reader, submodule, types, &mut doubts) == RowEffect::Changed {
+                if self.submodule(reader, submodule, types) == RowEffect::Changed {
                     self.shared(reader, &submodule.name, others.submodules.get(&SubmoduleId(position as u32)));
                 }
             }
         }
-        if count > 0 {
-            self.overlay_doubts(reader, &mut doubts);
-        }
+        let doubts = if count > 0 { self.overlay_doubts(reader) } else { Doubts::new() };
         // In the IR, a module has no list of ambiguities. The ambiguities go to the selected devices that have the module. If no
         // selected device has the module, they go to all selected devices.
         let takes = |device: &Device| device.modules.iter().any(|usage| chosen(&wanted, usage.module.0 as usize));
@@ -417,6 +399,7 @@ fn merge(tables: &mut Vec<CodeTable>, change: &Change) {
         tables.push(CodeTable { stated_by: Some(Box::new(change.origin(false))), ..last });
         return;
     };
+    table.doubts.extend(last.doubts);
     let rows = table.rows.to_mut();
     let mut known: HashMap<(i128, Option<i128>), usize> = HashMap::with_capacity(rows.len());
     for (position, row) in rows.iter().enumerate() {

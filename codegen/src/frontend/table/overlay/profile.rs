@@ -10,9 +10,9 @@ use super::super::{buses, code_tables, machines, notation, process, types, Table
 use super::patch::Patch;
 use super::{PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostics};
-use crate::ir::{Binding, Buses, CodeTable, CompactString, Device, Doubts, Item, StateMachine, Type, TypeDef, TypeId};
+use crate::ir::{Binding, Buses, CodeTable, CompactString, Device, Item, StateMachine, Type, TypeDef, TypeId};
 use crate::resolve::profiles::{Described, Profile, Signal, Telegram};
-use crate::source::{FileId, Origin, Source, Span};
+use crate::source::{FileId, Source, Span};
 use crate::text::standard_and_clause;
 
 /// Reads the table of a profile. Returns `None` if the file is not valid TOML or has no `[profile]`.
@@ -75,7 +75,6 @@ pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Pro
         }
     }
     profile.types = mem::take(&mut rows.definitions.types);
-    profile.types.iter_mut().for_each(|definition| definition.origin = Origin::default());
     profile.codes = code_tables(reader, &patch, &profile.types);
     profile.machines = machines(reader, &patch, &profile.types);
     Some(profile)
@@ -125,48 +124,31 @@ fn telegram(reader: &mut Reader<'_, '_>, image: &ImageTable) -> Option<Telegram>
     Some(Telegram { name, direction, signals: signals.collect() })
 }
 
-/// Reads tables of codes with their ambiguities. The origins are empty because the description of a device does not contain the
-/// tables.
-fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(CodeTable, Doubts)> {
+fn code_tables(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<CodeTable> {
     let mut device = Device { types: types.to_vec(), ..Device::default() };
-    let mut tables = Vec::new();
     for (name, table) in &patch.codes {
         code_tables::table(reader, name, table, &mut device);
-        let doubts = without_origin(&mut device.doubts);
-        tables.extend(
-            device
-                .code_tables
-                .drain(..)
-                .map(|table| (CodeTable { origin: Origin::default(), ..table }, doubts.clone())),
-        );
     }
-    tables
+    device.code_tables
 }
 
-/// Reads state machines with their ambiguities. The items of a state machine are looked up later, in each device.
-fn machines(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<(StateMachine, Doubts)> {
+/// Reads state machines. The items of a state machine are looked up later, in each device.
+fn machines(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Vec<StateMachine> {
     let mut device = Device { types: types.to_vec(), ..Device::default() };
-    let mut machines = Vec::new();
     let mut budget = MachineBudget::new();
     for (name, table) in &patch.machines {
         if !machines::machine(reader, name, table, &mut device, &mut budget, &mut Vec::new()) {
             break;
         }
-        let doubts = without_origin(&mut device.doubts);
-        machines.extend(device.machines.drain(..).map(|machine| (machine, doubts.clone())));
     }
-    machines
-}
-
-fn without_origin(doubts: &mut Doubts) -> Doubts {
-    doubts.iter_mut().for_each(|doubt| doubt.origin = Origin::default());
-    mem::take(doubts)
+    device.machines
 }
 
 mod tests {
     use super::*;
     use crate::ir::{Group, ObjectCode, Shape};
     use crate::resolve::profiles::Completion;
+    use crate::source::Origin;
 
     const PROFILE: &str = "lexibus = 1\n[profile]\nname = \"P\"\n\
         [enums.Phase.values]\n0 = \"Off\"\n1 = \"On\"\n\
@@ -204,9 +186,12 @@ mod tests {
     #[test]
     fn doubts_of_codes_and_machines_are_kept() {
         let device = completed(Type::Unsigned(16), Vec::new());
-        let doubts: Vec<&str> = device.doubts.iter().map(|doubt| doubt.says.as_str()).collect();
-        assert_eq!(doubts, ["1 and 2", "two states"]);
-        assert!(device.doubts.iter().all(|doubt| doubt.origin == Origin::default()));
+        let doubts = [&device.code_tables[0].doubts[0], &device.machines[0].doubts[0]];
+        assert_eq!(
+            doubts.map(|doubt| (doubt.says.as_str(), doubt.part.as_str())),
+            [("1 and 2", "1"), ("two states", "")]
+        );
+        assert!(doubts.iter().all(|doubt| doubt.origin == Origin::default()));
     }
 
     /// Checks that an enumeration has the same values for signed and unsigned objects.
