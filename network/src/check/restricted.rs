@@ -1,6 +1,6 @@
 //! CAN-IDs that no configurable COB-ID can have.
 
-use lexibus_codegen::facts::number::hex;
+use lexibus_codegen::number::hex;
 use std::ops::RangeInclusive;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};

@@ -1,9 +1,9 @@
 //! Objects that a PDO cannot map.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
 use lexibus_codegen::ir::{Bus, Direction, Item, Type};
+use lexibus_codegen::number::hex16;
 use lexibus_codegen::source::Span;
 
 use super::value::basic_type;

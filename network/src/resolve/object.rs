@@ -1,8 +1,8 @@
 //! Looks up objects of a device by address or name.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Device, Group, Item};
+use lexibus_codegen::number::hex16;
 use lexibus_codegen::text::similar;
 
 use crate::declared::ObjectName;

@@ -10,14 +10,12 @@ use super::show::{index, Show};
 use super::slots::{compare_slots, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, pdos, types};
-use lexibus_codegen::facts::{
-    self,
-    number::{hex16, hex32},
-};
+use lexibus_codegen::facts;
 use lexibus_codegen::ir::{
     Catalog, FParameter, FParameters, Group, IoChannel, IoData, IoItem, IoLengths, Menu, ProfinetSettings, Submodule,
     SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
 };
+use lexibus_codegen::number::{hex16, hex32};
 
 pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(ProfinetSettings, old, new, comparison, {
