@@ -263,7 +263,7 @@ impl fmt::Display for Subject<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Subject::Device => f.write_str("the device"),
-            Subject::Object(index) => write!(f, "0x{index:04X}"),
+            Subject::Object(index) => f.write_str(&number::hex16(*index)),
             Subject::Entry(index, sub) => f.write_str(&number::object(*index, *sub)),
             // Replace control characters in names, because a note must fit on one line.
             Subject::Named(name) => name.chars().try_for_each(|letter| {
