@@ -22,7 +22,7 @@
 //! | errors and warnings | [`diagnostics`], and the list of codes, [`diagnostics::codes`] |
 //! | facts in documentation | [`facts`] |
 //! | generated Rust | [`backend::rust`] |
-//! | texts in messages | [`text`] |
+//! | texts in messages | [`text`], and numbers, [`number`] |
 //! | writing output files | [`output`] |
 //!
 //! Other crates use the same [`ir`]: `lexibus-site` generates documentation and compares versions, and `lexibus-export` writes
@@ -75,6 +75,7 @@ pub mod frontend;
 pub mod ir;
 pub mod limits;
 pub mod names;
+pub mod number;
 pub mod output;
 pub mod resolve;
 pub mod selection;

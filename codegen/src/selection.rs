@@ -12,6 +12,7 @@ use std::str::FromStr;
 use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, Module, ProcessData, Submodule};
+use crate::number::{hex16, hex32};
 use crate::resolve::removal;
 use crate::source::{FileId, Span};
 use crate::text::{edit_distance, glob};
@@ -105,7 +106,7 @@ impl fmt::Display for DeviceFilter {
         match self.revision {
             None => Ok(()),
             Some(Revision::Latest) => f.write_str("@latest"),
-            Some(Revision::Number(number)) => write!(f, "@{number:#010X}"),
+            Some(Revision::Number(number)) => write!(f, "@{}", hex32(number)),
         }
     }
 }
@@ -132,9 +133,9 @@ impl FromStr for ObjectFilter {
 
 impl fmt::Display for ObjectFilter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "0x{:04X}", self.first)?;
+        write!(f, "{}", hex16(self.first))?;
         if self.last != self.first {
-            write!(f, "..0x{:04X}", self.last)?;
+            write!(f, "..{}", hex16(self.last))?;
         }
         Ok(())
     }

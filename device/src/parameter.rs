@@ -250,10 +250,10 @@ impl fmt::Display for Reading<'_> {
     /// they are not a value of the type.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.value {
-            Some(Value::Bytes(bytes)) => f.write_str(&lexibus_codegen::facts::number::bytes(bytes)),
+            Some(Value::Bytes(bytes)) => f.write_str(&lexibus_codegen::number::bytes(bytes)),
             Some(value) => f.write_str(&self.parameter.text(value)),
             None => {
-                let bytes = lexibus_codegen::facts::number::bytes(&self.bytes);
+                let bytes = lexibus_codegen::number::bytes(&self.bytes);
                 write!(f, "{bytes} (not a value of the type {})", self.parameter.basic().with_length())
             }
         }

@@ -169,7 +169,7 @@ impl fmt::Display for Write<'_> {
     /// Writes the parameter and the value: `0x6081:00 Profile velocity = 20000`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.value {
-            Value::Bytes(bytes) => write!(f, "{} = {}", self.parameter, lexibus_codegen::facts::number::bytes(bytes)),
+            Value::Bytes(bytes) => write!(f, "{} = {}", self.parameter, lexibus_codegen::number::bytes(bytes)),
             value => write!(f, "{} = {}", self.parameter, self.parameter.text(value)),
         }
     }

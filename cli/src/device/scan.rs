@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::time::Duration;
 
 use lexibus_codegen::compile::Options;
-use lexibus_codegen::facts::number::hex32;
+use lexibus_codegen::number::hex32;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::text::printable;
 use lexibus_device::scan::{scan, Fit, FoundNode};

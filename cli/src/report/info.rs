@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use lexibus_codegen::facts::number::{hex16, hex32};
+use lexibus_codegen::number::{hex16, hex32};
 use lexibus_codegen::text::printable;
 use lexibus_export::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use lexibus_codegen::ir::{Device, Group, Item};
+use lexibus_codegen::number;
 
 /// An exported file with its notes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -262,8 +263,8 @@ impl fmt::Display for Subject<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Subject::Device => f.write_str("the device"),
-            Subject::Object(index) => write!(f, "0x{index:04X}"),
-            Subject::Entry(index, sub) => f.write_str(&lexibus_codegen::facts::address::object(*index, *sub)),
+            Subject::Object(index) => f.write_str(&number::hex16(*index)),
+            Subject::Entry(index, sub) => f.write_str(&number::object(*index, *sub)),
             // Replace control characters in names, because a note must fit on one line.
             Subject::Named(name) => name.chars().try_for_each(|letter| {
                 let letter = if letter.is_control() { ' ' } else { letter };

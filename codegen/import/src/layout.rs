@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
 use lexibus_codegen::limits::{MAX_DERIVED_ITEMS, ROW_BYTES_PER_ITEM};
+use lexibus_codegen::number::hex16;
 use lexibus_codegen::source::Span;
 use lexibus_codegen::text::brief;
 
@@ -223,7 +224,8 @@ fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
     for (row, (number, index)) in rows.iter().filter_map(|row| Some((row, both(row)?))) {
         let expected = i64::from(number) + first;
         if i64::from(index) != expected && expected >= 0 {
-            let message = format!("the index is 0x{index:04X}, but {count} of {all} lines suggest 0x{expected:04X}");
+            let (index, expected) = (hex16(index), hex16(expected));
+            let message = format!("the index is {index}, but {count} of {all} lines suggest {expected}");
             let diagnostic = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message);
             let help = "check the manual, and describe the ambiguity with the key `doubt`";
             diagnostics.push(diagnostic.label("kept as written").help(help));

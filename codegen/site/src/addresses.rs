@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::anchor::slug;
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
+use lexibus_codegen::number::hex32;
 
 /// Maximum number of characters of a folder name, without the checksum that distinguishes longer names.
 const LONGEST: usize = 60;

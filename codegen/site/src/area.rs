@@ -9,9 +9,9 @@ use super::requests;
 use super::shared::{self, SharedDoubt};
 use super::split::{self, Fill};
 use super::words::{self, PLAIN};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, area, item};
 use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, Type, TypeDef};
+use lexibus_codegen::number::{self, hex16};
 
 /// Maximum number of items on a page.
 const PAGE: usize = 500;
@@ -195,7 +195,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
     facts.extend(PLAIN.group_origins(group));
     facts.extend(PLAIN.manual_entry(rows.known.manual, "", group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
-    let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| address::object(index, sub));
+    let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| number::object(index, sub));
     let mut diagnostics = rows.known.diagnostics.of_group(group);
     let doubts = entry::doubts(&group.doubts, "", rows.known.manual);
     let mut row = |id: ItemId, item: &Item| {

@@ -4,10 +4,11 @@ use serde_json::{json, Value as Json};
 
 use lexibus_codegen::backend::rust::{Calls, Usage};
 use lexibus_codegen::collections::HashMap;
-use lexibus_codegen::facts::{address, pdo};
+use lexibus_codegen::facts::pdo;
 use lexibus_codegen::ir::{
     Binding, Device, Direction, Item, ItemId, Mappable, ObjectBuses, Pdo, PdoEntry, Value, MAX_PDO_SUBS,
 };
+use lexibus_codegen::number;
 
 /// Maximum length of a PDO on CANopen in bits.
 const MAX_BITS: u32 = 64;
@@ -107,7 +108,7 @@ fn object(
     let bits = pdo::mapped_bits(item, &device.types)?;
     let call = calls.get(&id).and_then(|calls| calls.first()).map_or("", String::as_str);
     let path = call.trim_start_matches("device.").rsplit_once("().").map_or("", |(path, _)| path).replace("().", "::");
-    let name = format!("{} {}", address::object(index, sub_index), item.name);
+    let name = format!("{} {}", number::object(index, sub_index), item.name);
     Some(json!([index, sub_index, bits, name.trim(), mappable.rpdo, mappable.tpdo, path, buses]))
 }
 

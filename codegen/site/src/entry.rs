@@ -8,10 +8,10 @@ use super::requests::{self, OfRecord, Request};
 use super::tools;
 use super::words::{self, PLAIN};
 use lexibus_codegen::backend::rust::Calls;
-use lexibus_codegen::facts::number::ALLOWED_SHOWN;
 use lexibus_codegen::facts::words::{capital, row_of, sentence};
 use lexibus_codegen::facts::{address, item, types};
 use lexibus_codegen::ir::{Item, ItemId, Manual, ModbusTable, Severity, Type, TypeDef};
+use lexibus_codegen::number::ALLOWED_SHOWN;
 
 /// The row of an item in a table.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use std::cmp::Reverse;
 
 use super::addresses;
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
+use lexibus_codegen::number::hex32;
 
 /// File name and title of a page.
 pub(super) type PageLink = (String, String);

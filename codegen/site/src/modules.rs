@@ -12,12 +12,12 @@ use super::split;
 use super::words;
 use lexibus_codegen::backend::rust::{self, Calls};
 use lexibus_codegen::collections::HashMap;
-use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::{address, item, profinet};
 use lexibus_codegen::ir::{
     Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ModuleId, ObjectBuses, Submodule,
     SubmoduleId, TypeDef,
 };
+use lexibus_codegen::number::{hex16, hex32};
 
 /// Maximum number of modules per page.
 const PAGE: usize = 100;

@@ -1,9 +1,8 @@
 //! Data of the page of a CANopen network: nodes, frames with senders and receivers, bus load, and configured values.
 
 use super::listed::Listed;
-use lexibus_codegen::facts::address;
-use lexibus_codegen::facts::number::{hex, hex16, hex8};
 use lexibus_codegen::facts::words::{capital, sentence};
+use lexibus_codegen::number::{self, hex, hex16, hex8};
 
 /// A CANopen network.
 #[derive(Clone, Debug, Default)]
@@ -147,7 +146,7 @@ impl ShownNode {
     fn new(node: &Node, device: Option<&Listed>) -> Self {
         let parameter = |parameter: &Parameter| {
             let (index, sub_index) = parameter.object;
-            (address::object(index, sub_index), parameter.name.clone(), parameter.value.clone())
+            (number::object(index, sub_index), parameter.name.clone(), parameter.value.clone())
         };
         ShownNode {
             anchor: format!("node-{}", node.id),

@@ -4,11 +4,11 @@ use super::entry::{self, Doubt};
 use super::slots::Slots;
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::device;
-use lexibus_codegen::facts::number::{hex16, hex32};
 use lexibus_codegen::facts::profinet::{self, NamedFacts};
 use lexibus_codegen::ir::{
     Catalog, Device, DistributedClocks, EtherCatSettings, Manual, ModbusTable, ProfinetSettings, RegisterSpace,
 };
+use lexibus_codegen::number::{hex16, hex32};
 
 /// The data that a device's first page shows.
 #[derive(Debug)]

@@ -6,11 +6,11 @@ use super::anchor::Names;
 use super::grid;
 use super::words;
 use lexibus_codegen::facts::cob_id::{self, CobId};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{address, pdo, types};
 use lexibus_codegen::ir::{
     Direction, ItemId, Manual, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, TypeDef, Value,
 };
+use lexibus_codegen::number::{self, hex16};
 
 /// The process data of a device.
 #[derive(Debug, Default)]
@@ -171,7 +171,7 @@ fn bytes(count: usize) -> String {
 fn drawn(entries: &[PdoEntry], bits: u32, types: &[TypeDef]) -> Frame {
     let list = entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding).map(|entry| Entry {
         position: address::bits_of(entry.bit_offset, entry.bits),
-        object: if entry.index == 0 { String::new() } else { address::object(entry.index, entry.sub_index) },
+        object: if entry.index == 0 { String::new() } else { number::object(entry.index, entry.sub_index) },
         name: entry.name.to_string(),
         names: words::names(&entry.name, &entry.names),
         ty: types::name(types, entry.ty),

@@ -4,12 +4,12 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::entry::{self, Doubt};
 use super::words::{self, PLAIN};
-use lexibus_codegen::facts::number::{bytes, hex8};
 use lexibus_codegen::facts::physical::Physical;
 use lexibus_codegen::facts::types;
 use lexibus_codegen::facts::words::{capital, sentence};
 use lexibus_codegen::ir::Manual;
 use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
+use lexibus_codegen::number::{bytes, hex8};
 
 /// The command protocol of a device, as a page shows it.
 #[derive(Debug)]

@@ -9,10 +9,10 @@ use super::machines::{Behavior, Machine};
 use super::process::Frame;
 use super::protocol::Protocol;
 use lexibus_codegen::facts::mentions::Mention;
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::referrers::{self, Part, Referrer, Referrers};
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Binding, Device, ItemId, ItemRef};
+use lexibus_codegen::number::hex16;
 
 /// Links to the elements of a device.
 pub(super) struct Targets<'d> {

@@ -5,9 +5,9 @@ mod object;
 mod record;
 
 use super::tools;
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::{encoding, register, types};
 use lexibus_codegen::ir::{Binding, Bus, Item, ModbusTable, RegisterBinding, RegisterSpace, Type, TypeDef};
+use lexibus_codegen::number::hex16;
 use object::Object;
 pub(super) use record::OfRecord;
 

@@ -8,8 +8,8 @@ use super::addresses::{Addresses, DeviceKey};
 use super::compare::{compare, compare_devices, Change, Summary};
 use super::pages::{Content, Frameset, Pages};
 use super::Page;
-use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Catalog, Device};
+use lexibus_codegen::number::hex32;
 
 /// The previous revision of a device, and the numbers of both revisions.
 #[derive(Debug)]

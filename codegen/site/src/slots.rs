@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::link::{Link, Relation};
 use super::modules::Modules;
-use lexibus_codegen::facts::number::{hex16, ranges};
 use lexibus_codegen::facts::{self, profinet};
 use lexibus_codegen::ir::{Catalog, Device, Fit, GroupKind, Numbers, Slot, SlotNumbers, Submodule, SubmoduleKind};
+use lexibus_codegen::number::{hex16, ranges};
 
 /// Maximum number of modules that one overview links to. The pages of the modules list all modules.
 const MOST_LINKS: usize = 1000;
@@ -125,7 +125,7 @@ fn rows(assigned: &Assigned, named: &Named<'_>, links: ModuleLinks<'_>, left: &m
         *left -= shown.len();
         let others = modules.len() - shown.len();
         rows.push(SlotRow {
-            numbers: if numbers.is_empty() { "any".to_owned() } else { ranges(&numbers, named.number) },
+            numbers: if numbers.is_empty() { "any".to_owned() } else { ranges(&numbers.0, named.number) },
             name: names_of(&numbers, &named.names),
             modules: Relation { title: assignment.name(), links: shown, others },
             note: String::new(),
@@ -200,7 +200,7 @@ fn empty(device: &Device, assigned: &Assigned) -> Vec<SlotRow> {
         is_assigned[usize::from(first)..=usize::from(last)].fill(true);
     }
     let row = |slot: &Slot| SlotRow {
-        numbers: ranges(&Numbers([(slot.number, last(slot))].into_iter().collect()), profinet::slot),
+        numbers: ranges(&[(slot.number, last(slot))], profinet::slot),
         name: slot.name.to_string(),
         modules: Relation { title: "", links: Vec::new(), others: 0 },
         note: match (device.profinet.is_some(), slot.fits.is_empty()) {

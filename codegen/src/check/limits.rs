@@ -6,6 +6,7 @@ use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{excluded, Excluded, Item, Type, Value};
+use crate::number::hex;
 use crate::text::brief;
 
 /// Reports default values and configured values outside of the limits of their items, and swapped limits.
@@ -38,11 +39,11 @@ fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
         Type::Unsigned(bits @ 1..=64) if low >> (bits - 1) == 1 => {
             let signed = low - (1i128 << bits);
             (signed <= high)
-                .then(|| format!("use INTEGER{bits} if the value is signed: {low:#X} is {signed} in this type"))
+                .then(|| format!("use INTEGER{bits} if the value is signed: {} is {signed} in this type", hex(low)))
         }
         Type::Integer(bits @ 1..=64) if low >= 0 && high < 0 => {
             let unsigned = high + (1i128 << bits);
-            Some(format!("use UNSIGNED{bits} if the value is unsigned: {unsigned:#X} is {unsigned} in this type"))
+            Some(format!("use UNSIGNED{bits} if the value is unsigned: {} is {unsigned} in this type", hex(unsigned)))
         }
         _ => None,
     }

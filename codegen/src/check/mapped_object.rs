@@ -6,6 +6,7 @@ use crate::collections::HashSet;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{stated, AxisStep, Device, Direction, Entries, Item, Mappable};
+use crate::number::sub_entry;
 use crate::source::Span;
 use crate::text::count_of;
 
@@ -66,7 +67,7 @@ impl Mapped {
             None => [(!is_resolved).then(|| self.missing(described)).flatten(), None, None],
         };
         for (code, problem) in found.into_iter().flatten() {
-            let message = format!("0x{:04X} sub-index {:#x} {problem}", self.object.0, self.object.1);
+            let message = format!("{} {problem}", sub_entry(self.object.0, self.object.1));
             let found = code.at(self.span, message);
             diagnostics.push(match item {
                 Some(item) => found.note_at(item.origin.span, "the mapped object"),

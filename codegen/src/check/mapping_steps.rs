@@ -6,6 +6,7 @@ use super::context::Context;
 use super::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Item, Procedure, Step};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -43,7 +44,7 @@ impl Mapping<'_> {
         if sub > 0 {
             let before = self.words.entry(index).or_default().insert(sub, value);
             if before.is_some() && self.cleared.contains(&index) {
-                let message = format!("the procedure `{name}` writes entry {sub} of 0x{index:04X} twice");
+                let message = format!("the procedure `{name}` writes entry {sub} of {} twice", hex16(index));
                 let found = codes::STEP_IMPOSSIBLE.at(span, message);
                 diagnostics.push(found.help(format!("write the next entry to sub-index {}", sub.saturating_add(1))));
             }
@@ -53,15 +54,16 @@ impl Mapping<'_> {
             return;
         }
         if let Some(problem) = self.count(index, value) {
-            let message = format!(
-                "the procedure `{name}` writes {value} as the number of entries of 0x{index:04X}, but {problem}"
-            );
+            let mapping = hex16(index);
+            let message =
+                format!("the procedure `{name}` writes {value} as the number of entries of {mapping}, but {problem}");
             diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
         }
         let bits = self.bits(index, value);
         if self.described.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
             let message = format!(
-                "the mapping 0x{index:04X} has {bits} bits after this step, but a CAN frame carries at most 64 data bits"
+                "the mapping {} has {bits} bits after this step, but a CAN frame carries at most 64 data bits",
+                hex16(index)
             );
             diagnostics.push(codes::PDO_TOO_LONG.at(span, message));
         }

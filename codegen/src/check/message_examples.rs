@@ -7,6 +7,7 @@ use super::limits::beyond;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitMeaning, FieldId, FieldRef, Item, Message, MessageField, MessageValue, Shape, Type};
+use crate::number::{hex, hex8};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
@@ -100,14 +101,16 @@ impl<'a> Frame<'a> {
         let problem = match field {
             MessageField::Constant(expected) => {
                 let found = self.bytes.get(range.start / 8..range.end / 8).unwrap_or_default();
-                (found != expected).then(|| format!("has {} instead of the constant {}", hex(found), hex(expected)))
+                (found != expected)
+                    .then(|| format!("has {} instead of the constant {}", octets(found), octets(expected)))
             }
             MessageField::Value(value) => return self.value(value, number(self.bytes, range, &value.byte_order)),
             MessageField::Echo { field, bytes } => self.echo(field, *bytes, range),
             MessageField::FixedBits { bits, value } => {
                 let found = number(self.bytes, range, &[]);
-                (found != *value)
-                    .then(|| format!("has {found:#X} instead of {value:#X} in {}", count_of(*bits, "fixed bit")))
+                (found != *value).then(|| {
+                    format!("has {} instead of {} in {}", hex(found), hex(*value), count_of(*bits, "fixed bit"))
+                })
             }
             MessageField::Copy { first, .. } => self.copy(usize::from(*first), range),
             _ => None,
@@ -122,11 +125,8 @@ impl<'a> Frame<'a> {
         let count = found.len().min(sent.len());
         let (found, sent) = (found.get(..count)?, sent.get(..count)?);
         (found != sent).then(|| {
-            format!(
-                "has {} as the copy of the request bytes from byte {first} on, but the request has {}",
-                hex(found),
-                hex(sent)
-            )
+            let (found, sent) = (octets(found), octets(sent));
+            format!("has {found} as the copy of the request bytes from byte {first} on, but the request has {sent}")
         })
     }
 
@@ -136,9 +136,10 @@ impl<'a> Frame<'a> {
         let mut problems = Vec::new();
         let signed = signed(self.owner, item, number);
         if let Some(expected) = fixed(item).filter(|&only| signed.is_some_and(|signed| signed != only)) {
-            problems.push(format!("has {number:#X} in the field `{name}`, whose value is always {expected:#X}"));
+            let (number, expected) = (hex(number), hex(expected));
+            problems.push(format!("has {number} in the field `{name}`, whose value is always {expected}"));
         } else if let Some(limit) = signed.and_then(|signed| beyond(item, signed)) {
-            problems.push(format!("has {number:#X} in the field `{name}`, whose {limit}"));
+            problems.push(format!("has {} in the field `{name}`, whose {limit}", hex(number)));
         }
         if let Some(counted) = value.counts.as_ref().and_then(|first| self.counted(first.id?)) {
             if number != counted as u64 {
@@ -160,7 +161,7 @@ impl<'a> Frame<'a> {
                     Some(false) => None,
                 };
                 problem
-                    .map(|why| format!("has {number:#X} in the field `{name}`, but this value {why}"))
+                    .map(|why| format!("has {} in the field `{name}`, but this value {why}", hex(number)))
                     .into_iter()
                     .collect()
             }
@@ -174,7 +175,7 @@ impl<'a> Frame<'a> {
                             problems.extend(self.meaning(Type::Named(id), &format!("{name}/{}", field.name), bits));
                         }
                         BitMeaning::Reserved { write: Some(set) } if bits != if set { mask } else { 0 } => {
-                            problems.push(format!("sets reserved bits of the field `{name}` to {bits:#X}"));
+                            problems.push(format!("sets reserved bits of the field `{name}` to {}", hex(bits)));
                         }
                         _ => {}
                     }
@@ -203,7 +204,8 @@ impl<'a> Frame<'a> {
         let part = |bytes: &'a [u8], start: usize| bytes.get(start / 8..(start + range.len()) / 8);
         let (found, sent) = (part(self.bytes, range.start)?, part(bytes, start).filter(|_| is_whole)?);
         (found != sent).then(|| {
-            format!("has {} as the copy of the field `{}`, but the request has {}", hex(found), brief(field), hex(sent))
+            let (found, field, sent) = (octets(found), brief(field), octets(sent));
+            format!("has {found} as the copy of the field `{field}`, but the request has {sent}")
         })
     }
 }
@@ -231,8 +233,8 @@ fn signed(owner: Owner<'_>, item: &Item, number: u64) -> Option<i128> {
     Some(i128::from(number) - if is_negative { 1i128 << bits } else { 0 })
 }
 
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("0x{byte:02X}")).collect::<Vec<_>>().join(" ")
+fn octets(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| hex8(*byte)).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

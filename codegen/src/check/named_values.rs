@@ -5,6 +5,7 @@ use super::bit_fields::{called, set_bits};
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{stated, BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef, Value};
+use crate::number::hex;
 use crate::source::Span;
 use crate::text::{brief, count_of, more};
 
@@ -165,7 +166,7 @@ impl Check<'_, '_> {
                 continue;
             }
             let (wrong, name) = (set_bits(wrong), brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} {problem} {wrong} (reserved) of `{name}`");
+            let message = format!("the {what} {} {problem} {wrong} (reserved) of `{name}`", hex(bits));
             self.report(&codes::RESERVED_BITS, span, message);
         }
     }
@@ -176,7 +177,7 @@ impl Check<'_, '_> {
         let named = fields.iter().fold(0, |all, field| all | field.mask());
         if bits & !named != 0 && named != 0 {
             let (unnamed, name) = (set_bits(bits & !named), brief(&self.definition.name));
-            let message = format!("the {what} {bits:#X} sets {unnamed} (unnamed) of `{name}`");
+            let message = format!("the {what} {} sets {unnamed} (unnamed) of `{name}`", hex(bits));
             self.report(&codes::RESERVED_BITS, span, message);
         }
         for field in always(fields) {
@@ -189,7 +190,7 @@ impl Check<'_, '_> {
                 Some(true) => "which is reserved".to_owned(),
                 None => format!("but only {} named", listed(values)),
             };
-            let message = format!("the {what} {bits:#X} sets {} to {value}, {problem}", called(field));
+            let message = format!("the {what} {} sets {} to {value}, {problem}", hex(bits), called(field));
             self.report(&codes::UNNAMED_VALUE, span, message);
         }
     }

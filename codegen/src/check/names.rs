@@ -6,6 +6,7 @@ use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::firmware::apart;
 use crate::ir::{stated, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -79,7 +80,7 @@ fn repeated<'v, V>(
 
 fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let mut names = HashMap::default();
-    let other = format!("another sub-index of 0x{index:04X}");
+    let other = format!("another sub-index of {}", hex16(index));
     for item in group.items.iter().filter(has_meaning) {
         once(&mut names, &item.name, name_span(item), &other, diagnostics);
     }

@@ -4,6 +4,7 @@ use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{excluded, stated, AxisStep, Device, Fact, FactOrigin, Format, Group, Item, ObjectCode, Rule, Value};
+use crate::number::{hex16, sub_entry};
 use crate::text::{count_of, more};
 
 /// Reports contradictory objects. For CANopen devices, also reports missing names and missing mandatory objects.
@@ -73,7 +74,7 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
         diagnostics.push(codes::EMPTY_NAME.at(span, format!("{what} has no name")));
     };
     if group.name.is_empty() {
-        nameless(group.name_at.or(group.origin.span), format!("0x{index:04X}"));
+        nameless(group.name_at.or(group.origin.span), hex16(index));
     }
     if !group.object_code().is_some_and(ObjectCode::has_subs) {
         return;
@@ -82,16 +83,16 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let Some(first) = items.next() else { return };
     // One diagnostic covers all unnamed sub-indices of an object, because there can be hundreds of them.
     let others = more(items.count(), |others| format!(" (and {} of the object)", count_of(others, "other")));
-    nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
+    nameless(first.at.name.or(first.origin.span), format!("{}{others}", sub_entry(index, sub_of(first))));
 }
 
 fn structure(group: &Group, index: u16, format: Format, diagnostics: &mut Diagnostics) {
     let span = group.origin.span;
     if described_items(group).next().is_none() {
         let (lacks, help) = format.missing_subs();
-        diagnostics.push(codes::NO_SUBS.at(span, format!("0x{index:04X} has {lacks}")).help(help));
+        diagnostics.push(codes::NO_SUBS.at(span, format!("{} has {lacks}", hex16(index))).help(help));
     } else if sub0(group).is_none() {
-        let message = format!("sub-index 0 of 0x{index:04X} is not described");
+        let message = format!("sub-index 0 of {} is not described", hex16(index));
         let help =
             format!("describe sub-index 0 as UNSIGNED8 with the highest sub-index {} as its default", highest(group));
         diagnostics.push(codes::NO_SUB0.at(span, message).help(help));
@@ -117,7 +118,8 @@ fn highest_sub(group: &Group, index: u16, format: Format, diagnostics: &mut Diag
     if default != i128::from(highest) {
         let span = sub0.at.default.or(sub0.origin.span);
         let message = format!(
-            "sub-index 0 of 0x{index:04X} has the default value {default}, but the highest sub-index is {highest}"
+            "sub-index 0 of {} has the default value {default}, but the highest sub-index is {highest}",
+            hex16(index)
         );
         let found = codes::SUB0_MISMATCH.at(span, message);
         // The fix must be within the limits of sub-index 0.
@@ -146,7 +148,7 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
         _ => return,
     };
     let span = sub0.at.access.or(sub0.origin.span);
-    diagnostics.push(codes::SUB0_ACCESS.at(span, format!("sub-index 0 of 0x{index:04X} {message}")));
+    diagnostics.push(codes::SUB0_ACCESS.at(span, format!("sub-index 0 of {} {message}", hex16(index))));
 }
 
 fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut Diagnostics) {
@@ -155,8 +157,8 @@ fn element_types(group: &Group, index: u16, owner: Owner<'_>, diagnostics: &mut 
     // Elements of an array may differ in the names of bits and values, because the object dictionary does not contain such names.
     let ty = |item| stated::ty(owner, item);
     if let Some(other) = elements.find(|item| owner.integer(ty(item)) != owner.integer(ty(first))) {
-        let (one, other_type) = (ty(first), ty(other));
-        let message = format!("an element of the array 0x{index:04X} is {other_type}, but the first element is {one}");
+        let (array, one, other_type) = (hex16(index), ty(first), ty(other));
+        let message = format!("an element of the array {array} is {other_type}, but the first element is {one}");
         let found = codes::ARRAY_TYPES.at(other.at.ty.or(other.origin.span), message);
         diagnostics.push(found.note_at(first.at.ty.or(first.origin.span), "the first element"));
     }
@@ -169,7 +171,7 @@ fn mandatory(device: &Device, diagnostics: &mut Diagnostics) {
     }
     for index in [0x1000, 0x1001, 0x1018] {
         if device.object(index).is_none() {
-            let message = format!("the mandatory object 0x{index:04X} is not described");
+            let message = format!("the mandatory object {} is not described", hex16(index));
             diagnostics.push(codes::MISSING_MANDATORY_OBJECT.at(device.origin.span, message));
         }
     }

@@ -3,6 +3,7 @@
 use super::context::PdoOwner;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Direction, Item, Mappable, PdoEntry, PdoEntryKind};
+use crate::number::sub_entry;
 
 /// Reports PDO entries if the PDO mapping or the access rights of the item do not allow mapping in the direction of the PDO.
 pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
@@ -34,7 +35,7 @@ fn against(entry: &PdoEntry, direction: Direction, item: &Item, diagnostics: &mu
         None
     };
     if let Some((code, problem)) = problem {
-        let message = format!("0x{:04X} sub-index {:#x} {problem}", entry.index, entry.sub_index);
+        let message = format!("{} {problem}", sub_entry(entry.index, entry.sub_index));
         diagnostics.push(code.at(entry.origin.span, message).note_at(item.origin.span, "the mapped object"));
     }
 }

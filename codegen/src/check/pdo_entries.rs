@@ -4,6 +4,7 @@ use super::context::PdoOwner;
 use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{stated, Item, Pdo, PdoEntry, PdoEntryKind};
+use crate::number::hex16;
 use crate::resolve::address;
 use crate::source::Span;
 use crate::text::count_of;
@@ -30,7 +31,7 @@ pub(super) fn check(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 }
 
 fn duplicate(pdo: &Pdo, first: Span) -> Diagnostic {
-    let message = format!("two PDOs have the index 0x{:04X}", pdo.mapping_index);
+    let message = format!("two PDOs have the index {}", hex16(pdo.mapping_index));
     codes::DUPLICATE_PDO.at(pdo.origin.span, message).label("both are kept").note_at(first, "first PDO with this index")
 }
 

@@ -4,6 +4,7 @@ use super::context::{Context, PdoOwner};
 use super::mapped_object::{pdo_name, wrong_direction, CAN_BITS};
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Access, CanOpenSettings, Direction, Group, Item, Type, Value};
+use crate::number::{hex16, sub_entry};
 use crate::resolve::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };
@@ -28,8 +29,8 @@ pub(super) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
 pub(super) fn lengths(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &owner.data.pdos {
         for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > crate::limits::MAX_FIELD_BITS) {
-            let (index, bits, max) = (pdo.mapping_index, entry.bits, crate::limits::MAX_FIELD_BITS);
-            let message = format!("an entry of the PDO 0x{index:04X} has {bits} bits, but at most {max} are possible");
+            let (index, bits, max) = (hex16(pdo.mapping_index), entry.bits, crate::limits::MAX_FIELD_BITS);
+            let message = format!("an entry of the PDO {index} has {bits} bits, but at most {max} are possible");
             diagnostics
                 .push(codes::ENTRY_TOO_LONG.at(entry.origin.span, message).label("no struct is generated for the PDO"));
         }
@@ -54,9 +55,8 @@ impl Mapping<'_, '_> {
         }
         let bits = self.values(mapping, objects.mapping_index());
         if bits > CAN_BITS {
-            let index = objects.mapping_index();
-            let message =
-                format!("the mapping 0x{index:04X} has {bits} bits, but a CAN frame carries at most 64 data bits");
+            let index = hex16(objects.mapping_index());
+            let message = format!("the mapping {index} has {bits} bits, but a CAN frame carries at most 64 data bits");
             self.report(&codes::PDO_TOO_LONG, mapping.origin.span, message);
         }
     }
@@ -71,7 +71,7 @@ impl Mapping<'_, '_> {
             (None, Some(present)) => (present, objects.index, "communication parameters"),
             _ => return,
         };
-        let message = format!("the PDO has no {what}: 0x{missing:04X} is not described");
+        let message = format!("the PDO has no {what}: {} is not described", hex16(missing));
         self.report(&codes::HALF_A_PDO, present.origin.span, message);
     }
 
@@ -83,7 +83,7 @@ impl Mapping<'_, '_> {
                 MappingWord::Object(.., length) => {
                     if let Some(gap) = gap.take() {
                         let message =
-                            format!("an entry of the mapping 0x{index:04X} is empty, but later entries are not");
+                            format!("an entry of the mapping {} is empty, but later entries are not", hex16(index));
                         self.report(&codes::MAPPING_GAP, gap, message);
                     }
                     self.object(&value);
@@ -135,7 +135,7 @@ impl Mapping<'_, '_> {
             Some(item) => self.mapped(item, (index, sub_index, bits), span),
             None if self.items.is_extended(index) => {}
             None => {
-                let message = format!("0x{index:04X} sub-index {sub_index:#x} is mapped, but not described");
+                let message = format!("{} is mapped, but not described", sub_entry(index, sub_index));
                 self.report(&codes::MAPPED_OBJECT_MISSING, span, message);
             }
         }
@@ -155,16 +155,16 @@ impl Mapping<'_, '_> {
 
     fn dummy(&mut self, index: u16, span: Span) {
         if self.direction == Direction::Transmit {
-            self.report(&codes::DUMMY_IN_TPDO, span, format!("a TPDO maps the dummy entry 0x{index:04X}"));
+            self.report(&codes::DUMMY_IN_TPDO, span, format!("a TPDO maps the dummy entry {}", hex16(index)));
         } else if self.canopen.dummies_given && !self.canopen.dummies.contains(&(index as u8)) {
-            let message = format!("the dummy entry 0x{index:04X} is mapped, but [DummyUsage] does not allow it");
+            let message = format!("the dummy entry {} is mapped, but [DummyUsage] does not allow it", hex16(index));
             self.report(&codes::DUMMY_NOT_SUPPORTED, span, message);
         }
     }
 
     fn mapped(&mut self, item: &Item, mapped: (u16, u8, u32), span: Span) {
         let (index, sub_index, bits) = mapped;
-        let object = format!("0x{index:04X} sub-index {sub_index:#x}");
+        let object = sub_entry(index, sub_index);
         if !item.mappable.any() {
             self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
         }

@@ -8,6 +8,7 @@ use super::limits::beyond;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{reserved, Owner};
 use crate::ir::{stated, Device, Item, ItemRef, Procedure, Step, Value};
+use crate::number::{hex, hex16};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -51,9 +52,9 @@ fn problems(owner: Owner<'_>, device: &Device, step: &Step) -> Vec<String> {
     let outside = |name: &str, mask: u64, value: &Value| {
         let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
         outside.then(|| {
+            let (name, mask) = (brief(name), hex(mask));
             format!(
-                "has the value {value} for `{}` with the mask {mask:#X}, but {value} has bits outside of this mask",
-                brief(name)
+                "has the value {value} for `{name}` with the mask {mask}, but {value} has bits outside of this mask"
             )
         })
     };
@@ -80,7 +81,7 @@ fn shown(item: Option<&Item>, value: &Value) -> String {
     let object = item.and_then(Item::object);
     let is_entry = matches!(object, Some((0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C12 | 0x1C13, 1..)));
     match value {
-        Value::Int(number) if *number > 0xFFFF || (is_entry && *number > 0xFF) => format!("{number:#X}"),
+        Value::Int(number) if *number > 0xFFFF || (is_entry && *number > 0xFF) => hex(*number),
         _ => value.to_string(),
     }
 }
@@ -129,9 +130,9 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
             }
             (index @ (0x1400..=0x15FF | 0x1800..=0x19FF), 1) => {
                 if let Some(other) = owner_of_cob_id(device, index, value) {
-                    let (cob_id, other) = (format!("{value:#X}"), format!("0x{other:04X}"));
+                    let (cob_id, index, other) = (hex(value), hex16(index), hex16(other));
                     let message = format!(
-                        "the procedure `{name}` writes the COB-ID {cob_id} to 0x{index:04X}, but {other} already has this COB-ID"
+                        "the procedure `{name}` writes the COB-ID {cob_id} to {index}, but {other} already has this COB-ID"
                     );
                     diagnostics.push(codes::STEP_IMPOSSIBLE.at(span, message));
                 }
@@ -142,7 +143,7 @@ fn assignments(device: &Device, procedure: &Procedure, diagnostics: &mut Diagnos
     for (index, span) in mapped {
         let assigned = &assigned_to[usize::from(index >= 0x1A00)];
         if !assigned.is_empty() && !assigned.contains(&i128::from(index)) {
-            let message = format!("the procedure `{name}` maps the PDO 0x{index:04X}, but assigns other PDOs");
+            let message = format!("the procedure `{name}` maps the PDO {}, but assigns other PDOs", hex16(index));
             diagnostics.push(codes::MAPPED_NOT_ASSIGNED.at(span, message));
         }
     }
@@ -153,7 +154,7 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
         device.object(index).is_some() || device.process_data.pdos.iter().any(|pdo| pdo.mapping_index == index)
     };
     if value != 0 && !u16::try_from(value).is_ok_and(described) {
-        let message = format!("the PDO 0x{value:04X} is assigned, but not described");
+        let message = format!("the PDO {} is assigned, but not described", hex16(value));
         diagnostics.push(codes::ASSIGNED_PDO_MISSING.at(span, message));
     }
 }

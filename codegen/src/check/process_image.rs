@@ -4,6 +4,7 @@ use super::context::{Context, PdoOwner};
 use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{DefaultAssignment, Pdo, ProcessData, SyncManager, MAX_PDO_SUBS};
+use crate::number::hex16;
 use crate::text::count_of;
 
 /// Reports PDOs whose sync manager is not described, and PDOs that are assigned by default but exclude each other. Also
@@ -25,7 +26,8 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
     for pdo in &data.pdos {
         let missing = pdo.excludes.iter().find(|index| !known.contains(index));
         if let Some(index) = missing {
-            let message = format!("the PDO 0x{:04X} excludes 0x{index:04X}, which is not described", pdo.mapping_index);
+            let (pdo_index, index) = (hex16(pdo.mapping_index), hex16(*index));
+            let message = format!("the PDO {pdo_index} excludes {index}, which is not described");
             diagnostics.push(codes::EXCLUDED_PDO_MISSING.at(pdo.origin.span, message));
         }
     }
@@ -34,7 +36,7 @@ pub(super) fn excluded(owner: &PdoOwner<'_>, diagnostics: &mut Diagnostics) {
 fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnostics) {
     let Some(number) = pdo.sync_manager.filter(|&number| !data.has_sync_manager(number)) else { return };
     let message =
-        format!("the PDO 0x{:04X} is assigned to sync manager {number}, which is not described", pdo.mapping_index);
+        format!("the PDO {} is assigned to sync manager {number}, which is not described", hex16(pdo.mapping_index));
     diagnostics
         .push(codes::NO_SUCH_SYNC_MANAGER.at(pdo.origin.span, message).label("left out of the default process image"));
 }
@@ -42,9 +44,8 @@ fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnost
 fn conflicts(by_default: &DefaultAssignment, diagnostics: &mut Diagnostics) {
     // PDOs that share an index are left out here, because the lint `pdo-entries` reports them.
     for (pdo, other) in by_default.left_out.iter().filter(|(pdo, other)| other.mapping_index != pdo.mapping_index) {
-        let (first, second) = (other.mapping_index, pdo.mapping_index);
-        let message =
-            format!("the PDOs 0x{first:04X} and 0x{second:04X} are both assigned by default, but exclude each other");
+        let (first, second) = (hex16(other.mapping_index), hex16(pdo.mapping_index));
+        let message = format!("the PDOs {first} and {second} are both assigned by default, but exclude each other");
         let found = codes::DEFAULT_PDOS_CONFLICT.at(pdo.origin.span, message);
         let found = found.label("left out of the default process image");
         diagnostics.push(found.note_at(other.origin.span, "used in the default process image"));

@@ -1,8 +1,8 @@
 //! Built-in submodules of a PROFINET module or device: duplicate subslots.
 
 use crate::diagnostics::{codes, Diagnostics};
-use crate::facts::number::hex16;
 use crate::ir::{Catalog, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse};
+use crate::number::hex16;
 
 pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let of_devices = catalog.devices.iter().map(|device| &device.submodules);

@@ -1,9 +1,9 @@
 //! Addresses of items on each bus.
 
-use super::number::hex16;
 use super::register;
 use super::words::bus_name;
 use crate::ir::{Binding, Item, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
+use crate::number::{self, hex16};
 
 /// An address of an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,7 +66,7 @@ pub fn table(space: RegisterSpace) -> &'static str {
 /// 0x0001 bit 8`.
 pub fn number(binding: &Binding) -> String {
     match binding {
-        Binding::Object { index, sub_index, .. } => object(*index, *sub_index),
+        Binding::Object { index, sub_index, .. } => number::object(*index, *sub_index),
         Binding::Register(register) => {
             let bit = register.bit_offset.map(|bit| format!(".{bit}")).unwrap_or_default();
             format!("{} {}{bit}", table(register.space), register::wire_address(register.address))
@@ -78,11 +78,6 @@ pub fn number(binding: &Binding) -> String {
         Binding::EscMemory { address, .. } => format!("memory {}", hex16(*address)),
         Binding::Indirect(window) => format!("{} {}", window.space, hex16(window.number)),
     }
-}
-
-/// Returns index and sub-index: `0x6040:00`.
-pub fn object(index: u16, sub_index: u8) -> String {
-    format!("{}:{sub_index:02X}", hex16(index))
 }
 
 /// Returns the bus or buses of an address. For an address that is not specific to a bus, returns the kind of address.

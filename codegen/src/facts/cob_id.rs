@@ -1,7 +1,7 @@
 //! COB-IDs: identifiers of CAN frames with flags (CiA 301, 7.5.2.5 and 7.5.2.35).
 
-use super::number::hex;
 use crate::ir::{Direction, Item, Value};
+use crate::number::hex;
 
 /// Bits 31 and 30, whose meaning depends on the object.
 const BIT_31: u32 = 1 << 31;

@@ -1,8 +1,8 @@
 //! Titles, families and buses of devices, and modules that slots accept.
 
-use super::number::hex32;
 use super::words::bus_names;
 use crate::ir::{Bus, Catalog, Device, Fit};
+use crate::number::hex32;
 
 /// Returns the title of a device: its name, product name, order code or identifier. The text is empty if the description contains
 /// none of these texts.

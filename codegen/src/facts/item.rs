@@ -1,6 +1,5 @@
 //! Name, default value, range, unit and PDO mapping of an item.
 
-use super::number::hex;
 use super::physical::{shown_unit, Physical};
 use super::types;
 use super::words::PLAIN;
@@ -9,6 +8,7 @@ use crate::ir::{
     BitFieldEntry, BitMeaning, EnumValue, Group, Item, Limits, Mappable, ObjectCode, Quantity, Scale, Shape, Type,
     TypeDef, Value,
 };
+use crate::number::hex;
 
 /// Returns the name of an item. Many files state no name, or only a placeholder such as `SubIndex 001`. In this case, sub-index 0
 /// is called `Number of entries` (CiA 301). Other sub-indices are called by object and sub-index: `RxPDO 1 mapping, sub-index 1`.

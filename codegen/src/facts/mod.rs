@@ -13,7 +13,6 @@
 //! | `item` | default value, range, unit and PDO mapping of an item |
 //! | `machine` | fault states and energized states of state machines |
 //! | `markdown` | texts in Markdown |
-//! | `number` | numbers in hexadecimal notation |
 //! | `pattern` | bit patterns of states and commands |
 //! | `pdo` | names of PDOs on CANopen and EtherCAT, and what they can map |
 //! | `physical` | physical values with raw values |
@@ -35,7 +34,6 @@ pub mod item;
 pub mod machine;
 pub mod markdown;
 pub mod mentions;
-pub mod number;
 pub mod pattern;
 pub mod pdo;
 pub mod physical;

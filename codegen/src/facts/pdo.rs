@@ -1,11 +1,11 @@
 //! PDOs: names (by number on CANopen, by index on EtherCAT), changeable mappings, and objects that can be mapped.
 
-use super::number::hex16;
 use super::types;
 use crate::collections::HashMap;
 use crate::ir::{
     Coe, Device, Direction, Group, Item, Mappable, ObjectBuses, Pdo, PdoEntryKind, Type, TypeDef, MAX_PDO_SUBS,
 };
+use crate::number::hex16;
 
 /// Maximum length in bits of a mapped entry. A mapping value has 8 bits for the length of the entry.
 pub const MAX_ENTRY: u32 = 0xFF;

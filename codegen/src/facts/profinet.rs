@@ -1,10 +1,10 @@
 //! Facts about device access points of PROFINET: slots, cycle times, redundancy and lengths of data.
 
-use super::number::{hex16, ranges};
 use crate::ir::{
     Catalog, CompactString, Device, Numbers, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind,
     SubmoduleUse,
 };
+use crate::number::{hex16, ranges};
 
 /// Names and values of facts.
 pub type NamedFacts = Vec<(&'static str, String)>;
@@ -34,7 +34,7 @@ fn times(units: &Numbers) -> String {
     if units.is_empty() {
         return String::new();
     }
-    format!("{} ms", ranges(units, milliseconds))
+    format!("{} ms", ranges(&units.0, milliseconds))
 }
 
 /// Returns the first interface submodule of an access point, or `None` if it has no interface.
@@ -63,7 +63,7 @@ fn numbers(list: &str) -> Numbers {
 }
 
 fn slots(settings: &ProfinetSettings) -> NamedFacts {
-    let shown = |numbers: &Numbers| ranges(numbers, |slot| slot.to_string());
+    let shown = |numbers: &Numbers| ranges(&numbers.0, |slot| slot.to_string());
     let places = [(&settings.places.fixed, ""), (&settings.places.allowed, "possible in ")];
     let places = places.into_iter().filter(|(numbers, _)| !numbers.is_empty());
     let places: Vec<String> = places.map(|(numbers, text)| format!("{text}{}", shown(numbers))).collect();
@@ -72,7 +72,7 @@ fn slots(settings: &ProfinetSettings) -> NamedFacts {
 
 fn cycle_times(settings: &ProfinetSettings, interface: Option<&Submodule>) -> NamedFacts {
     let of_interface = |key| interface.map_or("", |interface| attribute(&interface.attributes, key));
-    let ratios = |numbers: &Numbers| ranges(numbers, |ratio| ratio.to_string());
+    let ratios = |numbers: &Numbers| ranges(&numbers.0, |ratio| ratio.to_string());
     let classes = match of_interface("SupportedRT_Classes") {
         "" => of_interface("SupportedRT_Class"),
         classes => classes,
@@ -196,9 +196,7 @@ impl Places {
         match self.0.as_slice() {
             [] => format!("of {element}"),
             [(first, last)] if first == last => number(*first),
-            places => {
-                format!("of {element} ({})", ranges(&Numbers(places.iter().copied().collect()), number))
-            }
+            places => format!("of {element} ({})", ranges(places, number)),
         }
     }
 }

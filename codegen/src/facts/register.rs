@@ -1,7 +1,7 @@
 //! Addresses on Modbus: printed addresses and wire addresses.
 
-use super::number::hex16;
 use crate::ir::{Bus, Item, ModbusTable, RegisterBinding, RegisterSpace};
+use crate::number::hex16;
 
 impl RegisterSpace {
     /// Returns the name of the Modbus table.

@@ -1,8 +1,8 @@
 //! Types of values: basic types, and names of types in tables.
 
-use super::number::hex;
 use crate::ir::owner::Owner;
 use crate::ir::{Type, TypeDef, TypeId};
+use crate::number::hex;
 
 /// Returns the basic type of a type. The basic type of an array or record is an opaque type.
 pub fn basic(types: &[TypeDef], ty: Type) -> Type {

@@ -1,13 +1,13 @@
 //! Sentences about elements of the IR for all kinds of documentation.
 
-use super::number::{hex, hex16, ALLOWED_SHOWN};
+use crate::facts::cob_id;
 use crate::facts::physical::{self, depends_on_node, shown_unit, Physical};
-use crate::facts::{address, cob_id};
 use crate::ir::{
     Access, Availability, Behavior, Binding, Bus, Buses, CiteUnit, CompactString, Condition, Device, Direction,
     Documentation, Doubt, ElementId, Fact, FactOrigin, FactOrigins, Group, Identity, Item, ItemVariant, Limits,
     LocalText, Manual, Quantity, Reference, Rule, Scale, Severity, Shape, Step, Storage, TypeDef, Value,
 };
+use crate::number::{self, hex, hex16, ALLOWED_SHOWN};
 
 /// Writes sentences in the format of an output. All texts of the source are escaped.
 #[derive(Clone, Copy)]
@@ -245,7 +245,7 @@ impl Words<'_> {
         }
         sentences.extend(behavior.srdo.map(|srdo| match srdo.inverted {
             Some((index, sub)) => {
-                format!("Mappable into SRDOs. The inverted data are in {}.", address::object(index, sub))
+                format!("Mappable into SRDOs. The inverted data are in {}.", number::object(index, sub))
             }
             None => "Mappable into SRDOs.".to_owned(),
         }));

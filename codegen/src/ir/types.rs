@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{Access, Availability, CompactString, Documentation, Doubts, FactOrigin, ItemRef, Mark, Texts, Value};
+use crate::number::hex16;
 use crate::source::Origin;
 
 /// The type of an item: a basic type, or a reference to a [`TypeDef`] of the item's device, module or catalog.
@@ -201,7 +202,7 @@ impl fmt::Display for Type {
             Type::TimeDifference => f.write_str("TIME_DIFFERENCE"),
             Type::Domain => f.write_str("DOMAIN"),
             Type::Time(format) => f.write_str(format.name()),
-            Type::Opaque(Some(code)) => write!(f, "type {code:#06X}"),
+            Type::Opaque(Some(code)) => write!(f, "type {}", hex16(*code)),
             Type::Opaque(None) => f.write_str("unknown type"),
             Type::Named(TypeId(id)) => write!(f, "type #{id}"),
         }

@@ -1,5 +1,6 @@
 //! Values, limits of values, and reasons why limits exclude a value.
 
+use crate::number::hex;
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -82,7 +83,7 @@ impl fmt::Display for Value {
             Value::Bytes(bytes) => bytes.iter().try_for_each(|byte| write!(f, "{byte:02X}")),
             Value::NodeId(0) => write!(f, "$NODEID"),
             Value::NodeId(offset @ ..0) => write!(f, "$NODEID+{offset}"),
-            Value::NodeId(offset) => write!(f, "$NODEID+{offset:#X}"),
+            Value::NodeId(offset) => write!(f, "$NODEID+{}", hex(*offset)),
             Value::Time { milliseconds, days } => write!(f, "{days} d {milliseconds} ms"),
             Value::Raw(text) => write!(f, "`{text}`"),
         }

@@ -3,6 +3,7 @@
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{CompactString, Device, Entries, Item, Module, Pdo, PdoEntry, PdoEntryKind, Type, TypeDef};
+use crate::number::sub_entry;
 
 /// Sets the bit positions and types of a device's PDO entries.
 pub(super) fn device(device: &mut Device, diagnostics: &mut Diagnostics) {
@@ -73,7 +74,7 @@ pub(super) fn entry_name(item: &Item) -> CompactString {
 
 /// Returns the index and sub-index of an entry as text for diagnostics.
 pub(crate) fn address(entry: &PdoEntry) -> String {
-    format!("0x{:04X} sub-index {:#x}", entry.index, entry.sub_index)
+    sub_entry(entry.index, entry.sub_index)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Arguments that select a single device or module of a file.
 
 use crate::collections::HashMap;
-use crate::facts::number::hex32;
+use crate::number::hex32;
 
 use super::{device_names, module_names, number, DeviceFilter};
 use crate::ir::{Device, Module};

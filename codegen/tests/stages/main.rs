@@ -5,5 +5,6 @@ mod corpus_support;
 
 mod builder;
 mod levels;
+mod numbers;
 mod origins;
 mod profiles;

@@ -88,7 +88,7 @@ fn written(parameter: &Parameter<'_>, value: &Value) -> String {
         Value::NodeId(_) => quoted(&value.to_string()),
         other => {
             let bytes = parameter.encode(other, None).unwrap_or_default();
-            quoted(&lexibus_codegen::facts::number::bytes(&bytes))
+            quoted(&lexibus_codegen::number::bytes(&bytes))
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Events of emergency messages.
 
 use lexibus::Emergency;
-use lexibus_codegen::facts::number::{bytes, hex16, hex8};
 use lexibus_codegen::ir::CodeRow;
+use lexibus_codegen::number::{bytes, hex16, hex8};
 
 use super::event::{Event, EventKind};
 use crate::description::Description;

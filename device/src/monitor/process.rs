@@ -81,7 +81,7 @@ impl Field<'_> {
             _ => self.parameter.decode(&bytes),
         };
         let value = match value {
-            Some(Value::Bytes(_)) | None => lexibus_codegen::facts::number::bytes(&bytes),
+            Some(Value::Bytes(_)) | None => lexibus_codegen::number::bytes(&bytes),
             Some(value) => self.parameter.text(&value),
         };
         Some(Named { address: self.parameter.address_text(), name: self.parameter.name(), value })

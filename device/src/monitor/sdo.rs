@@ -39,9 +39,9 @@ pub(super) fn event(interpreter: &mut Interpreter<'_>, frame: &CanFrame) -> Opti
         (_, None) => String::new(),
         (Some(parameter), Some(bytes)) => match parameter.decode(bytes) {
             Some(value) => parameter.text(&value),
-            None => lexibus_codegen::facts::number::bytes(bytes),
+            None => lexibus_codegen::number::bytes(bytes),
         },
-        (None, Some(bytes)) => lexibus_codegen::facts::number::bytes(bytes),
+        (None, Some(bytes)) => lexibus_codegen::number::bytes(bytes),
     };
     let name = parameter.map_or_else(String::new, |parameter| format!(" {}", parameter.path()));
     let (text, values) = match shown.as_str() {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lexibus_codegen::facts::address;
+use lexibus_codegen::number;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -115,7 +115,7 @@ impl Finding {
 
     /// Creates a finding of the kind `Extra` about an object or sub-index that the description doesn't declare.
     pub(super) fn of_object(index: u16, sub_index: u8, message: impl Into<String>) -> Self {
-        Self::new(FindingKind::Extra, address::object(index, sub_index), String::new(), message.into())
+        Self::new(FindingKind::Extra, number::object(index, sub_index), String::new(), message.into())
     }
 
     /// Creates a finding about a fact of the whole device.

@@ -1,10 +1,10 @@
 //! Checks of one parameter: presence, access, length, value.
 
 use lexibus::AbortCode;
-use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::facts::pdo;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Access, Identity, Type, Value};
+use lexibus_codegen::number::hex32;
 
 use super::finding::{Finding, FindingKind, Found};
 use super::session::{unverifiable, Run};
@@ -117,7 +117,7 @@ fn check_bytes<C: Connection>(run: &mut Run<'_, C>, parameter: &Parameter<'_>, b
         return;
     }
     let Some(value) = parameter.decode(bytes) else {
-        let actual = lexibus_codegen::facts::number::bytes(bytes);
+        let actual = lexibus_codegen::number::bytes(bytes);
         run.add(different(parameter, "value").compared(ty.with_length(), actual));
         return;
     };

@@ -1,7 +1,8 @@
 //! Check of PDO mappings (CiA 301 7.5.2.36 and 7.5.2.38).
 
-use lexibus_codegen::facts::{address, pdo};
+use lexibus_codegen::facts::pdo;
 use lexibus_codegen::ir::{Direction, Group, Value};
+use lexibus_codegen::number;
 
 use super::finding::{Finding, FindingKind};
 use super::session::Run;
@@ -22,7 +23,7 @@ impl Entry {
     }
 
     fn text(self) -> String {
-        format!("{} ({} bits)", address::object(self.index, self.sub_index), self.bits)
+        format!("{} ({} bits)", number::object(self.index, self.sub_index), self.bits)
     }
 }
 

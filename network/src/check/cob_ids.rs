@@ -1,6 +1,6 @@
 //! CAN-IDs that two senders use, and CAN-IDs that no PDO or service can use.
 
-use lexibus_codegen::facts::number::hex;
+use lexibus_codegen::number::hex;
 use std::collections::{BTreeMap, HashSet};
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};

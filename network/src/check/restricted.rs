@@ -1,6 +1,6 @@
 //! CAN-IDs that no configurable COB-ID can have.
 
-use lexibus_codegen::facts::number::hex;
+use lexibus_codegen::number::hex;
 use std::ops::RangeInclusive;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
@@ -37,8 +37,8 @@ pub(super) fn fault(cob_id: u32, name: &str, span: Span) -> Option<Diagnostic> {
     }
     let (range, owner) = RESTRICTED.iter().find(|(range, _)| range.contains(&can_id))?;
     let ids = match (range.start(), range.end()) {
-        (first, last) if first == last => format!("0x{first:03X}"),
-        (first, last) => format!("0x{first:03X} to 0x{last:03X}"),
+        (first, last) if first == last => hex(*first),
+        (first, last) => format!("{} to {}", hex(*first), hex(*last)),
     };
     Some(found("choose another COB-ID").label(format!("CiA 301 reserves {ids} for {owner}")))
 }

@@ -1,9 +1,9 @@
 //! The PDO assignment of a SubDevice.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::title;
 use lexibus_codegen::ir::{Device, Direction, ObjectBuses, Pdo, ProcessData, SyncManagerPurpose};
+use lexibus_codegen::number::hex16;
 use lexibus_codegen::source::Span;
 use lexibus_codegen::text::similar;
 

@@ -1,8 +1,8 @@
 //! The modules in the slots of a modular SubDevice.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{Binding, Catalog, Device, Fit, Group, GroupKind, Module, Slot};
+use lexibus_codegen::number::hex32;
 use lexibus_codegen::source::Span;
 use lexibus_codegen::text::similar;
 

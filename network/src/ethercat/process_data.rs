@@ -1,9 +1,9 @@
 //! The process data of a SubDevice: PDOs of the device, PDOs of its modules, and padding in front of groups of modules.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::MAX_ENTRY;
 use lexibus_codegen::ir::{self, Device, Direction, Pdo, MAX_PDO_SUBS};
+use lexibus_codegen::number::hex16;
 use lexibus_codegen::source::Span;
 
 use super::assignment::{assignable, direction, sync_manager, Assigned};

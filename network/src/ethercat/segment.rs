@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use lexibus_codegen::facts::number;
 use lexibus_codegen::ir::{Device, Direction};
+use lexibus_codegen::number;
 use serde::{Serialize, Serializer};
 
 use crate::description::Description;

@@ -4,9 +4,10 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 
 use lexibus_codegen::facts::physical::shown_unit;
-use lexibus_codegen::facts::{address, types};
+use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
 use lexibus_codegen::ir::{Direction, Item, Scale, Type, Value};
+use lexibus_codegen::number;
 
 use super::dbc_names::{Name, Names, MASTER};
 use super::dbc_text::{encoded, text};
@@ -168,7 +169,7 @@ fn mapped_type(ty: Type, bits: u8) -> Type {
 }
 
 fn comment(item: &Item, entry: &MappedObject) -> String {
-    let address = address::object(entry.index, entry.sub_index);
+    let address = number::object(entry.index, entry.sub_index);
     match item.documentation.as_ref().map(|documentation| documentation.text.as_str()) {
         Some(text) if !text.is_empty() => format!("{address} {}: {text}", item.name),
         _ => format!("{address} {}", item.name),

@@ -6,6 +6,7 @@ use lexibus_codegen::backend::rust::{emit_catalog, RustOptions};
 use lexibus_codegen::facts::configuration::Setting;
 use lexibus_codegen::ir::Bus;
 use lexibus_codegen::names::{unique, Case, NameRequest};
+use lexibus_codegen::number::hex32;
 use lexibus_codegen::source::Source;
 
 use super::configured::node_catalog;
@@ -159,7 +160,7 @@ fn boot(network: &Network, named: &Named<'_>) -> String {
         ("serial_number", serial),
     ];
     for (method, number) in numbers.into_iter().filter(|(_, number)| *number != 0) {
-        call(method, format!("0x{number:08X}"));
+        call(method, hex32(number));
     }
     for (method, version) in ["hardware_version", "software_version"].into_iter().zip(&node.versions) {
         version.iter().for_each(|version| call(method, format!("{version:?}")));

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use lexibus_codegen::facts::number::{hex16, hex32, hex8};
 use lexibus_codegen::ir::Direction;
 use lexibus_codegen::names::{unique, Case, NameRequest};
+use lexibus_codegen::number::{hex16, hex32, hex8};
 
 use super::rust_text::{one_line, HEADER};
 use crate::ethercat::{

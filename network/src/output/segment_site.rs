@@ -1,7 +1,7 @@
 //! Documentation of an EtherCAT segment: the pages of each SubDevice's device, and the page of the segment.
 
-use lexibus_codegen::facts::number::{bytes, hex16, hex32, hex8};
-use lexibus_codegen::facts::{address, words};
+use lexibus_codegen::facts::words;
+use lexibus_codegen::number::{self, bytes, hex16, hex32, hex8};
 use lexibus_codegen::text::count_of;
 use lexibus_site::segment::{self, Table};
 use lexibus_site::{Page, Site};
@@ -154,7 +154,7 @@ fn enabled(enable: bool, op_only: bool) -> String {
 fn startup(subdevice: &SubDevice) -> Table {
     let row = |command: &StartupCommand| {
         let StartupCommand { transition, index, sub_index, complete_access, data } = command;
-        let object = address::object(*index, *sub_index);
+        let object = number::object(*index, *sub_index);
         let (object, entry) = match complete_access {
             true => (format!("{object} (complete access)"), None),
             false => (object, Some(*sub_index)),

@@ -1,7 +1,7 @@
 //! COB-IDs of the PDOs that a file declares. An RPDO can receive a PDO of any other node, so the COB-IDs of all nodes are computed
 //! before the nodes are resolved.
 
-use lexibus_codegen::facts::number::hex;
+use lexibus_codegen::number::hex;
 use std::collections::{HashMap, HashSet};
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};

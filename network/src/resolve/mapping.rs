@@ -1,9 +1,9 @@
 //! Objects that a PDO cannot map.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::{mappable, mapped_bits, mapped_objects};
 use lexibus_codegen::ir::{Bus, Direction, Item, Type};
+use lexibus_codegen::number::written_object;
 use lexibus_codegen::source::Span;
 
 use super::value::basic_type;
@@ -35,7 +35,8 @@ fn fault(node: &NetworkNode, pdo: &NetworkPdo, entry: MappedObject, span: Span) 
     let found =
         |message: String, label: String| Some(Diagnostic::new(&codes::UNMAPPABLE_OBJECT, span, message).label(label));
     let Some(item) = node.item(object) else {
-        let message = format!("{} of `{}` maps object {}:{}", pdo.title(), node.name.value, hex16(object.0), object.1);
+        let message =
+            format!("{} of `{}` maps object {}", pdo.title(), node.name.value, written_object(object.0, object.1));
         return found(message, "the description has no such object".to_owned());
     };
     let device = node.device();

@@ -1,8 +1,8 @@
 //! Looks up objects of a device by address or name.
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Device, Group, Item};
+use lexibus_codegen::number::{hex16, written_object};
 use lexibus_codegen::text::similar;
 
 use crate::declared::ObjectName;
@@ -31,7 +31,7 @@ pub(crate) fn find<'d>(
 pub(crate) fn address((index, sub_index): (u16, u8)) -> String {
     match sub_index {
         0 => hex16(index),
-        sub_index => format!("{}:{sub_index}", hex16(index)),
+        sub_index => written_object(index, sub_index),
     }
 }
 

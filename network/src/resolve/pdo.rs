@@ -1,9 +1,9 @@
 //! Writes the values that configure the PDOs of a node (CiA 301 7.5.2.35 to 7.5.2.38).
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::facts::pdo::mapped_bits;
 use lexibus_codegen::ir::{CanOpenSettings, Direction, Type};
+use lexibus_codegen::number::hex16;
 use lexibus_codegen::source::Span;
 
 use super::cob_ids::CobIds;

@@ -28,7 +28,7 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
     losses::of_object(context, group, &mut writer.notes);
     writer.section(format_args!("{before}{index:04X}"));
     writer.name("ParameterName", &group.name, Subject::Object(index));
-    writer.entry("ObjectType", format_args!("{:#X}", number(code)).to_string().replace("0X", "0x"));
+    writer.entry("ObjectType", format_args!("{:#X}", number(code)));
     let refinements = out.refinements_of_missing();
     let can_be_compact = refinements.is_empty() && before.is_empty();
     match (out.single_value(), compact::elements(group).filter(|_| can_be_compact)) {

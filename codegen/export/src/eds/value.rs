@@ -57,7 +57,7 @@ fn left_out() -> Written {
 
 fn integer(value: &Value, ty: Type, role: Role, hex: bool) -> Written {
     let number = |value: i128| match hex && value >= 0 && !ty.is_signed() {
-        true => format!("{value:#X}").replace("0X", "0x"),
+        true => format!("{value:#X}"),
         false => value.to_string(),
     };
     match value {

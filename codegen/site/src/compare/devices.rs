@@ -12,11 +12,11 @@ use super::show::{index, Show};
 use super::texts::{documentation, doubts, extensions, manual, renamed};
 use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::number::hex;
 use lexibus_codegen::ir::{
     AxisRange, AxisRule, CanOpenSettings, Commissioning, Composite, Device, DynamicChannel, GivenNumber, Group, Header,
     MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
 };
+use lexibus_codegen::number::hex;
 
 /// Compares all facts and elements of a device.
 pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_>) {

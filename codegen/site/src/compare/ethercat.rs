@@ -3,12 +3,11 @@
 use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
 use super::show::{index, Show};
-use lexibus_codegen::facts::address;
-use lexibus_codegen::facts::number::{bytes, hex, hex16, hex32};
 use lexibus_codegen::ir::{
     ClockMode, ClockSyncManager, ClockTime, Coe, CompactString, DistributedClocks, Eeprom, EtherCatSettings, Fmmu,
     InitCommand, Mailbox, ModulePdoGroup, Protocol, SlotRules, SyncUnit,
 };
+use lexibus_codegen::number::{self, bytes, hex, hex16, hex32};
 
 pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(EtherCatSettings, old, new, comparison, {
@@ -111,7 +110,7 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
 /// Compares the start-up commands of the master. The commands are paired by their objects.
 pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
     let title =
-        |command: &InitCommand| format!("start-up write to {}", address::object(command.index, command.sub_index));
+        |command: &InitCommand| format!("start-up write to {}", number::object(command.index, command.sub_index));
     list(Elements::titled(title).judged(|_| Judgment::WIRE, |_| Judgment::WIRE), init_command)
 }
 

@@ -10,8 +10,8 @@ use super::pairing::{Key, Matching};
 use super::show::index;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::item::entry_name;
-use lexibus_codegen::facts::number::{bytes, hex, hex16};
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
+use lexibus_codegen::number::{bytes, hex, hex16};
 
 /// Compares groups and their items. An item that moved to another group is still compared with its old version.
 pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Comparison<'_>) {

@@ -4,8 +4,8 @@ use super::change::Judgment;
 use super::comparison::{compare_fields, fact_as, positioned, text, Comparison};
 use super::show::ident;
 use super::texts::origin;
-use lexibus_codegen::facts::number::hex32;
 use lexibus_codegen::ir::{CompactString, FactOrigin, Identity, IdentityNumber};
+use lexibus_codegen::number::hex32;
 
 /// Compares identities. A program can check the numbers of an identity, but they affect no other bytes on the bus.
 pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparison<'_>) {

@@ -10,12 +10,12 @@ use super::show::Show;
 use super::texts::{described, renamed};
 use super::types;
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::number::hex;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, Behavior, CompactString, Configured, Conversion, Item, ItemVariant, Limits, MachineUnit, Mappable,
     Quantity, Rare, RelatedItems, Scale, Srdo, Storage, TypeDef, Value,
 };
+use lexibus_codegen::number::hex;
 
 /// Compares all facts of an item.
 pub(super) fn compare(old: &Item, new: &Item, comparison: &mut Comparison<'_>) {

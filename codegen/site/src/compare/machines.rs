@@ -2,9 +2,9 @@
 
 use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, list, text, Comparison, Elements, COMPARED, KEY, POSITION};
-use lexibus_codegen::facts::number::hex;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
+use lexibus_codegen::number::hex;
 
 pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut Comparison<'_>) {
     compare_fields!(StateMachine, old, new, comparison, {

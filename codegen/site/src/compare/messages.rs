@@ -6,11 +6,11 @@ use super::conditions::{conditions, restricted};
 use super::item;
 use super::names::identifier;
 use super::texts::described;
-use lexibus_codegen::facts::number::{bytes, hex, hex8};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     CompactString, Completion, Framing, Message, MessageExample, MessageField, MessageValue, ParameterSpace,
 };
+use lexibus_codegen::number::{bytes, hex, hex8};
 
 pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Comparison<'_>) {
     let elements = Elements::titled(|message: &Message| format!("message {}", message.name))

@@ -8,15 +8,14 @@ use super::names::identifier;
 use super::pairing::{Key, Matching};
 use super::show::index;
 use super::types;
-use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::cob_id::{self, CobId};
-use lexibus_codegen::facts::number::hex8;
 use lexibus_codegen::facts::pdo::title;
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Direction, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, SyncManager,
     SyncManagerPurpose, Type, TypeDef, Value,
 };
+use lexibus_codegen::number::{self, hex8};
 
 /// Compares the cyclic data of a device or a module. `buses` are the buses of the objects.
 pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, comparison: &mut Comparison<'_>) {
@@ -227,7 +226,7 @@ fn kind_name(kind: PdoEntryKind) -> &'static str {
 /// Compares the lists of mapped objects.
 fn objects(old: &[PdoEntry], new: &[PdoEntry], comparison: &mut Comparison<'_>) {
     let objects = |entries: &[PdoEntry]| -> Vec<String> {
-        entries.iter().map(|entry| address::object(entry.index, entry.sub_index)).collect()
+        entries.iter().map(|entry| number::object(entry.index, entry.sub_index)).collect()
     };
     let (mut old, mut new) = (objects(old), objects(new));
     if old != new {

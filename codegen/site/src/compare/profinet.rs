@@ -10,14 +10,12 @@ use super::show::{index, Show};
 use super::slots::{compare_slots, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, pdos, types};
-use lexibus_codegen::facts::{
-    self,
-    number::{hex16, hex32},
-};
+use lexibus_codegen::facts;
 use lexibus_codegen::ir::{
     Catalog, FParameter, FParameters, Group, IoChannel, IoData, IoItem, IoLengths, Menu, ProfinetSettings, Submodule,
     SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
 };
+use lexibus_codegen::number::{hex16, hex32};
 
 pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, comparison: &mut Comparison<'_>) {
     compare_fields!(ProfinetSettings, old, new, comparison, {
@@ -37,7 +35,7 @@ pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, compariso
         places: fact("slots of the device access point", Judgment::BEHAVIOR),
         subslot_names: fact_as("names of subslots", Judgment::NONE, |list: &Vec<SubslotName>| subslot_names(list)),
         vendor_blocks: list(
-            Elements::titled(|block: &VendorBlock| format!("vendor block {:X}/{:04X}", block.api, block.identifier)),
+            Elements::titled(|block: &VendorBlock| format!("vendor block {}/{}", hex16(block.api), hex16(block.identifier))),
             vendor_block,
         ),
         attributes: fact("attributes", Judgment::BEHAVIOR),
@@ -181,7 +179,7 @@ pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], compariso
 pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosis>, &mut Comparison<'_>) {
     list(
         Elements::titled(|diagnosis: &UnitDiagnosis| {
-            format!("diagnosis {:X}/{:04X}", diagnosis.api, diagnosis.identifier)
+            format!("diagnosis {}/{}", hex16(diagnosis.api), hex16(diagnosis.identifier))
         }),
         diagnosis,
     )

@@ -1,12 +1,12 @@
 //! Formats values for reports.
 
 use lexibus_codegen::facts;
-use lexibus_codegen::facts::number::{hex, hex16, hex32};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{
     Access, AxisStep, Bus, Buses, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses,
     ObjectCode, Oversampling, Reference, SharedList, SlotNumbers, Trigger, Value, Zone,
 };
+use lexibus_codegen::number::{hex, hex16, hex32};
 
 /// Formats a value for reports. Different values must have different texts.
 pub(super) trait Show {

@@ -1,7 +1,7 @@
 //! Requests of an object: SDOs on CANopen, and the same services on EtherCAT.
 
 use super::{known, text, Frame, Request, Written, NODE};
-use lexibus_codegen::facts::number::hex16;
+use lexibus_codegen::number::hex16;
 
 /// The address of an object.
 pub(super) struct Object {

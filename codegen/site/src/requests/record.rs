@@ -2,8 +2,8 @@
 
 use super::{text, Frame, Request, Written};
 use lexibus_codegen::facts::address;
-use lexibus_codegen::facts::number::hex16;
 use lexibus_codegen::ir::{Bus, Item, TypeDef};
+use lexibus_codegen::number::hex16;
 
 /// Titles of the requests for records, in this order: address of a read request, address of a write request, and bytes of a
 /// write request.

@@ -12,9 +12,9 @@ use super::naming::types::{value_names, NamedType, View};
 use super::options::{Presence, RustOptions};
 use super::value_type::native;
 use crate::collections::HashSet;
-use crate::facts::number::hex;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Value};
 use crate::names::{self, Case, NameRequest};
+use crate::number::hex;
 
 /// A bit field, ready to be printed.
 pub(super) struct BitFieldModel {

@@ -8,9 +8,9 @@ use super::docs::WORDS;
 use super::options::RustOptions;
 use crate::collections::HashSet;
 use crate::facts::code;
-use crate::facts::number::hex;
 use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::names::{self, Case, NameRequest};
+use crate::number::hex;
 
 /// An enumeration of codes, ready to be printed.
 pub(super) struct CodeTypeModel {

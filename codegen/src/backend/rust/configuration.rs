@@ -3,10 +3,9 @@
 use super::code::{call, list, Doc};
 use super::literal;
 use super::options::RustOptions;
-use crate::facts::address;
 use crate::facts::configuration::{Configuration, LeftOut, Setting};
-use crate::facts::number::{hex16, hex8};
 use crate::ir::Device;
+use crate::number::{self, hex16, hex8};
 
 /// Maximum number of addresses that the documentation lists for each reason why objects are left out.
 const SHOWN: usize = 12;
@@ -52,7 +51,7 @@ fn of_description(device: &Device) -> Option<ConfigurationModel> {
 /// Returns a paragraph for each reason why configured objects are left out.
 fn left_out(list: &[((u16, u8), LeftOut)]) -> Vec<String> {
     let of_reason = |group: &[((u16, u8), LeftOut)]| {
-        let addresses = group.iter().take(SHOWN).map(|((index, sub_index), _)| address::object(*index, *sub_index));
+        let addresses = group.iter().take(SHOWN).map(|((index, sub_index), _)| number::object(*index, *sub_index));
         let more = group.len().saturating_sub(SHOWN);
         let more = (more > 0).then(|| format!("{more} more"));
         let addresses: Vec<String> = addresses.chain(more).collect();

@@ -6,8 +6,8 @@ use super::item_type::ItemType;
 use super::literal;
 use super::value_type::ValueType;
 use super::variant;
-use crate::facts::number::{hex16, hex8};
 use crate::ir::{Item, Value};
+use crate::number::{hex16, hex8};
 
 /// Default arguments, which the short constructors omit.
 const FULL: &str = "rt::Range::Full";

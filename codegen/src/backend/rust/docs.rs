@@ -6,13 +6,13 @@ use super::links::DocModule;
 use super::naming::handles::NamedItem;
 use super::variant;
 pub(super) use super::words::{escape, WORDS};
-use crate::facts::number::hex16;
 use crate::facts::physical::Physical;
 pub(super) use crate::facts::words::sentence;
 use crate::facts::words::Words;
 use crate::facts::words::{capital, row_of};
 use crate::facts::{self};
 use crate::ir::{Binding, Condition, Documentation, Doubt, ElementId, Item, Manual, Type, TypeId, Value};
+use crate::number::hex16;
 
 /// Returns a builder of sentences for doc comments. The sentences link to the elements that they mention.
 pub(super) fn linked(link: &dyn Fn(ElementId, &str) -> Option<String>) -> Words<'_> {

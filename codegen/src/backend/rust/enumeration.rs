@@ -1,7 +1,7 @@
 //! Enumerations: named values of an integer.
 
 use crate::collections::HashSet;
-use crate::facts::number::hex;
+use crate::number::hex;
 
 use super::context::Context;
 use super::doc_table;

@@ -3,8 +3,8 @@
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
 use super::naming::types::NamedType;
-use crate::facts::number::hex;
 use crate::ir::Type;
+use crate::number::hex;
 
 /// Number of bits in a word, that is, in the `u64` that contains encoded values.
 const WORD: u32 = 64;

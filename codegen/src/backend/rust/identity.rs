@@ -2,8 +2,8 @@
 
 use super::docs::WORDS;
 use super::literal;
-use crate::facts::number::hex32;
 use crate::ir::Device;
+use crate::number::hex32;
 
 /// Numbers and names of a device's identity as literals, ready to be printed.
 pub(super) struct IdentityModel {

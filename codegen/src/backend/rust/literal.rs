@@ -1,6 +1,6 @@
 //! Formats values as Rust literals. Texts are escaped, so that a quotation mark in a description cannot end a literal.
 
-use crate::facts::number::hex16;
+use crate::number::hex16;
 use std::fmt::Write;
 
 /// Returns a hexadecimal literal of a 32-bit number, with a separator between its two 16-bit halves: `0x6040_0010`.

@@ -1,7 +1,7 @@
 //! State machines: states that a status word encodes, and commands that a controlword encodes.
 
 use crate::collections::HashMap;
-use crate::facts::number::hex;
+use crate::number::hex;
 
 use super::bit_field::BitFieldModel;
 use super::context::Context;

@@ -9,10 +9,10 @@ use super::links::DocModule;
 use super::locations::Locations;
 use super::method_names::method_allow;
 use super::naming::handles::{self, HandleNames, NamedItem, NamedObject, NamedRegister};
-use crate::facts::number::hex16;
 use crate::facts::{area, register};
 use crate::ir::{Binding, Item, ObjectCode};
 use crate::names;
+use crate::number::hex16;
 
 /// An object or register, ready to be printed. An object becomes a module if it has sub-indices above 0 or several
 /// values. Other objects and registers become handles.

@@ -3,7 +3,7 @@
 
 use super::literal;
 use crate::collections::{HashMap, HashSet};
-use crate::facts::number::{hex, hex16, hex8};
+use crate::number::{self, hex, hex16, hex8};
 
 use super::code::{call, list, seq, Break, Data, Doc};
 use super::context::Context;
@@ -258,7 +258,7 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
     let kind = field_type(context, entry.ty, entry.bits);
     let ty = kind.path("super::");
     let cut = kind.cut(entry.bits);
-    let address = crate::facts::address::object(entry.index, entry.sub_index);
+    let address = number::object(entry.index, entry.sub_index);
     let object = match (entry.kind, entry.item.and_then(|id| context.links.path(id.into()))) {
         (PdoEntryKind::Unnumbered, _) => String::new(),
         (PdoEntryKind::Item, Some(path)) => DocModule::PDO.text(&address, path),

@@ -9,9 +9,9 @@ use super::links::DocModule;
 use super::literal;
 use super::pdo;
 use super::scope::ObjectBus;
-use crate::facts::number::{hex16, hex8};
 use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
 use crate::names::{self, Case};
+use crate::number::{hex16, hex8};
 
 /// A procedure, ready to be printed.
 pub(super) struct ProcedureModel {

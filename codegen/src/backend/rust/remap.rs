@@ -2,7 +2,7 @@
 
 use super::literal;
 use crate::collections::HashMap;
-use crate::facts::number::{hex, hex16};
+use crate::number::{hex, hex16};
 
 use super::code::{seq, slice, Doc};
 use super::context::Context;

@@ -1,8 +1,8 @@
 //! The route to an item on each bus: its Rust type, and the code that creates it.
 
 use super::code::{call, generic, seq, slice, Doc};
-use crate::facts::number::hex16;
 use crate::ir::{Bus, Limits, Value};
+use crate::number::hex16;
 
 /// The buses of a location, in the order of its fields. PROFINET records are not included because register tables
 /// cannot describe them.

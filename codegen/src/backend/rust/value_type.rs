@@ -2,8 +2,8 @@
 
 use super::code::{call, slice, Doc};
 use super::literal;
-use crate::facts::number::hex;
 use crate::ir::{Limits, Type, Value};
+use crate::number::hex;
 
 /// The Rust type of an item's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

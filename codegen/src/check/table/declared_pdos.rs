@@ -5,6 +5,7 @@ use crate::check::context::Context;
 use crate::check::mapped_object::{direction_of, Described, Mapped, CAN_BITS};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Group, Item, Pdo, PdoEntryKind};
+use crate::number::hex16;
 
 /// Reports PDO entries that contradict the mapped items, and PDOs that are too long. Other lints check the mapping
 /// objects of CANopen devices. For EtherCAT devices, missing objects and wrong lengths are already reported elsewhere.
@@ -29,10 +30,10 @@ fn length(device: &Device, pdo: &Pdo, diagnostics: &mut Diagnostics) {
     let (bits, index) = (pdo.bits(), pdo.mapping_index);
     let mut report = |message| diagnostics.push(codes::PDO_TOO_LONG.at(pdo.origin.span, message));
     if let Some(max) = pdo.max_bytes.map(|max| u32::from(max) * 8).filter(|&max| bits > max) {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, but at most {max} bits are allowed"));
+        report(format!("the PDO {} has {bits} bits, but at most {max} bits are allowed", hex16(index)));
     }
     if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
-        report(format!("the PDO 0x{index:04X} has {bits} bits, but a CAN frame carries at most 64 data bits"));
+        report(format!("the PDO {} has {bits} bits, but a CAN frame carries at most 64 data bits", hex16(index)));
     }
 }
 

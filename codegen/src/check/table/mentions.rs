@@ -6,6 +6,7 @@ use crate::check::context::Context;
 use crate::check::mapped_object::indices;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::texts;
+use crate::number::hex16;
 
 /// Indices of the first axis of a drive profile. Such an index in a text needs neither a sub-index nor the word `object` to be
 /// recognized.
@@ -19,7 +20,7 @@ pub(crate) fn check(context: &Context<'_>, diagnostics: &mut Diagnostics) {
     }
     for text in texts::all(device) {
         for index in mentions(text.words).filter(|index| !known.contains(index)) {
-            let message = format!("a text mentions object 0x{index:04X}, which the table does not have");
+            let message = format!("a text mentions object {}, which the table does not have", hex16(index));
             diagnostics.push(codes::MENTIONED_OBJECT.at(text.span, message));
         }
     }

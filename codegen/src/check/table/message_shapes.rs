@@ -6,6 +6,7 @@ use crate::check::context::Context;
 use crate::collections::HashSet;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Device, Framing, MessageId, Type};
+use crate::number::hex;
 use crate::resolve::messages::{
     carrier_problems, is_reported_elsewhere, numbered, problem, refusal, shapes, Problem, Shaped, LONGEST,
 };
@@ -99,9 +100,9 @@ fn parameters(context: &Context<'_>, shapes: &[Shaped<'_>], diagnostics: &mut Di
             match carried.get(&code) {
                 None => _ = carried.insert(code, &space.name),
                 Some(first) => {
-                    let (name, first) = (brief(&item.name), brief(first));
+                    let (name, first, code) = (brief(&item.name), brief(first), hex(code));
                     let text = format!(
-                        "the parameter `{name}` has the same number {code:#X} as a parameter in the space `{first}`"
+                        "the parameter `{name}` has the same number {code} as a parameter in the space `{first}`"
                     );
                     let text = text + ", and clients transfer only the parameter in that space";
                     diagnostics.push(codes::PARAMETERS_ALIKE.at(item.origin.span, text));

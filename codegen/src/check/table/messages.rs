@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{CommandOutcomes, Device, DeviceStateId, Message, Outcome, StateMachine};
+use crate::number::hex8;
 use crate::resolve::messages::Frame;
 use crate::text::brief;
 
@@ -84,9 +85,9 @@ fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
     for framed in all.iter().filter(|framed| !framed.request.constants.is_empty()) {
         let Some((position, byte)) = first(framed).filter(|(_, byte)| !asks(framed, *byte)) else { continue };
         let Some(other) = owners.get(&(position, byte)) else { continue };
-        let (name, other_name) = (brief(&framed.message.name), brief(&other.message.name));
+        let (name, other_name, constant) = (brief(&framed.message.name), brief(&other.message.name), hex8(byte));
         let message = format!(
-            "the reply of `{name}` has the constant 0x{byte:02X}, which is in the request of `{other_name}`, but not in \
+            "the reply of `{name}` has the constant {constant}, which is in the request of `{other_name}`, but not in \
              the request of `{name}`"
         );
         let found = both(framed, other, &codes::REPLY_OF_ANOTHER, message);
@@ -161,9 +162,10 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         return;
     }
     let (name, ((position, common), others)) = (brief(&framed.message.name), (others.0, others.1.len()));
+    let (odd, common) = (hex8(byte), hex8(common));
     let message = format!(
-        "the request `{name}` has the constant 0x{byte:02X} in byte {position}, but {others} other requests have \
-         0x{common:02X} in this byte"
+        "the request `{name}` has the constant {odd} in byte {position}, but {others} other requests have \
+         {common} in this byte"
     );
     let found = report(framed, &codes::ODD_REQUEST, message);
     diagnostics.push(

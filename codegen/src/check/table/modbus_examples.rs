@@ -5,6 +5,7 @@ use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::facts::register::crc;
 use crate::ir::{Binding, RegisterBinding, RegisterSpace};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::text::count_of;
 
@@ -68,7 +69,7 @@ impl Request {
         let mut problems = Vec::new();
         let of_space = || registers.iter().filter(|register| register.space == space);
         if !of_space().any(|register| register.address == self.start) {
-            problems.push(format!("starts at the address 0x{:04X}, which no row has", self.start));
+            problems.push(format!("starts at the address {}, which no row has", hex16(self.start)));
         } else if !of_space().any(|register| self.covers(register)) {
             let quantity = self.quantity;
             problems.push(format!(

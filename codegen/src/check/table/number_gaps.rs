@@ -3,6 +3,7 @@
 use crate::check::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Group, GroupKind, Item};
+use crate::number::hex16;
 use crate::text::brief;
 
 /// The minimum number of parameters with consecutive numbers on each side of a reported gap.
@@ -29,8 +30,8 @@ fn chapter(group: &Group, diagnostics: &mut Diagnostics) {
                 && row.windows(2).all(|pair| matches!(pair, [(one, _), (two, _)] if one.checked_add(1) == Some(*two)))
         };
         if (at + 1).checked_sub(ROW).is_some_and(counts_up) && counts_up(at + 1) {
-            let message =
-                format!("`{}` has the number 0x{after:04X}, but no row has 0x{:04X}", brief(&item.name), before + 1);
+            let (name, number, missing) = (brief(&item.name), hex16(*after), hex16(before + 1));
+            let message = format!("`{name}` has the number {number}, but no row has {missing}");
             let found = codes::NUMBER_GAP.at(item.at.name.or(item.origin.span), message);
             diagnostics
                 .push(found.help("add the missing row of the manual's table, unless the device has no such parameter"));

@@ -3,6 +3,7 @@
 use super::deftype::defined_type;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Access, Fact, FactOrigin, Group, Item, ObjectCode, Rule, Shape, Type, TypeDef};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -64,7 +65,7 @@ pub fn object_code(
             diagnostics.push(found.label(format!("read as {}", by_content.name())));
         }
         _ if has_subs => {
-            let message = format!("object 0x{index:04X} is a VAR, but has sub-indices");
+            let message = format!("object {} is a VAR, but has sub-indices", hex16(index));
             let found = Diagnostic::new(&codes::VAR_WITH_SUBS, span, message).label("read as a RECORD");
             diagnostics.push(found.help(terms.records));
         }
@@ -86,12 +87,13 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
     if let Some(ty) = Type::from_cia301(code).or(defined) {
         return ty;
     }
+    let shown = hex16(code);
     let (kind, message) = match code {
         0x20..=0x23 => {
-            (&codes::COMPLEX_DATA_TYPE, format!("{code:#06X} is a record type, but a single value needs a basic type"))
+            (&codes::COMPLEX_DATA_TYPE, format!("{shown} is a record type, but a single value needs a basic type"))
         }
-        0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06X} is reserved")),
-        _ => (&codes::UNKNOWN_DATA_TYPE, format!("neither CiA 301 nor this file defines the data type {code:#06X}")),
+        0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {shown} is reserved")),
+        _ => (&codes::UNKNOWN_DATA_TYPE, format!("neither CiA 301 nor this file defines the data type {shown}")),
     };
     diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
     Type::Opaque(Some(code))
@@ -150,7 +152,7 @@ pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Di
     if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
         if index < 0x1000 && index > 0 {
             let message =
-                format!("object 0x{index:04X} is in the data type area, but has the object type {}", code.name());
+                format!("object {} is in the data type area, but has the object type {}", hex16(index), code.name());
             diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
         }
         return None;

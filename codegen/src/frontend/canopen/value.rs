@@ -3,6 +3,7 @@
 use super::number::{self, Number, Parsed, Quirk};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{CompactString, Type, Value};
+use crate::number::hex;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -334,10 +335,10 @@ impl Converter<'_> {
             Quirk::ReversedNodeId => (&codes::REVERSED_NODEID, format!("`{text}` does not start with $NODEID")),
         };
         let fix = match number.parsed {
-            Parsed::Int { value, hex: true } => format!("{value:#x}"),
+            Parsed::Int { value, hex: true } => hex(value),
             Parsed::Int { value, hex: false } => value.to_string(),
             Parsed::NodeId(offset @ ..0) => format!("$NODEID+{offset}"),
-            Parsed::NodeId(offset) => format!("$NODEID+{offset:#x}"),
+            Parsed::NodeId(offset) => format!("$NODEID+{}", hex(offset)),
             _ => return,
         };
         self.diagnostics.push(Diagnostic::new(code, span, message).label(format!("read as {fix}")).fix(fix));

@@ -12,6 +12,7 @@ use crate::ir::{
     Value,
 };
 use crate::limits;
+use crate::number::hex16;
 use crate::syntax::ini::{Entry, Section};
 
 /// Adds each sub-index from 0 to `count` that has no section in the file.
@@ -81,7 +82,7 @@ pub(super) fn refine(reader: &mut Reader<'_, '_>, group: &mut Group, index: u16,
             match group.items.iter().position(of_number) {
                 Some(position) => apply(reader, &mut group.items[position], *refinement, &entry),
                 None => {
-                    let message = format!("0x{index:04X} has no sub-index {}", reader.doc.key(&entry));
+                    let message = format!("{} has no sub-index {}", hex16(index), reader.doc.key(&entry));
                     nothing_to_refine(reader, section, &entry, message, &mut group.extensions);
                 }
             }

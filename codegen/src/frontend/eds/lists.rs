@@ -4,6 +4,7 @@ use super::reader::Reader;
 use super::sections::List;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Extensions, Group};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
@@ -186,18 +187,18 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
     let mut listed = Indices::new(lists.listed.iter().map(|&(index, ..)| index));
     for &(index, list, span) in &lists.listed {
         if !listed.insert(index) {
-            let message = format!("0x{index:04X} is listed twice");
+            let message = format!("{} is listed twice", hex16(index));
             reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
         }
         if !described.contains(index) {
-            let message = format!("0x{index:04X} is listed, but the section [{index:04X}] is missing");
+            let message = format!("{} is listed, but the section [{index:04X}] is missing", hex16(index));
             reader
                 .diagnostics
                 .push(Diagnostic::new(&codes::LISTED_NOT_DESCRIBED, span, message).label("the object is left out"));
         }
         let right = belongs(index);
         if right != Some(list) {
-            let message = format!("object 0x{index:04X} is in the wrong list");
+            let message = format!("object {} is in the wrong list", hex16(index));
             let label = match right {
                 Some(right) => format!("it belongs in [{}]", right.name()),
                 None => "objects in the data type area belong in no list".to_owned(),
@@ -208,7 +209,7 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
     not_listed(reader, lists, &listed, device);
     for (index, span) in std::mem::take(&mut reader.link_spans) {
         if !described.contains(index) {
-            let message = format!("the link refers to 0x{index:04X}, which the file does not describe");
+            let message = format!("the link refers to {}, which the file does not describe", hex16(index));
             reader.diagnostics.push(Diagnostic::new(&codes::DANGLING_LINK, span, message));
         }
     }
@@ -228,7 +229,7 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, devi
     for group in &device.groups {
         let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
         if !listed.contains(index) {
-            let message = format!("object 0x{index:04X} is described, but is in no object list");
+            let message = format!("object {} is described, but is in no object list", hex16(index));
             reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
         }
     }

@@ -11,6 +11,7 @@ use super::sections::ModulePart;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
 use crate::ir::{Device, Group, Module, SubExtension};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 use crate::text::count_of;
@@ -75,7 +76,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         if let Some(group) = reader.object(index, sections) {
             clash(reader, &group, device);
             if !fixed.contains_key(&index) {
-                let message = format!("object 0x{index:04X} is not listed in [M{number}FixedObjects]");
+                let message = format!("object {} is not listed in [M{number}FixedObjects]", hex16(index));
                 reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
             }
             module.fixed_objects.push(group);
@@ -88,7 +89,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         let extension = sub_extension(reader, index, sections);
         let origin = extension.template.origin.span;
         if !extends.contains_key(&index) {
-            let message = format!("object 0x{index:04X} is not listed in [M{number}SubExtends]");
+            let message = format!("object {} is not listed in [M{number}SubExtends]", hex16(index));
             reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, origin, message));
         }
         extended_object(reader, index, origin, device);
@@ -131,7 +132,7 @@ fn announced(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Mod
     for entry in lists::numbered(reader, sections, "NrOfEntries", &mut module.extensions) {
         let Some(index) = reader.index_of(&entry) else { continue };
         if indices.insert(index, entry).is_some() {
-            let message = format!("0x{index:04X} is listed twice");
+            let message = format!("{} is listed twice", hex16(index));
             let span = reader.doc.value_span(&entry);
             reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
         }
@@ -161,7 +162,7 @@ fn missing(
 fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: &Device) {
     let Some(object) = device.object(index) else { return };
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
-        let message = format!("object 0x{index:04X} of the device is a {}, which has no sub-indices", code.name());
+        let message = format!("object {} of the device is a {}, which has no sub-indices", hex16(index), code.name());
         reader.diagnostics.push(
             Diagnostic::new(&codes::SUB_EXTEND, span, message).note_at(object.origin.span, "description in the device"),
         );

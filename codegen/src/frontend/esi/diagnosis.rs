@@ -11,6 +11,7 @@ use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::frontend::xml::Read;
 use crate::ir::{CodeRow, CodeTable, Documentation, LocalText, Value};
+use crate::number::hex16;
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -105,7 +106,7 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
 /// for a code that does not begin with `#`.
 fn printed(text: &str, code: i128) -> CompactString {
     match text.trim_start().starts_with('#') {
-        true => format!("0x{code:04X}").into(),
+        true => hex16(code).into(),
         false => CompactString::default(),
     }
 }

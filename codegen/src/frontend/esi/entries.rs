@@ -7,6 +7,7 @@ use super::types::Types;
 use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Type;
+use crate::number::hex8;
 use crate::text::brief;
 
 /// Number of possible sub-indices of an object, including sub-index 0.
@@ -100,7 +101,7 @@ fn sorted<'t, 'a>(
         let twice = later.sub_index == earlier.sub_index;
         reported += usize::from(twice);
         if twice && reported <= MAX_REPORTED {
-            let message = format!("sub-index 0x{:02X} occurs twice", later.sub_index);
+            let message = format!("sub-index {} occurs twice", hex8(later.sub_index));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, later.field.origin.span, message)
                     .label("ignored")
@@ -169,7 +170,7 @@ fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[R
         let (name, of_type) = (&sub.name.text, &entry.field.name.text);
         if entry.element.is_none() && name != of_type {
             let message = format!("the sub-item `{}` has the name `{}` in the data type", brief(name), brief(of_type));
-            let label = format!("read as sub-index 0x{:02X} because the data type repeats a name", entry.sub_index);
+            let label = format!("read as sub-index {} because the data type repeats a name", hex8(entry.sub_index));
             mismatch(reader, entry, sub, message, label);
         }
     }
@@ -178,7 +179,7 @@ fn by_position(reader: &mut Reader<'_, '_>, entries: &[Entry<'_, '_>], subs: &[R
 
 fn by_position_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>) {
     let message = format!("the data type has no sub-item `{}`", brief(&sub.name.text));
-    let label = format!("read as sub-index 0x{:02X} because of its position", entry.sub_index);
+    let label = format!("read as sub-index {} because of its position", hex8(entry.sub_index));
     mismatch(reader, entry, sub, message, label);
 }
 

@@ -18,6 +18,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::etg::unit;
 use crate::frontend::xml::Given;
 use crate::ir::{Access, Binding, Fact, FactOrigin, Group, GroupKind, Item, ObjectCode, Quantity, Rule, Type};
+use crate::number::{hex16, hex8};
 use crate::text::brief;
 
 /// Converts the objects of a dictionary to groups, sorted by index. Adds to `types` the types that are defined only by
@@ -44,7 +45,7 @@ pub(super) fn build<'a>(
             continue;
         };
         if let Some(first) = groups.last().filter(|first| first.index() == Some(index)) {
-            let message = format!("object 0x{index:04X} occurs twice");
+            let message = format!("object {} occurs twice", hex16(index));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, object.origin.span, message)
                     .label("ignored")
@@ -245,7 +246,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
                 continue;
             };
             let message = format!("`{}` is not a sub-item of the data type", brief(&sub.name.text));
-            let label = format!("read as sub-index 0x{sub_index:02X}");
+            let label = format!("read as sub-index {}", hex8(sub_index));
             reader.report(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message, label);
             let ty = last.filter(|entry| entry.sub_index > 0).map_or(Type::Opaque(None), |entry| entry.ty);
             let flags = last.filter(|entry| entry.sub_index > 0).map_or(&raw.flags, |entry| &entry.field.flags);

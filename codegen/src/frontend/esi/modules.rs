@@ -18,6 +18,7 @@ use crate::ir::{
     Catalog, CompactString, Device, Extension, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, SlotNumbers,
 };
 use crate::limits;
+use crate::number::hex32;
 use crate::syntax::xml::Tag;
 
 /// Reads a `Module` element. Also returns the references to other files, the types of PDO entries that these files may define, and
@@ -152,7 +153,7 @@ impl<'m> Known<'m> {
             let same = known.by_ident.entry(module.number).or_default();
             let first = same.first().and_then(|&first| modules.get(first as usize));
             if let Some(first) = first.filter(|_| module.number != 0) {
-                let message = format!("two modules have the ident number {:#x}", module.number);
+                let message = format!("two modules have the ident number {}", hex32(module.number));
                 diagnostics.push(
                     Diagnostic::new(&codes::DUPLICATE_MODULE, module.origin.span, message)
                         .label("both are kept")

@@ -3,6 +3,7 @@
 use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::xml::{Given, Read};
+use crate::number::hex;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
@@ -111,7 +112,7 @@ impl<'a> Reader<'a, '_> {
                     (&codes::ESI_VALUE, format!("`{text}` has two prefixes"), format!("#x{}", &given.text[4..]))
                 }
             };
-            let found = Diagnostic::new(code, given.span, message).label(format!("read as {:#x}", number.value));
+            let found = Diagnostic::new(code, given.span, message).label(format!("read as {}", hex(number.value)));
             self.diagnostics.push(found.fix(fix));
         }
         Some(number)

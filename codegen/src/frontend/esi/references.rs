@@ -12,6 +12,7 @@ use super::types::guessed;
 use crate::collections::{HashMap, HashMapExt, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
+use crate::number::hex16;
 use crate::source::{References, Source, Span};
 
 /// Content of a referenced file, with the cost of each copy and the elements that already have a copy.
@@ -304,7 +305,7 @@ fn merge(types: &mut Vec<TypeDef>, groups: &mut Vec<Group>, dictionary: &Device,
                 Diagnostic::new(
                     &codes::ESI_DUPLICATE_OBJECT,
                     later.origin.span,
-                    format!("object 0x{index:04X} occurs twice"),
+                    format!("object {} occurs twice", hex16(index)),
                 )
                 .label("ignored")
                 .note_at(earlier.origin.span, "this object is used"),

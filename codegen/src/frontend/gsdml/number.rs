@@ -6,6 +6,7 @@ use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::xml::Given;
 use crate::ir::Numbers;
+use crate::number::{self, hex32};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
@@ -60,11 +61,11 @@ impl<'a> Reader<'a, '_> {
                 let message = format!("`{}` has no prefix `0x`", given.text);
                 self.diagnostics.push(
                     Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
-                        .label(format!("read as {value:#x}"))
-                        .fix(format!("{value:#010x}")),
+                        .label(format!("read as {}", hex32(value)))
+                        .fix(hex32(value)),
                 );
             }
-            None => self.bad(given, what, format!("left out; expected `0x` and a number up to {max:#x}")),
+            None => self.bad(given, what, format!("left out; expected `0x` and a number up to {}", number::hex(max))),
         }
         value
     }

@@ -15,6 +15,7 @@ use super::{lints, notation, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Binding, Buses, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
+use crate::number::{hex16, written_object};
 use crate::text::{brief, count_of};
 
 /// Number of items of a row, and the distance between their register numbers.
@@ -308,7 +309,7 @@ impl Rows {
     ) {
         lints::index(reader, object);
         let text = match &object.value {
-            NumberOrText::Number(number) => format!("0x{number:04X}"),
+            NumberOrText::Number(number) => hex16(*number),
             NumberOrText::Text(text) => text.clone(),
         };
         let found = notation::objects(&text).filter(|found| found.indices.0 == found.indices.1);
@@ -322,8 +323,8 @@ impl Rows {
         let sub_index = found.subs.map(|(first, _)| first);
         if let Some((ruled, ruled_sub)) = by_rule {
             if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
-                let message =
-                    format!("the row has object {text}, but the rule in `[spaces]` gives 0x{ruled:04X}:{ruled_sub}");
+                let ruled = written_object(ruled, ruled_sub);
+                let message = format!("the row has object {text}, but the rule in `[spaces]` gives {ruled}");
                 reader.diagnostics.push(
                     Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
                         .label("the object of the row is used")

@@ -15,6 +15,7 @@ use super::{lints, notation, types, value};
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
+use crate::number::hex16;
 use crate::source::Origin;
 use crate::text::brief;
 
@@ -395,7 +396,7 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     let number = byte.checked_sub(first.into()).and_then(|number| u8::try_from(number).ok());
     let number = number.filter(|&number| u32::from(number) < bytes);
     if number.is_none() {
-        let message = format!("the byte at {byte:#06X} is outside of the {base} at {first:#06X}").replace("0X", "0x");
+        let message = format!("the byte at {} is outside of the {base} at {}", hex16(byte), hex16(first));
         let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);
         reader.diagnostics.push(found.label("left out"));
     }

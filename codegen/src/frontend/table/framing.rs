@@ -6,6 +6,7 @@ use super::messages::field_names;
 use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Device, Framing, Message};
+use crate::number::hex8;
 
 /// Words for the key `check`.
 const CHECKS: [(&str, &str); 5] =
@@ -56,16 +57,16 @@ fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
         // The start byte and the end byte may be the same byte, which then separates frames.
         let same =
             special[..at].iter().find(|(other, other_byte)| other_byte == byte && (*other, *name) != ("start", "end"));
-        problems.extend(same.map(|(other, _)| format!("`{other}` and `{name}` are both 0x{byte:02X}")));
+        problems.extend(same.map(|(other, _)| format!("`{other}` and `{name}` are both {}", hex8(*byte))));
         if framing.escape.is_some() && !framing.escaped.contains(byte) {
-            problems.push(format!("the `{name}` byte 0x{byte:02X} of frames is not escaped"));
+            problems.push(format!("the `{name}` byte {} of frames is not escaped", hex8(*byte)));
         }
     }
     for byte in framing.escaped.iter().filter(|_| framing.escape.is_some()) {
         let sent = byte ^ framing.escape_xor;
         if special.iter().any(|(_, special_byte)| *special_byte == sent) {
-            problems
-                .push(format!("0x{byte:02X} is escaped as 0x{sent:02X}, which is itself a start, end or escape byte"));
+            let (byte, sent) = (hex8(*byte), hex8(sent));
+            problems.push(format!("{byte} is escaped as {sent}, which is itself a start, end or escape byte"));
         }
     }
     for message in problems {

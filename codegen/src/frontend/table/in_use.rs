@@ -10,6 +10,7 @@ use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};
+use crate::number::written_object;
 use crate::source::Span;
 use crate::text::{brief, numbered};
 
@@ -194,7 +195,7 @@ fn space_name(space: RegisterSpace) -> &'static str {
 /// Returns a text that identifies an address, or `None` if items may share the address.
 fn address(binding: &Binding) -> Option<CompactString> {
     Some(match binding {
-        Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),
+        Binding::Object { index, sub_index, .. } => format_compact!("object {}", written_object(*index, *sub_index)),
         Binding::Register(register) => format_compact!("{} {}", space_name(register.space), register.address),
         Binding::Parameter(parameter) => format_compact!("parameter {} of `{}`", parameter.code, parameter.space),
         Binding::Ascii(name) => format_compact!("`{name}`"),

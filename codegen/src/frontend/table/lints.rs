@@ -8,6 +8,7 @@ use super::spaces::Space;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{Type, Value};
+use crate::number::{hex, hex16};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -97,9 +98,9 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
     let first = text.split([':', '.']).next().unwrap_or_default();
     if let Some(number) = first.parse::<u16>().ok().filter(|number| *number > 0) {
-        let message = format!("the index `{first}` has no prefix `0x` and is read as 0x{number:04X}");
+        let message = format!("the index `{first}` has no prefix `0x` and is read as {}", hex16(number));
         let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
-        reader.diagnostics.push(found.help(format!("write 0x{number:04X}, or 0x{first} if the manual omits `0x`")));
+        reader.diagnostics.push(found.help(format!("write {}, or 0x{first} if the manual omits `0x`", hex16(number))));
     }
     if let Some(message) = digits_of_index(reader, given) {
         let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
@@ -173,11 +174,8 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
         let is_member = [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|at| printed.get(at));
         let is_member = is_member.clone().count() > 0 && is_member.into_iter().all(|other| row.is_near(other));
         if row.offset() != expected && !by_rule && is_member {
-            let message = format!(
-                "the row has object 0x{:04X}, but the neighboring rows suggest 0x{:04X}",
-                row.index,
-                row.number.wrapping_add(expected)
-            );
+            let (index, expected) = (hex16(row.index), hex16(row.number.wrapping_add(expected)));
+            let message = format!("the row has object {index}, but the neighboring rows suggest {expected}");
             let found = Diagnostic::new(&codes::REGISTER_FORMULA, row.span, message);
             reader.diagnostics.push(found.help(FORMULA));
         }
@@ -199,7 +197,8 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
         };
         let Some((index, _)) = number.and_then(|number| space?.object(number)) else { continue };
         let message = format!(
-            "the row has no object, but the rule in `[spaces]` gives 0x{index:04X}, and other rows of the chapter have objects"
+            "the row has no object, but the rule in `[spaces]` gives {}, and other rows of the chapter have objects",
+            hex16(index)
         );
         let found = Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(reg), message);
         reader.diagnostics.push(found.help("use a space without this rule if the register is not an object"));
@@ -222,18 +221,14 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
     let list: Vec<(At<String>, u32, u32)> = list.iter().filter_map(complete).collect();
     for (at, (key, mask, value)) in list.iter().enumerate() {
         if value & !mask != 0 {
-            let message = format!("the value {value:#X} has bits outside of the mask {mask:#X}");
+            let message = format!("the value {} has bits outside of the mask {}", hex(*value), hex(*mask));
             reader.report(&codes::PATTERN_OUTSIDE_MASK, reader.span(key), message);
             continue;
         }
         for (other_key, other_mask, other) in list.iter().take(at) {
             if (value ^ other) & mask & other_mask == 0 && other & !other_mask == 0 {
-                let message = format!(
-                    "the value {:#X} matches both {what} `{}` and `{}`",
-                    value | other,
-                    brief(&other_key.value),
-                    brief(&key.value)
-                );
+                let (both, first, second) = (hex(value | other), brief(&other_key.value), brief(&key.value));
+                let message = format!("the value {both} matches both {what} `{first}` and `{second}`");
                 let found = Diagnostic::new(code, reader.span(key), message);
                 reader
                     .diagnostics

@@ -11,6 +11,7 @@ use super::tree::Reader;
 use super::words::OBJECT_CODES;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
+use crate::number::hex16;
 use crate::text::brief;
 
 /// Objects of a table, by index.
@@ -118,7 +119,7 @@ fn head(
     }
     if let Some(first) = dictionary.get(&index) {
         let diagnostic =
-            Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), format!("object 0x{index:04X} occurs twice"));
+            Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), format!("object {} occurs twice", hex16(index)));
         reader.diagnostics.push(diagnostic.note_at(first.origin.span, "first use"));
         return;
     }
@@ -144,7 +145,7 @@ fn subs(
     let GivenRow { key, row, complete } = given;
     let number = u32::from(index - objects.indices.0);
     dictionary.entry(index).or_insert_with(|| {
-        let message = format!("object 0x{index:04X} has a row for a sub-entry, but no row for the object above it");
+        let message = format!("object {} has a row for a sub-entry, but no row for the object above it", hex16(index));
         reader.report(&codes::TABLE_PLACE, reader.span(key), message);
         Group { origin: reader.origin(key), ..Group::object(index, ObjectCode::Record) }
     });
@@ -157,7 +158,7 @@ fn subs(
         let item = item(reader, rows, named, complete, index, sub_index, space);
         let Some(group) = dictionary.get_mut(&index) else { continue };
         if group.object_code() == Some(ObjectCode::Var) {
-            let message = format!("object 0x{index:04X} is a single value and cannot have sub-entries");
+            let message = format!("object {} is a single value and cannot have sub-entries", hex16(index));
             let help = "add a `code` such as `\"record\"` to the row of the object";
             reader.report_with_help(&codes::TABLE_PLACE, reader.span(key), message, help);
             return;
@@ -165,7 +166,7 @@ fn subs(
         match group.items.binary_search_by_key(&Some((index, sub_index)), Item::object) {
             Ok(at) => {
                 let first = group.items.get(at).map(|item| item.at.name).unwrap_or_default();
-                let message = format!("sub-index {sub_index} of object 0x{index:04X} occurs twice");
+                let message = format!("sub-index {sub_index} of object {} occurs twice", hex16(index));
                 let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), message);
                 reader.diagnostics.push(diagnostic.note_at(first, "first use"));
             }

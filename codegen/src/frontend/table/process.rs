@@ -8,6 +8,7 @@ use super::tree::Reader;
 use super::types;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
+use crate::number::hex16;
 use crate::text::brief;
 
 /// Maximum number of PDOs of a device in one direction (CiA 301 7.5.2.35).
@@ -100,7 +101,7 @@ fn printed_lengths(reader: &mut Reader<'_, '_>, table: &PdoTable, pdo: &Pdo) {
     let (index, bits) = (pdo.mapping_index, pdo.bits());
     for bytes in printed.value.0.iter().filter(|bytes| bytes.saturating_mul(8) != bits) {
         let message =
-            format!("the manual states {bytes} bytes for the PDO 0x{index:04X}, but its entries have {bits} bits");
+            format!("the manual states {bytes} bytes for the PDO {}, but its entries have {bits} bits", hex16(index));
         reader.report(&codes::LENGTH_MISMATCH, reader.span(printed), message);
     }
 }

@@ -8,6 +8,7 @@ use super::reader::Reader;
 use crate::frontend::canopen::network;
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{CanOpenSettings, CanOpenSpans, CompactString, Device, DynamicChannel};
+use crate::number::hex16;
 use crate::syntax::xml::Tag;
 
 /// Reads an `ApplicationLayers` element: the object list, dummy entries, dynamic channels and identity.
@@ -75,7 +76,7 @@ fn dynamic_channels<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, canopen: 
         let start = reader.hex(start, 0xFFFF, "index");
         let end = reader.hex(end, 0xFFFF, "index");
         if let (Some(start), Some(end)) = (start, end) {
-            range = format_compact!("0x{start:04X}-0x{end:04X}");
+            range = format_compact!("{}-{}", hex16(start), hex16(end));
         }
         reader.note("dynamicChannel@bitAlignment", alignment);
         canopen.dynamic_channels.push(DynamicChannel {

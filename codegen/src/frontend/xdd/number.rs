@@ -4,6 +4,7 @@ use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
 use crate::frontend::xml::Given;
+use crate::number::hex16;
 
 impl Reader<'_, '_> {
     /// Reads a number up to `max`. Reports any other text.
@@ -34,7 +35,7 @@ impl Reader<'_, '_> {
                 let message = format!("{text} has a prefix, but CiA 311 requires hexadecimal digits without a prefix");
                 self.diagnostics.push(
                     Diagnostic::new(&codes::XDD_VALUE, given.span, message)
-                        .label(format!("read as {value:#06X}"))
+                        .label(format!("read as {}", hex16(value)))
                         .fix(digits),
                 );
             }

@@ -13,6 +13,7 @@ use crate::frontend::canopen::object::{self, define_type, ObjectType, Terms};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{Category, Device, Extensions, Fact, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
 use crate::limits;
+use crate::number::{hex16, hex8};
 use crate::source::{Origin, Span};
 use crate::syntax::xml::{Cursor, Tag};
 
@@ -37,7 +38,7 @@ pub(super) fn build<'a>(
     device.groups.reserve(positions.len());
     for (at, &(index, origin)) in positions.iter().enumerate() {
         if let Some((_, later)) = positions.get(at + 1).filter(|(other, _)| *other == index) {
-            builder.duplicate(later.span, origin.span, &format!("object 0x{index:04X}"));
+            builder.duplicate(later.span, origin.span, &format!("object {}", hex16(index)));
             continue;
         }
         builder.reader.cursor = Cursor::resume(builder.reader.cursor.text(), origin);
@@ -221,7 +222,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         };
         let later = raw.origin.span;
         if let Some(earlier) = subs.insert(sub as u8, raw) {
-            self.duplicate(later, earlier.origin.span, &format!("sub-index 0x{sub:02X}"));
+            self.duplicate(later, earlier.origin.span, &format!("sub-index {}", hex8(sub)));
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use compact_str::CompactString;
 
-use crate::facts::number::hex16;
+use crate::number::hex16;
 
 /// Code of one construct: its text on one line, with marked positions for line breaks.
 ///

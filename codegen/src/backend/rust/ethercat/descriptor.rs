@@ -5,11 +5,11 @@ use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::literal;
 use crate::backend::rust::pdo::{mapping_entry, PdoModels};
 use crate::backend::rust::slot_dependency::{depends_on, NOTHING};
-use crate::facts::number::{hex, hex16, hex32, hex8};
 use crate::ir::{
     Coe, CompactString, Device, Direction, EtherCatSettings, Fit, Group, InitCommand, Mailbox, Module, ModulePdoGroup,
     Pdo, Slot, SlotRules, SyncManager, SyncManagerPurpose,
 };
+use crate::number::{hex, hex16, hex32, hex8};
 
 /// State transitions that the runtime supports.
 const TRANSITIONS: [&str; 6] = ["IP", "PS", "SO", "SP", "OP", "OS"];

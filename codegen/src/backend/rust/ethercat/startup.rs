@@ -5,8 +5,8 @@ use super::Assigned;
 use crate::backend::rust::code::Doc;
 use crate::backend::rust::literal;
 use crate::backend::rust::pdo;
-use crate::facts::number::hex16;
 use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose, MAX_PDO_SUBS};
+use crate::number::hex16;
 
 /// Index of the object that assigns PDOs to sync manager 0 (ETG.1000.6 5.6.7.4).
 const ASSIGN: u16 = 0x1C10;

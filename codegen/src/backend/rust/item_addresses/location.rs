@@ -4,7 +4,7 @@ use super::ItemAddresses;
 use crate::backend::rust::code::{call, list, seq, Doc};
 use crate::backend::rust::located::Located;
 use crate::backend::rust::route::{Route, RouteBus};
-use crate::facts::number::{hex16, hex8};
+use crate::number::{hex16, hex8};
 
 /// A function that creates locations, and the arguments for one item.
 pub(in crate::backend::rust) struct Maker {

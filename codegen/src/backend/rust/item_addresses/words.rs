@@ -4,15 +4,15 @@ use super::{Field, ItemAddresses};
 use crate::backend::rust::route::{Route, RouteBus};
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::words::escape;
-use crate::facts::number::hex16;
-use crate::facts::{address, register};
+use crate::facts::register;
 use crate::ir::{Item, RegisterSpace};
+use crate::number::{self, hex16};
 
 impl ItemAddresses<'_> {
     /// Returns the addresses of an item in words. Names in an ASCII protocol and addresses in the memory of a slave
     /// controller are left out.
     pub fn facts(&self, scope: &Scope<'_>, item: &Item) -> String {
-        let object = |(index, sub)| address::object(index, sub);
+        let object = |(index, sub)| number::object(index, sub);
         let mut facts = Vec::new();
         match (self.canopen, self.coe) {
             (Some(canopen), Some(coe)) if canopen != coe => {
@@ -34,7 +34,7 @@ impl ItemAddresses<'_> {
 
     /// Returns the main addresses of an item in short form.
     pub fn heading(&self) -> String {
-        let object = self.canopen.or(self.coe).map(|(index, sub)| address::object(index, sub));
+        let object = self.canopen.or(self.coe).map(|(index, sub)| number::object(index, sub));
         let register = self.modbus.map(|register_binding| match register_binding.bit_offset {
             Some(bit) => format!("register {} from bit {bit}", escape(&register::printed(register_binding))),
             None => format!("register {}", escape(&register::printed(register_binding))),

@@ -4,8 +4,8 @@ use super::field::{self, Field};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
-use crate::facts::number::hex;
 use crate::ir::{Completion, Message, MessageValue, Shape, Type, Value};
+use crate::number::hex;
 use crate::resolve::messages::Step;
 
 /// Returns a sentence that states when the command of a message is completed, or `None` if the command is completed

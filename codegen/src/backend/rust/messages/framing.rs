@@ -3,8 +3,8 @@
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
-use crate::facts::number::{hex16, hex8};
 use crate::ir::{Device, Framing};
+use crate::number::{hex16, hex8};
 use crate::resolve::messages::{Shaped, Step};
 
 /// Assumed length in bytes of a part of the message data that has no maximum length.

@@ -4,9 +4,9 @@
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
-use crate::facts::number::hex;
 use crate::ir::{Device, ParameterSpace, SpaceRef, Type};
 use crate::names::{self, Case, NameRequest};
+use crate::number::hex;
 use crate::resolve::messages::{numbered, Step};
 
 /// Maximum length of a constant's name, without a suffix that makes the name unique. The limit keeps the generated

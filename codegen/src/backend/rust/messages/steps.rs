@@ -3,8 +3,8 @@
 use super::field::Field;
 use super::rules::Rules;
 use crate::backend::rust::code::{call, seq, Doc};
-use crate::facts::number::hex8;
 use crate::ir::{Limits, Value};
+use crate::number::hex8;
 use crate::resolve::messages::{tail, Step};
 
 /// The statements for writing and reading a request or a reply.

@@ -5,7 +5,7 @@ use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
-use crate::facts::number::hex16;
+use crate::number::hex16;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let heading = "PDOs with their default mapping.";

@@ -8,6 +8,7 @@ mod values;
 use super::device::identity;
 use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
 use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
+use crate::number::{hex16, hex32};
 
 /// Writes the code of a file: device access points, modules, submodules, enumerations and diagnosis.
 pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
@@ -43,18 +44,14 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     }
 }
 
-fn hexadecimal(number: impl Into<u32>, digits: usize) -> String {
-    format!("0x{:0digits$X}", number.into())
-}
-
 fn access_point(code: &mut Code, access_point: &DapModel<'_>) {
     code.docs(&access_point.docs);
     open!(code, "pub static DAP: rt::profinet::Dap = rt::profinet::Dap {");
-    line!(code, "vendor_id: ", hexadecimal(access_point.vendor_id, 4), ",");
-    line!(code, "device_id: ", hexadecimal(access_point.device_id, 4), ",");
+    line!(code, "vendor_id: ", hex16(access_point.vendor_id), ",");
+    line!(code, "device_id: ", hex16(access_point.device_id), ",");
     line!(code, "slot: ", access_point.slot, ",");
     open!(code, "module: rt::profinet::Module {");
-    line!(code, "ident: ", hexadecimal(access_point.ident, 8), ",");
+    line!(code, "ident: ", hex32(access_point.ident), ",");
     line!(code, "name: ", access_point.identity.product_name, ",");
     line!(code, "submodules: ", list("&[", &access_point.submodules, "]"), ",");
     line!(code, "subslots: &[],");
@@ -79,7 +76,7 @@ fn pluggable(code: &mut Code, module: &ModuleModel<'_>) {
     code.use_runtime();
     code.doc("Description of the module. A slot plan uses this constant.");
     open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
-    line!(code, "ident: ", hexadecimal(module.ident, 8), ",");
+    line!(code, "ident: ", hex32(module.ident), ",");
     line!(code, "name: ", module.title, ",");
     line!(code, "submodules: ", list("&[", &module.submodules, "]"), ",");
     line!(code, "subslots: ", list("&[", &module.subslots, "]"), ",");
@@ -96,8 +93,8 @@ fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
     }
     code.doc("Description of the submodule. Modules and slot plans use this constant.");
     open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
-    line!(code, "ident: ", hexadecimal(submodule.ident, 8), ",");
-    line!(code, "api: ", hexadecimal(submodule.api, 4), ",");
+    line!(code, "ident: ", hex32(submodule.ident), ",");
+    line!(code, "api: ", hex16(submodule.api), ",");
     line!(code, "name: ", submodule.title, ",");
     line!(code, "input_len: ", submodule.input_len, ",");
     line!(code, "output_len: ", submodule.output_len, ",");

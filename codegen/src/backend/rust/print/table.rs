@@ -3,7 +3,7 @@
 use crate::backend::rust::code::{call, line, open, Code, Doc};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::table::EntryModel;
-use crate::facts::number::{hex16, hex8};
+use crate::number::{hex16, hex8};
 
 pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(table) = &model.table else { return };

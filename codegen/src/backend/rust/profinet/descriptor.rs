@@ -9,8 +9,8 @@ use super::scope::{AccessPoint, Scope};
 use crate::backend::rust::code::{call, seq, slice, Doc};
 use crate::backend::rust::doc_table;
 use crate::backend::rust::identity::IdentityModel;
-use crate::facts::number::{hex16, hex32};
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, SlotNumbers, Submodule, SubmoduleUse};
+use crate::number::{hex16, hex32};
 
 /// A submodule, ready to be printed.
 pub(in crate::backend::rust) struct SubmoduleModel<'a> {

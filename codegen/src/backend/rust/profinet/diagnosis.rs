@@ -1,6 +1,6 @@
 //! Channel diagnosis and user-defined diagnosis structures.
 
-use crate::facts::number::hex16;
+use crate::number::hex16;
 use std::collections::BTreeMap;
 
 use super::docs;

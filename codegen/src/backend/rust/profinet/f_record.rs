@@ -1,8 +1,8 @@
 //! The F-parameter record of PROFIsafe.
 
 use crate::backend::rust::code::{call, seq, slice, Doc};
-use crate::facts::number::hex16;
 use crate::ir::{FParameter, FParameters};
+use crate::number::hex16;
 
 /// The F-parameter record, ready to be printed.
 pub(in crate::backend::rust) struct FRecordModel {

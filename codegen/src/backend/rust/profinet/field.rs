@@ -4,8 +4,8 @@ use super::types::type_name;
 use super::values::{Enumeration, Values};
 use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::value_type::native;
-use crate::facts::number::hex8;
 use crate::ir::{TimeFormat, Type, TypeDef};
+use crate::number::hex8;
 
 /// Number of bits in a word, that is, in a `u64`. Only byte strings may be longer than a word.
 const WORD: u32 = 64;

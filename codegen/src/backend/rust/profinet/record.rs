@@ -10,10 +10,10 @@ use super::literal;
 use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::Doc;
-use crate::facts::number::hex16;
 use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
 use crate::names::{self, Case, NameRequest};
+use crate::number::hex16;
 use bytes::{default_bytes, has_bytes, value_of};
 use check::{check, ranges};
 

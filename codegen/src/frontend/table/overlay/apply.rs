@@ -15,6 +15,7 @@ use crate::ir::{
     Bus, Buses, Catalog, CodeRow, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId,
     ObjectBuses, Submodule, SubmoduleId, SubmoduleUse, TypeDef,
 };
+use crate::number::hex32;
 use crate::source::{FileId, Source, Span};
 use crate::text::glob;
 use crate::text::{brief, similar};
@@ -439,7 +440,7 @@ fn is_called(pattern: &str, names: [&CompactString; 2], number: u32) -> bool {
 }
 
 fn described(device: &Device) -> String {
-    let number = |number: Option<u32>| number.map_or("unknown".to_owned(), |number| format!("0x{number:X}"));
+    let number = |number: Option<u32>| number.map_or("unknown".to_owned(), hex32);
     let Identity { vendor_id, product_code, revision_number, .. } = device.identity;
     let (vendor, product, revision) = (number(vendor_id), number(product_code), number(revision_number));
     format!("`{}`: vendor {vendor}, product code {product}, revision {revision}", brief(&device.name))

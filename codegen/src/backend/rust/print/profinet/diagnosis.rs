@@ -1,8 +1,9 @@
 //! Prints channel errors and user-defined diagnosis structures.
 
-use super::{fields, hexadecimal, literal};
+use super::{fields, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
 use crate::backend::rust::profinet::{FileModel, UnitModel};
+use crate::number::hex16;
 
 pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
     code.use_runtime();
@@ -38,9 +39,9 @@ fn unit(code: &mut Code, unit: &UnitModel) {
     code.close("}");
     open!(code, "impl ", unit.name, " {");
     code.doc("Application process identifier (API) of the structure.");
-    line!(code, "pub const API: u32 = ", hexadecimal(unit.api, 4), ";");
+    line!(code, "pub const API: u32 = ", hex16(unit.api), ";");
     code.doc("Identifier of the structure, which precedes its bytes (UserStructureIdentifier).");
-    line!(code, "pub const IDENTIFIER: u16 = ", hexadecimal(unit.identifier, 4), ";");
+    line!(code, "pub const IDENTIFIER: u16 = ", hex16(unit.identifier), ";");
     code.doc("Length in bytes up to the end of the last field.");
     line!(code, "pub const LEN: usize = ", unit.length, ";");
     let first = "Decodes the fields of a structure. Bytes after the last field are ignored.";

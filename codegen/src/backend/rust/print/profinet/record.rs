@@ -1,8 +1,9 @@
 //! Prints parameter records.
 
-use super::{fields, hexadecimal, literal};
+use super::{fields, literal};
 use crate::backend::rust::code::{call, line, list, open, Code};
 use crate::backend::rust::profinet::{FRecordModel, RecordModel};
+use crate::number::hex16;
 
 pub(super) fn write(code: &mut Code, record: &RecordModel) {
     let name = &record.name;
@@ -39,7 +40,7 @@ fn allow_real(code: &mut Code, record: &RecordModel) {
 
 fn constants(code: &mut Code, record: &RecordModel) {
     code.doc("Index of the record.");
-    line!(code, "pub const INDEX: u16 = ", hexadecimal(record.index, 4), ";");
+    line!(code, "pub const INDEX: u16 = ", hex16(record.index), ";");
     code.doc("Length in bytes.");
     line!(code, "pub const LEN: usize = ", record.length, ";");
     code.doc("Position of the record among the start-up records of the submodule; 0 means any position.");
@@ -118,7 +119,7 @@ pub(super) fn f_parameters(code: &mut Code, record: &FRecordModel) {
     code.docs(&record.docs);
     let length = record.length;
     open!(code, "pub const F_PARAMETERS: rt::profinet::FRecord<", length, "> = rt::profinet::FRecord {");
-    line!(code, "index: ", hexadecimal(record.index, 4), ",");
+    line!(code, "index: ", hex16(record.index), ",");
     line!(code, "transfer_sequence: ", record.transfer_sequence, ",");
     open!(code, "default: rt::profinet::FParameters {");
     for (name, value) in &record.defaults {

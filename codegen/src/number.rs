@@ -1,6 +1,5 @@
-//! Numbers in hexadecimal notation, and ranges of numbers.
-
-use crate::ir::Numbers;
+//! Formats numbers for people in hexadecimal notation: addresses, identifiers, masks, bytes, and ranges of numbers. Generated Rust
+//! and exported files have their own formats.
 
 /// Maximum number of allowed values that a sentence lists.
 pub const ALLOWED_SHOWN: usize = 16;
@@ -20,9 +19,24 @@ pub fn hex32(number: impl Into<i128>) -> String {
     format!("0x{:08X}", number.into())
 }
 
-/// Formats a mask or another number without leading zeros: `0xF`.
+/// Formats a COB-ID, a mask or another number without leading zeros: `0xF`.
 pub fn hex(number: impl Into<i128>) -> String {
     format!("0x{:X}", number.into())
+}
+
+/// Formats index and sub-index for lists and tables: `0x6040:00`.
+pub fn object(index: u16, sub_index: u8) -> String {
+    format!("{}:{sub_index:02X}", hex16(index))
+}
+
+/// Formats index and sub-index for sentences: `0x6040 sub-index 0x00`.
+pub fn sub_entry(index: u16, sub_index: u8) -> String {
+    format!("{} sub-index {}", hex16(index), hex8(sub_index))
+}
+
+/// Formats index and sub-index as in register tables and network descriptions: `0x6040:0`.
+pub fn written_object(index: u16, sub_index: u8) -> String {
+    format!("{}:{sub_index}", hex16(index))
 }
 
 /// Formats the bytes of a frame or a value: `02 1B FF`.
@@ -31,13 +45,13 @@ pub fn bytes(bytes: &[u8]) -> String {
 }
 
 /// Formats ranges of numbers: `1, 4 to 7`. `shown` formats one number. A list of more than [`ALLOWED_SHOWN`] ranges is shortened.
-pub fn ranges(numbers: &Numbers, shown: impl Fn(u16) -> String) -> String {
+pub fn ranges(numbers: &[(u16, u16)], shown: impl Fn(u16) -> String) -> String {
     let range = |&(first, last): &(u16, u16)| match first == last {
         true => shown(first),
         false => format!("{} to {}", shown(first), shown(last)),
     };
-    let mut list: Vec<String> = numbers.0.iter().take(ALLOWED_SHOWN).map(range).collect();
-    if numbers.0.len() > ALLOWED_SHOWN {
+    let mut list: Vec<String> = numbers.iter().take(ALLOWED_SHOWN).map(range).collect();
+    if numbers.len() > ALLOWED_SHOWN {
         list.push("…".to_owned());
     }
     list.join(", ")
