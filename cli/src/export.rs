@@ -93,13 +93,11 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     let mut options = export.inputs.options()?;
     // Export only facts of the description, without those that profiles add.
     options.no_profiles = true;
+    options.select.pdos = matches!(format, Format::Eds(_));
     let mut reporter = Reporter::new(&export.inputs, false)?;
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
-    inputs::each_by_path(&export.inputs, &options, |input, mut compilation| {
+    inputs::each_by_path(&export.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
-        if let (Format::Eds(_), Some(catalog)) = (&format, &mut compilation.catalog) {
-            options.select.mapping_objects(catalog);
-        }
         match compilation.usable() {
             Some(catalog) => write(&format, input, &compilation, catalog, &mut target, &mut reporter),
             None => Ok(()),

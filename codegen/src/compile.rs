@@ -8,7 +8,7 @@ use crate::check as lints;
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
 use crate::frontend;
 use crate::ir::{Catalog, FileInfo, Format};
-use crate::resolve::{self, Profiles};
+use crate::resolve::{self, Changes, Profiles};
 use crate::selection::Selection;
 use crate::source::{FileId, Source};
 
@@ -122,27 +122,27 @@ pub fn check(source: Source, options: &Options) -> Compilation {
     checked(read(source, options), options)
 }
 
-/// Applies the selection, overlays and profiles, resolves the IR, and checks it. These are the stages of [`check`]
-/// after the front end. Use this function for a front end in another crate.
+/// Reads the overlays, resolves the IR, checks it, and selects objects. These are the stages of [`check`] after the front end of the
+/// description. Use this function for a front end in another crate.
 pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
-    if let Some(catalog) = &mut compilation.catalog {
-        options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
+    let Compilation { sources, catalog, diagnostics, .. } = &mut compilation;
+    if let Some(catalog) = catalog {
+        let mut overlays = Vec::new();
         for source in &options.overlays {
-            let file = FileId(compilation.sources.len() as u32);
-            frontend::apply_overlay(source, file, catalog, &mut compilation.diagnostics);
+            overlays.extend(frontend::read_overlay(source, FileId(sources.len() as u32), diagnostics));
             catalog.files.push(file_info(source, Format::OF_OVERLAYS));
-            compilation.sources.push(source.clone());
+            sources.push(source.clone());
         }
         let profiles = if options.no_profiles { Profiles::Ignored } else { Profiles::Applied };
-        resolve::resolve(catalog, profiles, &mut compilation.diagnostics);
-        lints::check(catalog, &mut compilation.diagnostics);
-        options.select.objects(catalog, &mut compilation.diagnostics);
+        resolve::resolve(catalog, &Changes { selection: &options.select, overlays, profiles }, diagnostics);
+        lints::check(catalog, diagnostics);
+        resolve::select_objects(&options.select, catalog, diagnostics);
     }
     // A row of a register table can describe several items, and so can a type or parameter in XML. The diagnostics about such a
     // row or element are reported only once.
     let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
     if described_by.is_some_and(|file| file.format.has_shared_descriptions()) {
-        compilation.diagnostics.forget_repeated(0);
+        compilation.diagnostics.forget_repeated(|_| true);
     }
     compilation.diagnostics.sort();
     compilation

@@ -208,7 +208,7 @@ impl<'d> Parameter<'d> {
             (limit, _) => limit.clone(),
         };
         let limits = self.limits();
-        let limits = Limits { low: resolve(&limits.low), high: resolve(&limits.high), allowed: limits.allowed.clone() };
+        let limits = Limits { low: resolve(&limits.low), high: resolve(&limits.high), ..limits.clone() };
         // A minimum above the maximum is a mistake in the description.
         if limits.are_swapped(self.basic()) {
             return None;

@@ -154,8 +154,12 @@ impl LevelArguments {
 impl Inputs {
     pub(crate) fn options(&self) -> Result<Options, Failure> {
         let overlays: Result<Vec<Source>, Failure> = self.overlay.iter().map(|path| read(path)).collect();
-        let select =
-            Selection { devices: self.device.clone(), modules: self.module.clone(), objects: self.objects.clone() };
+        let select = Selection {
+            devices: self.device.clone(),
+            modules: self.module.clone(),
+            objects: self.objects.clone(),
+            pdos: false,
+        };
         Ok(Options {
             levels: self.levels.levels()?,
             node_id_aliases: self.node_id_alias.clone(),

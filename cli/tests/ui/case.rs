@@ -157,6 +157,7 @@ impl Case {
             devices: settings.device.iter().map(|text| text.parse().expect("a selection")).collect(),
             modules: settings.module.iter().map(|text| text.as_str().into()).collect(),
             objects: settings.objects.iter().map(|text| text.parse().expect("a selection")).collect(),
+            pdos: false,
         }
     }
 

@@ -145,13 +145,13 @@ fn pages(compilation: &Compilation) -> String {
 /// would see.
 fn export(case: &Case, name: &str, compilation: &Compilation) -> Result<Result<Export, Refusal>, String> {
     // Like `lexibus export`, leave out the facts that profiles add.
-    let options = Options { no_profiles: true, ..case.options() };
+    let mut options = Options { no_profiles: true, ..case.options() };
+    options.select.pdos = matches!(name, "eds" | "dcf");
     let again =
         check(case.source_of(compilation.sources[0].name(), compilation.sources[0].bytes().into_owned()), &options);
-    let mut catalog = again.catalog.ok_or("there is nothing to export")?;
+    let catalog = again.catalog.ok_or("there is nothing to export")?;
     Ok(match name {
         "eds" | "dcf" => {
-            options.select.mapping_objects(&mut catalog);
             let flavor = if name == "eds" { Flavor::Eds } else { Flavor::Dcf };
             let device = catalog.devices.first().ok_or("there is no device to export")?;
             let reals = if case.settings.real_hex { Reals::Pattern } else { Reals::Decimal };

@@ -6,7 +6,8 @@ use divan::Bencher;
 use lexibus_codegen::check as lints;
 use lexibus_codegen::compile::{self, Options};
 use lexibus_codegen::diagnostics::Diagnostics;
-use lexibus_codegen::resolve::{resolve, Profiles};
+use lexibus_codegen::resolve::{resolve, Changes, Profiles};
+use lexibus_codegen::selection::Selection;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::RustOptions;
 
@@ -25,9 +26,11 @@ pub fn read(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
 pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let count = BytesCount::new(bytes.len());
     let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalog");
+    let selection = Selection::default();
     bencher.counter(count).with_inputs(|| catalog.clone()).bench_values(|mut catalog| {
         let mut diagnostics = Diagnostics::default();
-        resolve(&mut catalog, Profiles::Applied, &mut diagnostics);
+        let changes = Changes { selection: &selection, overlays: Vec::new(), profiles: Profiles::Applied };
+        resolve(&mut catalog, &changes, &mut diagnostics);
         lints::check(&catalog, &mut diagnostics);
         catalog
     });

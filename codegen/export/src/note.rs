@@ -223,7 +223,8 @@ impl Notes {
 
 /// Returns the number of facts of an item that belong to the kind [`NoteKind::Relation`].
 pub(crate) fn relations(item: &Item) -> usize {
-    usize::from(item.related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
+    let related = item.related.iter().flat_map(|related| related.all()).next();
+    usize::from(related.is_some()) + usize::from(item.is_reserved) + usize::from(item.is_optional)
 }
 
 /// Returns the number of elements of a device that only a register table can express.

@@ -573,7 +573,7 @@ codes! {
         "A subslot holds one submodule. A VirtualSubmoduleItem without FixedInSubslots is in subslot 1. Lexibus keeps \
         both submodules. Give each built-in submodule a different subslot."
     GSD022 UNUSED_TEXT Lint Allow "a text is not used"
-        "Nothing in the file refers to the text. Lexibus keeps it as an extension attribute. Tools often leave such \
+        "Nothing in the file refers to the text. Lexibus keeps it. Tools often leave such \
         texts in the file, so this lint is off by default. Delete the text, or refer to it."
     PDO001 MAPPED_OBJECT_MISSING Lint Warn "a PDO maps an object that is not described"
         "The mapping names an index and sub-index that the file does not describe. Lexibus keeps the field as raw \

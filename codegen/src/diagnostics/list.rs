@@ -75,15 +75,13 @@ impl Diagnostics {
         self.beyond.retain(|diagnostic| !allowed.contains(diagnostic.span, diagnostic.code));
     }
 
-    /// Removes repeated diagnostics from the list, starting at index `first`. A repeated diagnostic has the same code, span and
+    /// Removes repeated diagnostics of the files for which `is_meant` returns true. A repeated diagnostic has the same code, span and
     /// message as an earlier one.
-    pub(crate) fn forget_repeated(&mut self, first: usize) {
+    pub(crate) fn forget_repeated(&mut self, is_meant: impl Fn(FileId) -> bool) {
         let mut seen = HashSet::default();
-        let tail = self.list.split_off(first.min(self.list.len()));
-        let is_new =
-            |diagnostic: &Diagnostic| seen.insert((diagnostic.code, diagnostic.span, hash(&diagnostic.message)));
-        self.list.extend(tail.into_iter().filter(is_new));
-        self.beyond.retain(|diagnostic| seen.insert((diagnostic.code, diagnostic.span, diagnostic.message)));
+        let mut is_new = |code, span: Span, message| !is_meant(span.file) || seen.insert((code, span, message));
+        self.list.retain(|diagnostic| is_new(diagnostic.code, diagnostic.span, hash(&diagnostic.message)));
+        self.beyond.retain(|diagnostic| is_new(diagnostic.code, diagnostic.span, diagnostic.message));
         self.kept.clear();
         for diagnostic in &self.list {
             *self.kept.entry((diagnostic.span.file, diagnostic.code.id)).or_default() += 1;
@@ -192,7 +190,7 @@ mod tests {
         for _ in 0..many {
             diagnostics.push(Diagnostic::new(&codes::JUNK_LINE, Span::new(FileId(0), 5, 6), "junk"));
         }
-        diagnostics.forget_repeated(0);
+        diagnostics.forget_repeated(|_| true);
         assert_eq!((diagnostics.list().len(), diagnostics.total()), (1, 1));
         let mut diagnostics = Diagnostics::default();
         for at in 0..many {

@@ -20,7 +20,7 @@ pub mod xdd;
 #[cfg_attr(not(all(feature = "esi", feature = "gsdml", feature = "xdd")), allow(dead_code, unused_imports))]
 mod xml;
 
-pub use read::format;
 #[cfg(all(feature = "table", not(feature = "messages")))]
 pub(crate) use read::without_feature;
-pub(crate) use read::{apply_overlay, read, Description};
+pub use read::{format, Overlay};
+pub(crate) use read::{read, read_overlay, Description};

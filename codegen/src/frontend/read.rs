@@ -139,14 +139,18 @@ pub(crate) fn read(
     Description { format: Some(if is_configuration { Format::Dcf } else { format }), catalog, others, missing }
 }
 
-/// Applies the overlay `source` to those devices or modules in `catalog` that the overlay selects.
-pub(crate) fn apply_overlay(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+/// An overlay that was read. The function applies the overlay to those devices or modules of a catalog that the overlay selects.
+pub type Overlay<'s> = Box<dyn Fn(&mut Catalog, &mut Diagnostics) + 's>;
+
+/// Reads an overlay. Returns `None` if it cannot be used.
+pub(crate) fn read_overlay<'s>(source: &'s Source, file: FileId, diagnostics: &mut Diagnostics) -> Option<Overlay<'s>> {
     #[cfg(feature = "table")]
-    super::table::overlay::apply(source, file, catalog, diagnostics);
+    return super::table::overlay::read(source, file, diagnostics);
     #[cfg(not(feature = "table"))]
     {
-        let _ = (source, catalog);
+        let _ = source;
         diagnostics.push(without_feature("table", "overlays", file));
+        None
     }
 }
 

@@ -36,6 +36,18 @@ pub struct Catalog {
     /// Description of the device family in languages other than that of [`Header::description`](super::Header::description).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Texts::is_empty"))]
     pub descriptions: Texts,
+    /// Internet addresses of the vendor.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub vendor_urls: Vec<CompactString>,
+    /// Version of the format, if the file contains only diagnosis messages (EtherCATDiag of ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub format_version: CompactString,
+    /// Header of the device profile (GSDML).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub profile_header: Option<Box<ProfileHeader>>,
+    /// Texts to which no element refers (GSDML).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub unused_texts: Vec<UnusedText>,
     /// Facts about the catalog that have no field in the IR.
     pub extensions: Extensions,
 }
@@ -78,10 +90,49 @@ pub struct LocalText {
     pub text: CompactString,
 }
 
+/// Header of a device profile (ISO 15745-1), with its texts unchanged.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ProfileHeader {
+    /// Identification of the profile.
+    pub identification: CompactString,
+    /// Revision of the profile.
+    pub revision: CompactString,
+    /// Name of the profile.
+    pub name: CompactString,
+    /// Organization that publishes the profile.
+    pub source: CompactString,
+    /// Class of the profile.
+    pub class: CompactString,
+    /// Date of the profile.
+    pub date: CompactString,
+    /// Address of further information.
+    pub additional_information: CompactString,
+    /// Part of ISO 15745 that the file follows.
+    pub iso_part: CompactString,
+    /// Edition of this part.
+    pub iso_edition: CompactString,
+    /// Technology of the profile, such as `GSDML`.
+    pub technology: CompactString,
+}
+
+/// A text to which no element refers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct UnusedText {
+    /// Identifier of the text.
+    pub id: CompactString,
+    /// The text in the primary language; empty if it exists only in other languages.
+    pub text: CompactString,
+    /// The text in other languages.
+    pub translations: Texts,
+}
+
 /// A key with a value, for a fact that has no field in the IR.
 ///
-/// The compiler does not interpret extensions. An export to the format of the source writes an extension back at the position that
-/// its key names, with an unchanged value.
+/// Nothing looks up an extension by its key: a fact that a consumer needs has a field. `dump` and `diff` show all extensions of an
+/// element. An export either writes all of them, or reports their number in a note. An export to EDS or DCF writes each extension in
+/// the section that its key names. An export to ESI writes those of an object as properties.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extension {

@@ -1,6 +1,6 @@
 //! Capabilities and configuration of EtherCAT slaves (ETG.2000, `Device`).
 
-use super::{CompactString, FamilyRef};
+use super::{CompactString, FamilyRef, LocalText};
 use crate::source::Origin;
 
 /// Capabilities of a device on EtherCAT, and settings for its master.
@@ -44,9 +44,58 @@ pub struct EtherCatSettings {
     /// True if the device does not support LRW datagrams, so that a master uses LRD and LWR (`UseLrdLwr`).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub without_lrw: bool,
+    /// Attributes of the device type that only engineering tools and masters use.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub tool: Option<Box<ToolSettings>>,
+    /// Capacity of the slave controller (`EtherCATController`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub controller: Option<SlaveController>,
+    /// True if the device supports a station alias, if given (`StationAliasSupported`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub station_alias: Option<bool>,
+    /// Internet addresses of the device's documentation, with their languages (`URL`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub urls: Vec<LocalText>,
+    /// File name of the device's picture, after the name of its element (`Image16x14` or `ImageFile16x14`).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub picture: Option<(CompactString, CompactString)>,
     /// True if the device changes to the state "SafeOp" before it is synchronized (`StartToSafeopNoSync`).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub safe_op_without_sync: bool,
+}
+
+/// Attributes of a device type for engineering tools and masters, with their texts unchanged (`Type`).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ToolSettings {
+    /// Comparison of the product code with that of the connected device: `NONE`, `EQ` (`CheckProductCode`).
+    pub check_product_code: CompactString,
+    /// Comparison of the revision: `NONE`, `EQ`, `EQ_OR_G`, `LW_EQ`, … (`CheckRevisionNo`).
+    pub check_revision: CompactString,
+    /// Comparison of the serial number: `NONE`, `EQ` (`CheckSerialNo`).
+    pub check_serial_number: CompactString,
+    /// Class of sync manager settings in TwinCAT (`TcSmClass`).
+    pub sync_manager_class: CompactString,
+    /// Whether TwinCAT brings the device to the state "SafeOp" in its configuration mode (`TcCfgModeSafeOp`).
+    pub safe_op_in_config_mode: CompactString,
+    /// Group of modules with contiguous process data (`ModulePdoGroup`).
+    pub module_pdo_group: CompactString,
+    /// Whether a master writes the list of modules to the device (`DownloadModuleList`).
+    pub download_module_list: CompactString,
+    /// Whether an engineering tool shows sub-devices that can be hidden (`ShowHideableSubDevices`).
+    pub show_hideable_sub_devices: CompactString,
+}
+
+/// Capacity of an EtherCAT slave controller; `None` = not given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SlaveController {
+    /// Size of the memory for process data and mailboxes in bytes (`DpramSize`).
+    pub memory_bytes: Option<u32>,
+    /// Number of sync managers (`SmCount`).
+    pub sync_managers: Option<u32>,
+    /// Number of FMMUs (`FmmuCount`).
+    pub fmmus: Option<u32>,
 }
 
 /// A fieldbus memory management unit (ETG.1000.4 6.6).

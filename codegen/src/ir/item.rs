@@ -171,7 +171,8 @@ impl Item {
     }
 }
 
-/// References to items with the same value or quantity, with the upper half of the value, or with the number of valid elements.
+/// References to items with the same value or quantity, with the upper half of the value, or with the number of valid elements, and
+/// identifiers for references in the source.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RelatedItems {
@@ -187,18 +188,24 @@ pub struct RelatedItems {
     /// Item that contains the number of valid elements of this item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub valid_count: Option<ItemRef>,
+    /// Identifier of the item, to which menus refer (`ID` of a parameter in GSDML).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub id: CompactString,
+    /// Identifier of a list of named values that does not suit the type of the item (`ValueItemTarget` of GSDML).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub unsuitable_values: CompactString,
 }
 
 impl RelatedItems {
     /// Returns the references to all related items.
     pub fn all(&self) -> impl Iterator<Item = &ItemRef> {
-        let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
+        let RelatedItems { same_as, same_quantity, upper_half, valid_count, .. } = self;
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 
     /// Returns the references to all related items for modification.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
-        let RelatedItems { same_as, same_quantity, upper_half, valid_count } = self;
+        let RelatedItems { same_as, same_quantity, upper_half, valid_count, .. } = self;
         [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
     }
 }
@@ -281,6 +288,9 @@ pub struct Group {
     pub depends_on_slot: bool,
     /// True if the index of the object depends on the slot group of the module (ETG.2000).
     pub depends_on_slot_group: bool,
+    /// Flags of the object that only tools use (ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub tool_flags: Option<Box<ToolFlags>>,
     /// Number of items that the source describes in the object itself (SubItem in Info of ETG.2000). The other items follow from
     /// the type of the object.
     pub described: u32,
@@ -311,6 +321,7 @@ impl Group {
             flags: 0,
             depends_on_slot: false,
             depends_on_slot_group: false,
+            tool_flags: None,
             described: 0,
             documentation: None,
             doubts: Doubts::new(),
@@ -373,6 +384,20 @@ pub enum GroupKind {
         /// Length of the process image in bytes.
         length: u32,
     },
+}
+
+/// Flags of an object of an EtherCAT slave, with their texts unchanged.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ToolFlags {
+    /// Attribute of the object as a bit pattern (`Attribute`).
+    pub attribute: CompactString,
+    /// State transition at which a master writes the object (`Transition`).
+    pub transition: CompactString,
+    /// How a tool accesses the object: with complete access or by sub-index (`SdoAccess`).
+    pub sdo_access: CompactString,
+    /// Whether an object of a module replaces the object (`OverwrittenByModule`).
+    pub overwritten_by_module: CompactString,
 }
 
 /// Facts of a parameter record of a PROFINET submodule (ParameterRecordDataItem of GSDML).

@@ -1,8 +1,8 @@
 //! Modular devices: slots and modules.
 
 use super::{
-    CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Numbers, ProcessData, SlotNumbers,
-    SubmoduleUse, SubslotName, Texts, TypeDef,
+    CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Mailbox, Numbers, ProcessData,
+    SlotNumbers, SubmoduleUse, SubslotName, Texts, TypeDef,
 };
 use crate::source::Origin;
 
@@ -98,8 +98,11 @@ pub struct Module {
     pub process_data: ProcessData,
     /// Number of the group of modules with contiguous process data (ModulePdoGroup of ETG.2000).
     pub pdo_group: Option<u16>,
-    /// Commands that a master sends at state transitions (InitCmd of ETG.2000).
-    pub init_commands: Vec<InitCommand>,
+    /// Mailbox protocols that the module adds or needs (Mailbox of ETG.2000).
+    pub mailbox: Option<Box<Mailbox>>,
+    /// Mode of the distributed clocks that the module needs (DcOpModeName of ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub clock_mode: CompactString,
     /// Submodules of the module, and submodules that it accepts (GSDML).
     pub submodules: Vec<SubmoduleUse>,
     /// Physical subslots (GSDML, PhysicalSubslots); empty = the subslots of the module's submodules.
@@ -108,10 +111,27 @@ pub struct Module {
     pub subslot_names: Vec<SubslotName>,
     /// Numbers of the device profiles that the module follows.
     pub profiles: Vec<u32>,
+    /// Additional number of the profile, if given (AddInfo of ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub add_info: Option<i32>,
+    /// Further additional number of the profile, if given (SubAddInfo of ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub sub_add_info: Option<i32>,
+    /// Further attributes of the module as the source spells them (GSDML).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub attributes: Vec<(CompactString, CompactString)>,
     /// Facts about the module that have no field in the IR.
     pub extensions: Extensions,
     /// Location of the module in the source.
     pub origin: Origin,
+}
+
+impl Module {
+    /// Returns the CoE commands that a master sends at state transitions.
+    pub fn init_commands(&self) -> &[InitCommand] {
+        let coe = self.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref());
+        coe.map_or(&[], |coe| &coe.init_commands)
+    }
 }
 
 /// Sub-indices that a module adds to an object (`[M<n>SubExt<index>]` of CiA 306).

@@ -132,6 +132,12 @@ pub struct Pdo {
     pub overwritten_by_module: bool,
     /// Oversampling of the PDO: several samples in one cycle.
     pub oversampling: Option<Box<Oversampling>>,
+    /// Position of the PDO in the assignment, if given (PdoOrder of ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub order: Option<i32>,
+    /// True if the PDO contains parameters of the safety-related application, if given (SRA_Parameter of ETG.2000).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub sra_parameter: Option<bool>,
     /// Name of the PDO in other languages.
     pub names: Texts,
     /// Maximum length in bytes, if the source states a maximum for this PDO instead of for its sync manager.
@@ -179,6 +185,8 @@ impl Pdo {
             is_virtual: false,
             overwritten_by_module: false,
             oversampling: None,
+            order: None,
+            sra_parameter: None,
             names: Texts::default(),
             max_bytes: None,
             documentation: None,

@@ -101,11 +101,15 @@ pub struct Limits {
     /// Allowed ranges in the order of the source, if there are several ranges or a list of values. Each range has a minimum and a
     /// maximum. `low` and `high` are the minimum and maximum of all ranges.
     pub allowed: ThinVec<(Value, Value)>,
+    /// Allowed values as the source spells them, if the type of the item is not a number (GSDML).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
+    pub text: CompactString,
 }
 
 impl Missing for Limits {
     fn missing() -> &'static Self {
-        static MISSING: Limits = Limits { low: None, high: None, allowed: ThinVec::new() };
+        static MISSING: Limits =
+            Limits { low: None, high: None, allowed: ThinVec::new(), text: CompactString::const_new("") };
         &MISSING
     }
 }

@@ -1,14 +1,14 @@
-//! Completes a description. After front ends and overlays have run, only this stage changes the facts in the IR. Later, a selection
-//! can remove objects.
+//! Changes a description as the options ask, and completes it. After the front ends, only this stage changes the IR. `resolve` runs
+//! before the checks. The selection of objects is a separate step after the checks.
 //!
 //! | file | subject |
 //! |---|---|
-//! | `run` | order of the steps |
+//! | `run` | order of the steps; the front end for register tables contains the function that applies an overlay |
+//! | `selection`, `removal` | removes elements that are not selected, and updates ids |
 //! | `conditions` | signs of the values in conditions |
 //! | `profiles` | facts of standards about the objects of all devices that follow them |
 //! | `references`, `mentions` | ids for the names in references |
 //! | `message_fields` | ids of the fields of messages |
-//! | `removal` | removes selected objects, and updates ids |
 //! | `identity` | identity numbers of object 0x1018 |
 //! | `implicit_pdos` | objects of PDOs that an EDS or DCF counts but does not describe |
 //! | `pdo_mapping` | PDOs from mapping objects |
@@ -27,8 +27,9 @@ mod pdo_entries;
 mod pdo_mapping;
 pub(crate) mod profiles;
 mod references;
-pub(crate) mod removal;
+mod removal;
 mod run;
+mod selection;
 
 pub(crate) use identity::in_object as identity_in_object;
 pub(crate) use pdo_entries::address;
@@ -36,4 +37,5 @@ pub(crate) use pdo_mapping::{
     announced_count, is_dummy, is_multiplexed, mapping_values, MappableItems, MappingValue, MappingWord, PdoObjects,
 };
 pub use profiles::is_device_of_number;
-pub use run::{resolve, Profiles};
+pub use run::{resolve, Changes, Profiles};
+pub use selection::select_objects;

@@ -1,10 +1,13 @@
-//! Runs the steps that complete a description.
+//! Runs the steps that change a description.
 
 use super::{
-    conditions, identity, implicit_pdos, mapped_objects, message_fields, pdo_entries, pdo_mapping, profiles, references,
+    conditions, identity, implicit_pdos, mapped_objects, message_fields, pdo_entries, pdo_mapping, profiles,
+    references, selection,
 };
 use crate::diagnostics::Diagnostics;
+use crate::frontend::Overlay;
 use crate::ir::{Catalog, Device, Module};
+use crate::selection::Selection;
 
 /// Whether profiles complete a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,9 +18,22 @@ pub enum Profiles {
     Ignored,
 }
 
-/// Completes the descriptions in `catalog`, and reports EtherCAT PDO entries that map a missing object. Each step uses the results
-/// of the steps before it.
-pub fn resolve(catalog: &mut Catalog, profiles: Profiles, diagnostics: &mut Diagnostics) {
+/// Changes to a description that the options of a compilation ask for.
+pub struct Changes<'c> {
+    /// Devices and modules to keep.
+    pub selection: &'c Selection,
+    /// Overlays in the order in which they are applied.
+    pub overlays: Vec<Overlay<'c>>,
+    /// Whether profiles add facts.
+    pub profiles: Profiles,
+}
+
+/// Selects devices and modules, applies overlays, completes the descriptions in `catalog`, and reports EtherCAT PDO entries that map
+/// a missing object. Each step uses the results of the steps before it. The selection of objects is a later step
+/// ([`select_objects`](super::select_objects)).
+pub fn resolve(catalog: &mut Catalog, changes: &Changes<'_>, diagnostics: &mut Diagnostics) {
+    selection::devices_and_modules(changes.selection, catalog, diagnostics);
+    changes.overlays.iter().for_each(|apply| apply(catalog, diagnostics));
     for device in &mut catalog.devices {
         complete_device(device, &catalog.modules, diagnostics);
     }
@@ -25,7 +41,7 @@ pub fn resolve(catalog: &mut Catalog, profiles: Profiles, diagnostics: &mut Diag
         pdo_entries::module(module, diagnostics);
         mapped_objects::module(module);
     }
-    if profiles == Profiles::Applied {
+    if changes.profiles == Profiles::Applied {
         profiles::apply(catalog);
     }
     for device in &mut catalog.devices {

@@ -118,7 +118,7 @@ fn module(elements: &mut Elements, owner: &str, module: &Module) {
     put(&mut facts, "vendor", module.identity.vendor_name.as_str());
     put_some(&mut facts, "vendor number", module.identity.vendor_id);
     elements.insert(owner.to_owned(), facts);
-    commands(elements, owner, &module.init_commands);
+    commands(elements, owner, module.init_commands());
     pdos(elements, owner, &module.process_data.pdos, &module.types);
     data_types(elements, owner, &module.types);
     objects(elements, owner, &module.groups, &module.types);

@@ -108,12 +108,8 @@ fn parameter(item: &Item, types: &[TypeDef]) -> Facts {
     put(&mut facts, "allowed", allowed(&item.limits));
     put_flag(&mut facts, "changeable", item.access == Access::ReadWrite);
     put_flag(&mut facts, "visible", !item.behavior.as_ref().is_some_and(|behavior| behavior.hidden));
-    let kept = item
-        .extensions
-        .iter()
-        .find(|extension| extension.key == "ValueItemTarget")
-        .map(|extension| extension.value.as_str());
-    put_some(&mut facts, "values", values(item.ty, types).or(kept));
+    let unsuitable = item.related.as_ref().map(|related| related.unsuitable_values.as_str());
+    put_some(&mut facts, "values", values(item.ty, types).or(unsuitable.filter(|values| !values.is_empty())));
     put_names(&mut facts, "name", &item.name, &item.names);
     facts
 }

@@ -78,7 +78,7 @@ impl Startup<'_> {
         let of_modules = self
             .plugged
             .iter()
-            .flat_map(|plugged| plugged.module.init_commands.iter().map(|command| (command, plugged.objects())));
+            .flat_map(|plugged| plugged.module.init_commands().iter().map(|command| (command, plugged.objects())));
         let all = of_device.map(|command| (command, Offsets::default())).chain(of_modules);
         let due = all.filter(|(command, _)| command.transitions.iter().any(|name| name == transition));
         due.map(|(command, offsets)| of_init_command(command, offsets, transition)).collect()

@@ -23,7 +23,9 @@ pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
     let devices = (0..devices).map(|_| device(b, format, modules.len())).collect();
     let graphics = b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) });
     let vendor_names = names::texts(b);
-    Catalog { devices, modules, graphics, vendor_names, extensions: names::extensions(b), ..Catalog::default() }
+    let vendor_urls = b.few(4, 2, names::text);
+    let extensions = names::extensions(b);
+    Catalog { devices, modules, graphics, vendor_names, vendor_urls, extensions, ..Catalog::default() }
 }
 
 fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
@@ -149,7 +151,10 @@ fn module(b: &mut Bytes<'_>, is_ethercat: bool) -> Module {
         groups,
         process_data,
         pdo_group: b.maybe(4, |b| b.within(0..=2)),
-        init_commands: b.few(3, 2, settings::init_command),
+        mailbox: b.maybe(3, |b| Box::new(settings::mailbox(b))),
+        clock_mode: names::name(b),
+        add_info: b.maybe(6, Bytes::any),
+        sub_add_info: b.maybe(8, Bytes::any),
         profiles: b.few(4, 2, |b| b.pick(&[402, 0])),
         extensions: names::extensions(b),
         // PROFINET modules are created in `profinet`.

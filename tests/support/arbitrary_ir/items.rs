@@ -2,7 +2,7 @@
 
 use lexibus_codegen::ir::{
     Binding, Category, CompactString, Configured, Group, GroupKind, ImageBinding, IndirectBinding, Item, Mappable,
-    ObjectBuses, ObjectCode, RegisterBinding, RegisterSpace, RelatedItems, Type, TypeDef, Value, WindowSide,
+    ObjectBuses, ObjectCode, RegisterBinding, RegisterSpace, RelatedItems, ToolFlags, Type, TypeDef, Value, WindowSide,
 };
 
 use super::bytes::Bytes;
@@ -60,7 +60,8 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
         related: b.maybe(8, |b| {
             let mut item = || b.maybe(2, names::name).map(Into::into);
             let (same_as, same_quantity, upper_half, valid_count) = (item(), item(), item(), item());
-            Box::new(RelatedItems { same_as, same_quantity, upper_half, valid_count })
+            let (id, unsuitable_values) = (names::name(b), names::name(b));
+            Box::new(RelatedItems { same_as, same_quantity, upper_half, valid_count, id, unsuitable_values })
         }),
         is_reserved: b.one_in(12),
         is_optional: b.one_in(12),
@@ -119,6 +120,10 @@ fn object(b: &mut Bytes<'_>, around: &Around<'_>, index: u16) -> Group {
         described: b.within(0..=count.into()),
         depends_on_slot: b.one_in(8),
         depends_on_slot_group: b.one_in(8),
+        tool_flags: b.maybe(8, |b| {
+            let [attribute, transition, sdo_access, overwritten_by_module] = [0; 4].map(|_| names::text(b));
+            Box::new(ToolFlags { attribute, transition, sdo_access, overwritten_by_module })
+        }),
         documentation: names::documentation(b),
         doubts: names::doubts(b),
         extensions: names::extensions(b),

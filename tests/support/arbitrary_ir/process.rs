@@ -61,6 +61,8 @@ fn pdo(
             let [factor, min, max, index_increment] = [0; 4].map(|_| b.maybe(2, |b| b.within(0..=9)));
             Box::new(Oversampling { factor, min, max, index_increment })
         }),
+        order: b.maybe(8, Bytes::any),
+        sra_parameter: b.maybe(8, Bytes::any),
         names: names::texts(b),
         max_bytes: b.maybe(8, |b| b.within(0..=16)),
         documentation: names::documentation(b),

@@ -3,8 +3,9 @@
 use lexibus_codegen::ir::{
     Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, FactOrigin, Family, Graphic,
     Group, GroupKind, Identity, IdentityNumber, IoChannel, IoData, IoItem, IoLengths, Item, LocalText, Menu, Module,
-    ModuleId, ModuleUse, Numbers, ObjectCode, ProfinetSettings, Record, Rule, SlotNumbers, Submodule, SubmoduleId,
-    SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeDef, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
+    ModuleId, ModuleUse, Numbers, ObjectCode, ProfileHeader, ProfinetSettings, Record, Rule, SlotNumbers, Submodule,
+    SubmoduleId, SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeDef, TypeId, UnitDiagnosis, UnitDiagnosisField,
+    UnusedText, VendorBlock,
 };
 use lexibus_codegen::source::Origin;
 
@@ -39,9 +40,32 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
             origin: Origin::default(),
         }),
         graphics: b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) }),
+        vendor_urls: Vec::new(),
+        format_version: names::version(b),
+        profile_header: b.maybe(2, |b| Box::new(profile_header(b))),
+        unused_texts: b.few(3, 2, |b| UnusedText {
+            id: names::name(b),
+            text: names::text(b),
+            translations: names::texts(b),
+        }),
         extensions: names::extensions(b),
         // `arbitrary_ir` adds the files.
         files: Vec::new(),
+    }
+}
+
+fn profile_header(b: &mut Bytes<'_>) -> ProfileHeader {
+    ProfileHeader {
+        identification: names::text(b),
+        revision: names::version(b),
+        name: names::text(b),
+        source: names::text(b),
+        class: names::text(b),
+        date: names::text(b),
+        additional_information: names::text(b),
+        iso_part: names::version(b),
+        iso_edition: names::version(b),
+        technology: names::text(b),
     }
 }
 
@@ -111,6 +135,7 @@ fn module(b: &mut Bytes<'_>, submodules: usize) -> Module {
         subslots: numbers(b),
         subslot_names: b.list(2, subslot_name),
         documentation: names::documentation(b),
+        attributes: names::attributes(b),
         extensions: names::extensions(b),
         ..Module::default()
     }

@@ -2,8 +2,8 @@
 
 use lexibus_codegen::ir::{
     CanOpenSettings, CanOpenSpans, ClockMode, ClockSyncManager, ClockTime, Coe, Commissioning, DistributedClocks,
-    DynamicChannel, Eeprom, EtherCatSettings, Fit, Fmmu, Header, InitCommand, Mailbox, ModulePdoGroup, Protocol, Slot,
-    SlotRules, SyncUnit,
+    DynamicChannel, Eeprom, EtherCatSettings, Fit, Fmmu, Header, InitCommand, LocalText, Mailbox, ModulePdoGroup,
+    Protocol, SlaveController, Slot, SlotRules, SyncUnit, ToolSettings,
 };
 use lexibus_codegen::source::Origin;
 
@@ -101,10 +101,28 @@ pub fn ethercat(b: &mut Bytes<'_>) -> EtherCatSettings {
         identification_in_al_status: b.one_in(4),
         without_lrw: b.one_in(4),
         safe_op_without_sync: b.one_in(4),
+        tool: b.maybe(4, |b| Box::new(tool(b))),
+        controller: b.maybe(4, |b| SlaveController { memory_bytes: b.any(), sync_managers: b.any(), fmmus: b.any() }),
+        station_alias: b.maybe(4, Bytes::any),
+        urls: b.few(4, 2, |b| LocalText { language: names::name(b), text: names::text(b) }),
+        picture: b.maybe(4, |b| (b.pick(&["Image16x14", "ImageFile16x14"]).into(), names::path(b))),
     }
 }
 
-fn mailbox(b: &mut Bytes<'_>) -> Mailbox {
+fn tool(b: &mut Bytes<'_>) -> ToolSettings {
+    ToolSettings {
+        check_product_code: names::text(b),
+        check_revision: names::text(b),
+        check_serial_number: names::text(b),
+        sync_manager_class: names::text(b),
+        safe_op_in_config_mode: names::text(b),
+        module_pdo_group: names::text(b),
+        download_module_list: names::text(b),
+        show_hideable_sub_devices: names::text(b),
+    }
+}
+
+pub fn mailbox(b: &mut Bytes<'_>) -> Mailbox {
     let [aoe, eoe, foe, soe, voe] = [0; 5].map(|_| b.maybe(6, protocol));
     Mailbox { data_link_layer: b.any(), real_time: b.any(), aoe, eoe, coe: b.maybe(2, coe), foe, soe, voe }
 }
@@ -127,7 +145,7 @@ fn coe(b: &mut Bytes<'_>) -> Coe {
     }
 }
 
-pub fn init_command(b: &mut Bytes<'_>) -> InitCommand {
+fn init_command(b: &mut Bytes<'_>) -> InitCommand {
     InitCommand {
         transitions: b.list(2, |b| b.pick(&["PS", "IP", "odd"]).into()),
         index: b.within(0x2000..=0x2020),

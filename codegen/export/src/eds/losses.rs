@@ -78,6 +78,7 @@ pub(super) fn of_object(context: &Context<'_>, group: &Group, notes: &mut Notes)
     notes.add_many(NoteKind::Language, group.names.len(), subject);
     notes.add_many(NoteKind::Documentation, group.documentation.is_some(), subject);
     notes.add_many(NoteKind::Doubt, group.doubts.len(), subject);
+    notes.add_many(NoteKind::Setting, group.tool_flags.is_some(), subject);
     // For a CANopen device, the object lists of the EDS express which objects are mandatory.
     let has_category = matches!(group.kind, GroupKind::Object { category: Some(_), .. });
     notes.add_many(NoteKind::Category, has_category && !context.is_canopen, subject);

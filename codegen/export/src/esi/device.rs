@@ -15,7 +15,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.open("Device");
     xml.flag("Invisible", settings.invisible, "true");
     physics(xml, context, settings);
-    device_type(xml, context, device);
+    device_type(xml, context, device, settings);
     for (product, revision) in &settings.hides {
         xml.open("HideType");
         xml.optional("ProductCode", product.map(|code| hex(code, 8)));
@@ -24,8 +24,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     }
     names(xml, "Name", &device.name, &device.names, &mut context.notes, subject);
     documentation(xml, "Comment", device.documentation.as_deref(), &mut context.notes, subject);
-    extras::urls(xml, device);
-    extras::info(xml, context, device, settings);
+    extras::urls(xml, settings);
+    extras::info(xml, context, settings);
     let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
     let group = context.required(context.options.group(), group, "group");
     xml.leaf("GroupType", group);
@@ -48,7 +48,9 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     slots::write(xml, context, device, settings);
     eeprom::registers(xml, &mut context.notes, settings);
     eeprom::write(xml, context, settings);
-    extras::image(xml, device);
+    if let Some((element, file)) = &settings.picture {
+        xml.leaf(element.to_string(), file);
+    }
     xml.close();
     losses::of_device(context, device);
 }
@@ -109,7 +111,7 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
     xml.attribute("Physics", ports);
 }
 
-fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
+fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
     let (identity, options) = (&device.identity, context.options);
     let product = options.product_code().or(identity.product_code);
     let revision = options.revision().or(identity.revision_number);
@@ -122,7 +124,7 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.optional("ProductCode", product.map(|code| hex(code, 8)));
     xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
     xml.optional("SerialNo", identity.serial_number.map(|number| hex(number, 8)));
-    extras::of_type(xml, device);
+    extras::of_type(xml, settings);
     let named = [&identity.order_code, &device.name].into_iter().find(|name| !name.is_empty());
     let order_code = if context.is_esi { Some(&identity.order_code) } else { named };
     let order_code = context.required(options.order_code(), order_code.map(CompactString::to_string), "order-code");

@@ -1,102 +1,55 @@
-//! Writes timeouts and the extension attributes for which ETG.2000 has an element or attribute.
-
-use std::collections::HashSet;
+//! Writes timeouts and the facts that only tools use.
 
 use super::text::hex;
 use super::Context;
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::etg::language;
-use lexibus_codegen::ir::{Device, EtherCatSettings, Extension};
-
-/// Attributes of the Type element that the IR stores as extensions.
-const OF_TYPE: [&str; 8] = [
-    "Type@CheckProductCode",
-    "Type@CheckRevisionNo",
-    "Type@CheckSerialNo",
-    "Type@TcSmClass",
-    "Type@TcCfgModeSafeOp",
-    "Type@ModulePdoGroup",
-    "Type@DownloadModuleList",
-    "Type@ShowHideableSubDevices",
-];
-
-/// Elements of a profile that contain a number.
-const OF_PROFILE: [&str; 2] = ["AddInfo", "SubAddInfo"];
+use lexibus_codegen::ir::{Catalog, EtherCatSettings};
 
 /// Timeouts of the state machine and of the mailbox. If the file contains one timeout of a list, the schema requires
 /// all timeouts of this list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
 
-/// Elements that follow the timeouts in Info.
-const CONTROLLER: [&str; 3] =
-    ["EtherCATController/DpramSize", "EtherCATController/SmCount", "EtherCATController/FmmuCount"];
-const ALIAS: [&str; 1] = ["Info/StationAliasSupported"];
-const IMAGES: [&str; 2] = ["Image16x14", "ImageFile16x14"];
-const URL: &str = "Device/URL";
-const URL_LANGUAGE: &str = "Device/URL@LcId";
-const VENDOR_URL: &str = "Vendor/URL";
-
-fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
-    list.iter().find(|extension| extension.key == key)
-}
-
-/// Returns the number of a device's extensions that the exported file cannot contain.
-pub(super) fn lost(device: &Device) -> usize {
-    let all = device.extensions.as_slice();
-    let image = IMAGES.iter().find(|key| find(all, key).is_some());
-    let (mut seen, mut lost) = (HashSet::new(), 0);
-    for extension in all {
-        let key = extension.key.as_str();
-        let is_known = OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || ALIAS.contains(&key);
-        // The schema allows each known element and the picture at most once.
-        let is_single = is_known || image.is_some_and(|image| *image == key);
-        let is_written = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
-        lost += usize::from(!is_written);
-    }
-    lost
-}
-
 /// Writes the attributes of Type except the identity.
-pub(super) fn of_type(xml: &mut Xml, device: &Device) {
-    let without_lrw = device.ethercat.as_ref().is_some_and(|settings| settings.without_lrw);
-    xml.flag("UseLrdLwr", without_lrw, "true");
-    for key in OF_TYPE {
-        if let Some(extension) = find(&device.extensions, key) {
-            xml.attribute(key.trim_start_matches("Type@"), &extension.value);
-        }
-    }
+pub(super) fn of_type(xml: &mut Xml, settings: &EtherCatSettings) {
+    xml.flag("UseLrdLwr", settings.without_lrw, "true");
+    let Some(tool) = &settings.tool else { return };
+    let attributes = [
+        ("CheckProductCode", &tool.check_product_code),
+        ("CheckRevisionNo", &tool.check_revision),
+        ("CheckSerialNo", &tool.check_serial_number),
+        ("TcSmClass", &tool.sync_manager_class),
+        ("TcCfgModeSafeOp", &tool.safe_op_in_config_mode),
+        ("ModulePdoGroup", &tool.module_pdo_group),
+        ("DownloadModuleList", &tool.download_module_list),
+        ("ShowHideableSubDevices", &tool.show_hideable_sub_devices),
+    ];
+    attributes.into_iter().for_each(|(name, text)| xml.text_attribute(name, text));
 }
 
-/// Writes the URLs of a device. In the IR, the language of a URL precedes the URL.
-pub(super) fn urls(xml: &mut Xml, device: &Device) {
-    let mut lcid = None;
-    for extension in &device.extensions {
-        match extension.key.as_str() {
-            URL_LANGUAGE => lcid = Some(&extension.value),
-            URL => {
-                xml.open("URL");
-                xml.optional("LcId", lcid.take());
-                xml.content(&extension.value);
-                xml.close();
-            }
-            _ => {}
-        }
+/// Writes the URLs of a device. English needs no language number.
+pub(super) fn urls(xml: &mut Xml, settings: &EtherCatSettings) {
+    for url in &settings.urls {
+        xml.open("URL");
+        xml.optional("LcId", language::lcid(&url.language).filter(|lcid| *lcid != language::ENGLISH));
+        xml.content(&url.text);
+        xml.close();
     }
 }
 
 /// Writes the Info element unless it is empty.
-pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
-    let list = device.extensions.as_slice();
+pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let states = times(context, settings, &STATE_TIMES);
     let mailbox = times(context, settings, &MAILBOX_TIMES);
-    let has_elements = CONTROLLER.iter().chain(&ALIAS).any(|key| find(list, key).is_some());
     let has_facts = settings.ebus_current.is_some()
+        || settings.controller.is_some()
+        || settings.station_alias.is_some()
         || settings.identification_register.is_some()
         || settings.identification_in_al_status
         || settings.safe_op_without_sync;
-    if states.is_empty() && mailbox.is_empty() && !has_elements && !has_facts {
+    if states.is_empty() && mailbox.is_empty() && !has_facts {
         return;
     }
     xml.open("Info");
@@ -116,12 +69,14 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, se
         timeouts(xml, mailbox);
         xml.close();
     }
-    if CONTROLLER.iter().any(|key| find(list, key).is_some()) {
+    if let Some(controller) = settings.controller {
         xml.open("EtherCATController");
-        elements(xml, list, &CONTROLLER);
+        xml.optional_leaf("DpramSize", controller.memory_bytes);
+        xml.optional_leaf("SmCount", controller.sync_managers);
+        xml.optional_leaf("FmmuCount", controller.fmmus);
         xml.close();
     }
-    elements(xml, list, &ALIAS);
+    xml.optional_leaf("StationAliasSupported", settings.station_alias);
     xml.optional_leaf("IdentificationAdo", settings.identification_register.map(|address| hex(address, 4)));
     xml.optional_leaf("IdentificationReg134", settings.identification_in_al_status.then_some("true"));
     xml.close();
@@ -143,14 +98,6 @@ fn behavior(xml: &mut Xml, settings: &EtherCatSettings) {
     }
 }
 
-fn elements(xml: &mut Xml, list: &[Extension], keys: &[&'static str]) {
-    for key in keys {
-        if let (Some(extension), Some((_, name))) = (find(list, key), key.split_once('/')) {
-            xml.leaf(name, &extension.value);
-        }
-    }
-}
-
 /// Returns the timeouts with these names if all of them exist. Otherwise, adds a note for those that exist, and returns
 /// an empty list.
 fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
@@ -164,29 +111,6 @@ fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'stat
     }
     context.notes.add_many(NoteKind::Incomplete, found.len(), Subject::Named("Timeout"));
     Vec::new()
-}
-
-/// Writes the name of the picture file.
-pub(super) fn image(xml: &mut Xml, device: &Device) {
-    let first = IMAGES.iter().find_map(|key| Some((*key, find(&device.extensions, key)?)));
-    if let Some((key, extension)) = first {
-        xml.leaf(key, &extension.value);
-    }
-}
-
-/// Returns whether an extension of a module can be written to the module's Profile element.
-pub(super) fn is_of_profile(extension: &Extension) -> bool {
-    OF_PROFILE.contains(&extension.key.as_str()) && extension.value.parse::<i32>().is_ok()
-}
-
-/// Writes the elements AddInfo and SubAddInfo of a profile. These elements contain numbers in addition to the profile
-/// number.
-pub(super) fn profile(xml: &mut Xml, list: &[Extension]) {
-    for key in OF_PROFILE {
-        if let Some(extension) = find(list, key).filter(|extension| is_of_profile(extension)) {
-            xml.leaf(key, &extension.value);
-        }
-    }
 }
 
 /// Writes the vendor's name in the additional languages.
@@ -204,22 +128,18 @@ pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     }
 }
 
-/// Writes the vendor's URLs, which the IR stores as extensions. Adds a note for the other extensions and for the
-/// descriptions of the catalog.
+/// Writes the vendor's URLs. Adds a note for the extensions and descriptions of the catalog.
 pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
-    let urls = context.catalog.extensions.iter().filter(|extension| extension.key == VENDOR_URL);
-    urls.for_each(|extension| xml.leaf("URL", &extension.value));
-    let lost = context.catalog.extensions.iter().filter(|extension| extension.key != VENDOR_URL).count();
-    let lost = lost + context.catalog.descriptions.len();
+    context.catalog.vendor_urls.iter().for_each(|url| xml.leaf("URL", url));
+    let lost = context.catalog.extensions.len() + context.catalog.descriptions.len();
     context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
-/// Writes the version of a file that contains only diagnosis messages. Adds a note for the other extensions and for the
-/// names of the vendor.
+/// Writes the version of a file that contains only diagnosis messages. Adds a note for the extensions, and for the names and URLs of
+/// the vendor.
 pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
-    const VERSION: &str = "EtherCATDiag@Version";
-    let all = context.catalog.extensions.as_slice();
-    xml.optional("Version", find(all, VERSION).map(|extension| &extension.value));
-    let lost = all.iter().filter(|extension| extension.key != VERSION).count() + context.catalog.vendor_names.len();
+    let Catalog { format_version, extensions, vendor_names, vendor_urls, .. } = context.catalog;
+    xml.text_attribute("Version", format_version);
+    let lost = extensions.len() + vendor_names.len() + vendor_urls.len();
     context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
 }

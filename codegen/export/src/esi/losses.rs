@@ -1,6 +1,6 @@
 //! Notes about facts that ETG.2000 cannot express.
 
-use super::{diagnosis, extras, Context};
+use super::{diagnosis, Context};
 use crate::note::{self, NoteKind, Subject};
 use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Device, Module};
@@ -9,6 +9,7 @@ use lexibus_codegen::ir::{Device, Module};
 pub(super) fn of_catalog(context: &mut Context<'_>) {
     let (catalog, notes) = (context.catalog, &mut context.notes);
     let mut parts = catalog.submodules.len() + catalog.unit_diagnoses.len() + catalog.code_tables.len();
+    parts += catalog.unused_texts.len() + usize::from(catalog.profile_header.is_some());
     if !context.is_esi {
         parts += catalog.families.len() + catalog.graphics.len();
     }
@@ -31,7 +32,7 @@ pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
     notes.add_many(NoteKind::Axis, axes, subject);
     notes.add_many(NoteKind::Doubt, doubts::of_device(context.catalog, device).len(), subject);
-    notes.add_many(NoteKind::Extension, extras::lost(device), subject);
+    notes.add_many(NoteKind::Extension, device.extensions.len(), subject);
     for group in device.groups.iter().filter(|group| group.index().is_none()) {
         let others = group.items.iter().filter(|item| item.object().is_none()).count();
         notes.add_many(NoteKind::NotAnObject, others, Subject::Named(&group.name));

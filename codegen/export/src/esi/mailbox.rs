@@ -9,10 +9,11 @@ use crate::xml::Xml;
 use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
 
 /// Attributes of mailbox protocols that the IR stores unchanged.
-const ATTRIBUTES: [(&str, &[&str]); 4] = [
+const ATTRIBUTES: [(&str, &[&str]); 5] = [
     ("AoE", &["AdsRouter", "GenerateOwnNetId", "InitializeOwnNetId"]),
     ("EoE", &["IP", "MAC", "TimeStamp"]),
     ("CoE", &["EdsFile", "DS402Channels", "SdoUploadWithMaxLength", "TimeDistribution"]),
+    ("Module/CoE", &["EdsFile", "ModuleOD"]),
     ("SoE", &["ChannelCount", "DriveFollowsBit3Support"]),
 ];
 
@@ -28,10 +29,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, declared: Option<&
     protocol(xml, notes, "AoE", mailbox.aoe.as_ref());
     protocol(xml, notes, "EoE", mailbox.eoe.as_ref());
     if let Some(coe) = &mailbox.coe {
-        xml.open("CoE");
-        coe_attributes(xml, notes, coe);
-        coe.init_commands.iter().for_each(|command| init_command(xml, notes, "CoE", command));
-        xml.close();
+        self::coe(xml, notes, coe, "CoE");
     }
     protocol(xml, notes, "FoE", mailbox.foe.as_ref());
     protocol(xml, notes, "SoE", mailbox.soe.as_ref());
@@ -39,7 +37,9 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, declared: Option<&
     xml.close();
 }
 
-fn coe_attributes(xml: &mut Xml, notes: &mut Notes, coe: &Coe) {
+/// Writes the CoE element. `element` is its key in [`ATTRIBUTES`].
+pub(super) fn coe(xml: &mut Xml, notes: &mut Notes, coe: &Coe, element: &'static str) {
+    xml.open("CoE");
     xml.flag("SdoInfo", coe.sdo_info, "true");
     xml.flag("PdoAssign", coe.pdo_assign, "true");
     xml.flag("PdoConfig", coe.pdo_config, "true");
@@ -47,7 +47,9 @@ fn coe_attributes(xml: &mut Xml, notes: &mut Notes, coe: &Coe) {
     xml.flag("CompleteAccess", coe.complete_access, "true");
     xml.flag("SegmentedSdo", coe.segmented_sdo, "true");
     xml.flag("DiagHistory", coe.diag_history, "true");
-    attributes(xml, notes, "CoE", &coe.attributes);
+    attributes(xml, notes, element, &coe.attributes);
+    coe.init_commands.iter().for_each(|command| init_command(xml, notes, "CoE", command));
+    xml.close();
 }
 
 fn protocol(xml: &mut Xml, notes: &mut Notes, element: &'static str, protocol: Option<&Protocol>) {
@@ -72,7 +74,7 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, element: &'static str, list: &[(
 }
 
 /// Writes a command that a master sends on a state transition.
-pub(super) fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, command: &InitCommand) {
+fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, command: &InitCommand) {
     let subject = Subject::Object(command.index);
     xml.open("InitCmd");
     if protocol == "CoE" {

@@ -1,28 +1,11 @@
 //! Writes the modules of modular devices.
 
-use super::mailbox::init_command;
 use super::text::{hex, names};
 use super::types::Types;
-use super::{dictionary, extras, losses, objects, pdo, Context};
+use super::{dictionary, losses, mailbox, objects, pdo, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{Extension, Module};
-
-/// Attributes of a module's CoE element, which the IR stores as extensions.
-const COE: [&str; 9] = [
-    "CoE@SdoInfo",
-    "CoE@PdoAssign",
-    "CoE@PdoConfig",
-    "CoE@PdoUpload",
-    "CoE@CompleteAccess",
-    "CoE@SegmentedSdo",
-    "CoE@DiagHistory",
-    "CoE@EdsFile",
-    "CoE@ModuleOD",
-];
-
-/// Extension that marks a module whose mailbox supports CoE.
-const HAS_COE: &str = "Mailbox/CoE";
+use lexibus_codegen::ir::{Mailbox, Module};
 
 /// Writes the Module element of a module.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
@@ -39,38 +22,27 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     for pdo in &module.process_data.pdos {
         pdo::write(xml, &mut context.notes, &types, pdo, true);
     }
-    mailbox(xml, context, module);
+    of_mailbox(xml, context, module);
     profile(xml, context, module, &mut types);
-    xml.optional_leaf(
-        "DcOpModeName",
-        module.extensions.iter().find(|extension| extension.key == "DcOpModeName").map(|name| &name.value),
-    );
+    xml.text_leaf("DcOpModeName", &module.clock_mode);
     xml.close();
-    let is_written = |extension: &Extension| matches!(extension.key.as_str(), "DcOpModeName" | HAS_COE);
-    let is_lost = |extension: &&Extension| !is_written(extension) && !is_coe(extension);
-    let lost = module.extensions.iter().filter(is_lost).filter(|extension| !extras::is_of_profile(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, subject);
+    context.notes.add_many(NoteKind::Extension, module.extensions.len(), subject);
     losses::of_module(context, module);
 }
 
-fn is_coe(extension: &Extension) -> bool {
-    COE.contains(&extension.key.as_str())
-}
-
-fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
-    let attributes: Vec<&Extension> = module.extensions.iter().filter(|extension| is_coe(extension)).collect();
-    let has_coe = module.extensions.iter().any(|extension| extension.key == HAS_COE);
-    if module.init_commands.is_empty() && attributes.is_empty() && !has_coe {
-        return;
+/// Writes the mailbox with CoE. ETG.2000 allows no other protocol for a module, so the others are left out with a note.
+fn of_mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
+    let Some(mailbox) = &module.mailbox else { return };
+    let Mailbox { data_link_layer, real_time, aoe, eoe, coe, foe, soe, voe } = &**mailbox;
+    let others = [aoe, eoe, foe, soe, voe].into_iter().flatten();
+    let of_others: usize = others.map(|protocol| 1 + protocol.attributes.len() + protocol.init_commands.len()).sum();
+    let lost = of_others + usize::from(*data_link_layer) + usize::from(*real_time);
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Named(&module.name));
+    if let Some(coe) = coe {
+        xml.open("Mailbox");
+        mailbox::coe(xml, &mut context.notes, coe, "Module/CoE");
+        xml.close();
     }
-    xml.open("Mailbox");
-    xml.open("CoE");
-    for extension in attributes {
-        xml.attribute(extension.key.trim_start_matches("CoE@"), &extension.value);
-    }
-    module.init_commands.iter().for_each(|command| init_command(xml, &mut context.notes, "CoE", command));
-    xml.close();
-    xml.close();
 }
 
 /// Writes the Profile element of a module. ETG.2000 allows only one such element per module, so other profile numbers
@@ -85,7 +57,8 @@ fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mu
         xml.leaf("ProfileNo", number);
         context.notes.add_many(NoteKind::Setting, others.len(), Subject::Named(&module.name));
     }
-    extras::profile(xml, &module.extensions);
+    xml.optional_leaf("AddInfo", module.add_info);
+    xml.optional_leaf("SubAddInfo", module.sub_add_info);
     dictionary::write(xml, context, types, &objects);
     xml.close();
 }

@@ -9,10 +9,7 @@ use super::types::Types;
 use super::{value, Context};
 use crate::note::{self, NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{Category, Extension, Group, GroupKind, Item, Storage};
-
-/// Extension attributes that become flags of an object in ETG.2000.
-const FLAGS: [&str; 3] = ["Attribute", "Transition", "SdoAccess"];
+use lexibus_codegen::ir::{Category, Group, GroupKind, Item, Storage, ToolFlags};
 
 /// Writes the Object element of an object with the given entries.
 pub(super) fn write(
@@ -56,13 +53,10 @@ fn index(xml: &mut Xml, group: &Group) {
     xml.open("Index");
     xml.flag("DependOnSlot", group.depends_on_slot, "true");
     xml.flag("DependOnSlotGroup", group.depends_on_slot_group, "true");
-    xml.optional("OverwrittenByModule", extension(group, "OverwrittenByModule"));
+    let tool = group.tool_flags.as_deref();
+    xml.text_attribute("OverwrittenByModule", tool.map_or("", |tool| &tool.overwritten_by_module));
     xml.content(hex(group.index().unwrap_or(0), 4));
     xml.close();
-}
-
-fn extension<'g>(group: &'g Group, key: &str) -> Option<&'g CompactString> {
-    group.extensions.iter().find(|extension| extension.key == key).map(|extension| &extension.value)
 }
 
 /// Writes a SubItem element for each entry, unless the elements would only repeat the names of the type.
@@ -146,9 +140,10 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     let subject = Subject::object(group);
     let is_lost = category == Some(Category::Manufacturer);
     context.notes.add_many(NoteKind::Category, is_lost, subject);
-    let others: Vec<(&str, &CompactString)> =
-        FLAGS.iter().filter_map(|key| Some((*key, extension(group, key)?))).collect();
-    if single.is_none() && letter.is_none() && others.is_empty() {
+    let none = ToolFlags::default();
+    let tool = group.tool_flags.as_deref().unwrap_or(&none);
+    let others = [("Attribute", &tool.attribute), ("Transition", &tool.transition), ("SdoAccess", &tool.sdo_access)];
+    if single.is_none() && letter.is_none() && others.iter().all(|(_, text)| text.is_empty()) {
         return;
     }
     xml.open("Flags");
@@ -159,7 +154,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
             xml.optional_leaf("Category", letter);
         }
     }
-    others.into_iter().for_each(|(key, value)| xml.leaf(key, value));
+    others.into_iter().for_each(|(name, text)| xml.text_leaf(name, text));
     if let Some(facts) = facts {
         if facts.backup {
             xml.leaf("Backup", 1);
@@ -171,22 +166,14 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     xml.close();
 }
 
-/// Writes the extension attributes of an object, except its flags, as Property elements with a name and a value.
+/// Writes the extension attributes of an object as Property elements with a name and a value.
 fn properties(xml: &mut Xml, group: &Group) {
-    let is_flag =
-        |extension: &&Extension| FLAGS.contains(&extension.key.as_str()) || extension.key == "OverwrittenByModule";
-    let mut others = group.extensions.iter().filter(|extension| !is_flag(extension)).peekable();
-    if others.peek().is_none() {
-        return;
-    }
-    xml.open("Properties");
-    for extension in others {
+    xml.list("Properties", &group.extensions, |xml, extension| {
         xml.open("Property");
         xml.leaf("Name", &extension.key);
         xml.leaf("Value", &extension.value);
         xml.close();
-    }
-    xml.close();
+    });
 }
 
 /// Adds notes for facts of an object and its entries that ETG.2000 cannot express.

@@ -5,7 +5,7 @@ use super::text::{hex, names};
 use super::types::Types;
 use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{Direction, Extension, Pdo, PdoEntry, Type};
+use lexibus_codegen::ir::{Direction, Pdo, PdoEntry, Type};
 
 /// Writes a PDO. `is_slave` states whether the device is an EtherCAT slave. The CAN communication parameters of an
 /// EtherCAT slave are left out with a note.
@@ -19,8 +19,7 @@ pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &P
     pdo.entries.iter().for_each(|each| entry(xml, notes, types, each));
     pdo.excluded_sync_managers.iter().for_each(|number| xml.leaf("ExcludedSm", number));
     xml.close();
-    let is_lost = |extension: &&Extension| !is_attribute(extension);
-    notes.add_many(NoteKind::Extension, pdo.extensions.iter().filter(is_lost).count(), subject);
+    notes.add_many(NoteKind::Extension, pdo.extensions.len(), subject);
     notes.add_many(NoteKind::Pdo, pdo.communication.is_some() && is_slave, subject);
     notes.add_many(NoteKind::Documentation, pdo.documentation.is_some(), subject);
     notes.add_many(NoteKind::Doubt, pdo.doubts.len(), subject);
@@ -39,21 +38,8 @@ fn attributes(xml: &mut Xml, pdo: &Pdo) {
         xml.optional("OSIndexInc", oversampling.index_increment);
     }
     xml.flag("OverwrittenByModule", pdo.overwritten_by_module, "true");
-    for extension in pdo.extensions.iter().filter(|extension| is_attribute(extension)) {
-        if let Some((_, name)) = extension.key.split_once('@') {
-            xml.attribute(name, &extension.value);
-        }
-    }
-}
-
-/// Returns whether an extension is a PDO attribute that the schema defines, with a valid value.
-fn is_attribute(extension: &Extension) -> bool {
-    let Some(("RxPdo" | "TxPdo", name)) = extension.key.split_once('@') else { return false };
-    match name {
-        "PdoOrder" => extension.value.parse::<i32>().is_ok(),
-        "SRA_Parameter" => matches!(extension.value.as_str(), "0" | "1" | "true" | "false"),
-        _ => false,
-    }
+    xml.optional("PdoOrder", pdo.order);
+    xml.optional("SRA_Parameter", pdo.sra_parameter);
 }
 
 /// Writes an index. The flags state whether the index increases with the slot and with the slot group.

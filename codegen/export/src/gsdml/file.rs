@@ -1,6 +1,6 @@
 //! Writes the file with its header, identity and lists.
 
-use lexibus_codegen::ir::{Catalog, Documentation, Extension, Format};
+use lexibus_codegen::ir::{Catalog, CompactString, Documentation, Format, ProfileHeader};
 
 use super::super::note::{Notes, Subject};
 use super::super::options::MissingFacts;
@@ -8,7 +8,7 @@ use super::super::xml::Xml;
 use super::context::Context;
 use super::options::TrackedOptions;
 use super::texts::TextList;
-use super::{device, diagnosis, image, module, submodule, texts, values};
+use super::{device, diagnosis, image, module, submodule, values};
 use super::{Export, NoteKind, Options, Refusal};
 
 /// Schema version of the file if the source does not declare one.
@@ -34,7 +34,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     if catalog.devices.is_empty() && catalog.modules.is_empty() && catalog.submodules.is_empty() {
         return Err(Refusal::Nothing);
     }
-    let texts = TextList::new(&catalog.extensions);
+    let texts = TextList::new(&catalog.unused_texts);
     let mut context = Context {
         catalog,
         options,
@@ -96,7 +96,7 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     xml.attribute("xmlns", NAMESPACE);
     xml.attribute("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance");
     xml.attribute("xsi:schemaLocation", format_args!("{NAMESPACE} ..\\xsd\\GSDML-DeviceProfile-v{version}.xsd"));
-    profile_header(xml, &context.catalog.extensions);
+    profile_header(xml, context.catalog);
     xml.open("ProfileBody");
     identity(xml, context);
     xml.open("ApplicationProcess");
@@ -106,35 +106,26 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     lost(context);
 }
 
-/// The usual content of the header (ISO 15745-1), for elements that the source does not have.
-const HEADER: [(&str, &str); 5] = [
-    ("ProfileIdentification", "PROFINET Device Profile"),
-    ("ProfileRevision", "1.00"),
-    ("ProfileName", "Device Profile for PROFINET Devices"),
-    ("ProfileSource", "PROFIBUS Nutzerorganisation e. V. (PNO)"),
-    ("ProfileClassID", "Device"),
-];
-
-const REFERENCE: [(&str, &str); 3] = [("ISO15745Part", "4"), ("ISO15745Edition", "1"), ("ProfileTechnology", "GSDML")];
-
-fn profile_header(xml: &mut Xml, extensions: &[Extension]) {
-    let find = |above: &str, name: &str| {
-        let is_named = |key: &str| key.split_once('/').is_some_and(|(element, rest)| element == above && rest == name);
-        extensions.iter().find(|extension| is_named(&extension.key)).map(|extension| extension.value.as_str())
+/// Writes the header (ISO 15745-1). Elements that the source does not have get their usual content.
+fn profile_header(xml: &mut Xml, catalog: &Catalog) {
+    let none = ProfileHeader::default();
+    let header = catalog.profile_header.as_deref().unwrap_or(&none);
+    let or = |text: &CompactString, usual: &'static str| match text.is_empty() {
+        true => CompactString::const_new(usual),
+        false => text.clone(),
     };
     xml.open("ProfileHeader");
-    for (name, usual) in HEADER {
-        xml.leaf(name, find("ProfileHeader", name).unwrap_or(usual));
-    }
-    for name in ["ProfileDate", "AdditionalInformation"] {
-        if let Some(value) = find("ProfileHeader", name) {
-            xml.leaf(name, value);
-        }
-    }
+    xml.leaf("ProfileIdentification", or(&header.identification, "PROFINET Device Profile"));
+    xml.leaf("ProfileRevision", or(&header.revision, "1.00"));
+    xml.leaf("ProfileName", or(&header.name, "Device Profile for PROFINET Devices"));
+    xml.leaf("ProfileSource", or(&header.source, "PROFIBUS Nutzerorganisation e. V. (PNO)"));
+    xml.leaf("ProfileClassID", or(&header.class, "Device"));
+    xml.text_leaf("ProfileDate", &header.date);
+    xml.text_leaf("AdditionalInformation", &header.additional_information);
     xml.open("ISO15745Reference");
-    for (name, usual) in REFERENCE {
-        xml.leaf(name, find("ISO15745Reference", name).unwrap_or(usual));
-    }
+    xml.leaf("ISO15745Part", or(&header.iso_part, "4"));
+    xml.leaf("ISO15745Edition", or(&header.iso_edition, "1"));
+    xml.leaf("ProfileTechnology", or(&header.technology, "GSDML"));
     xml.close();
     xml.close();
 }
@@ -203,21 +194,11 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::
     xml.close();
 }
 
-/// Adds notes for the extensions, vendor names and code tables of the catalog that the file does not contain.
+/// Adds notes for the extensions, vendor names, URLs and code tables of the catalog that the file does not contain.
 fn lost(context: &mut Context<'_>) {
     let catalog = context.catalog;
-    let is_written = |extension: &&Extension| {
-        let key = extension.key.as_str();
-        let is_header = |above: &str, names: &[(&str, &str)]| {
-            key.strip_prefix(above).is_some_and(|name| names.iter().any(|(known, _)| *known == name))
-        };
-        texts::kept(key).is_some()
-            || is_header("ProfileHeader/", &HEADER)
-            || is_header("ISO15745Reference/", &REFERENCE)
-            || matches!(key, "ProfileHeader/ProfileDate" | "ProfileHeader/AdditionalInformation")
-    };
-    let lost = catalog.extensions.iter().filter(|extension| !is_written(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost + catalog.vendor_names.len(), Subject::Device);
+    let lost = catalog.extensions.len() + catalog.vendor_names.len() + catalog.vendor_urls.len();
+    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
     let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
     context.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);
 }

@@ -5,7 +5,7 @@ use super::values::ranges;
 use super::{submodule, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{CompactString, Documentation, Extension, Module, SlotNumbers, SubslotName, Texts};
+use lexibus_codegen::ir::{CompactString, Documentation, Module, SlotNumbers, SubslotName, Texts};
 
 /// The texts and attributes of a ModuleInfo element.
 pub(super) struct Info<'i> {
@@ -92,18 +92,11 @@ pub(super) fn graphics_of<'g>(xml: &mut Xml, list: impl Iterator<Item = (&'g str
 
 /// Writes the ModuleItem element of a module.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
-    let is_attribute = |extension: &&Extension| !extension.key.contains('/');
-    let attributes: Vec<(CompactString, CompactString)> = module
-        .extensions
-        .iter()
-        .filter(is_attribute)
-        .map(|extension| (extension.key.clone(), extension.value.clone()))
-        .collect();
     xml.open("ModuleItem");
     xml.attribute("ID", &module.id);
     xml.attribute("ModuleIdentNumber", format_args!("0x{:08X}", module.number));
     xml.text_attribute("PhysicalSubslots", &ranges(&module.subslots));
-    elements::kept(xml, &attributes);
+    elements::kept(xml, &module.attributes);
     let info = Info {
         name: &module.name,
         names: &module.names,
@@ -112,14 +105,13 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
         order: &module.identity.order_code,
         hardware: &module.revision,
         software: &module.version,
-        attributes: &attributes,
+        attributes: &module.attributes,
     };
     info.write(xml, context);
     subslots(xml, context, &module.subslot_names);
     submodule::built_in(xml, context, &module.submodules, None);
     submodule::useable(xml, context, &module.submodules);
-    graphics(xml, &attributes);
+    graphics(xml, &module.attributes);
     xml.close();
-    let lost = module.extensions.len() - attributes.len();
-    context.notes.add_many(NoteKind::Extension, lost, Subject::Named(&module.name));
+    context.notes.add_many(NoteKind::Extension, module.extensions.len(), Subject::Named(&module.name));
 }

@@ -8,7 +8,7 @@ use super::{elements, types, Context};
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{
-    Access, Binding, CompactString, Extension, FParameter, FParameters, Group, GroupKind, Item, Menu, Record,
+    Access, Binding, CompactString, FParameter, FParameters, Group, GroupKind, Item, Menu, Record, RelatedItems,
     Submodule, Value,
 };
 
@@ -81,7 +81,7 @@ impl<'m> Menus<'m> {
 }
 
 fn id(item: &Item) -> Option<&CompactString> {
-    kept(item, "ID")
+    reference(item, |related| &related.id)
 }
 
 /// Writes the constants, parameters and menus of a record.
@@ -117,7 +117,10 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let ty = values.map_or(item.ty, |(_, base)| base);
     xml.open("Ref");
     xml.optional("ID", id(item));
-    xml.optional("ValueItemTarget", values.map(|(def, _)| &def.name).or_else(|| kept(item, "ValueItemTarget")));
+    xml.optional(
+        "ValueItemTarget",
+        values.map(|(def, _)| &def.name).or_else(|| reference(item, |related| &related.unsuitable_values)),
+    );
     types::position(xml, context, ty, offset, bits, &item.name);
     if let Some(default) = item.default.as_ref().and_then(value) {
         xml.attribute("DefaultValue", default);
@@ -134,14 +137,12 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     }
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     xml.close();
-    let is_written =
-        |extension: &&Extension| matches!(extension.key.as_str(), "ID" | "ValueItemTarget" | "AllowedValues");
-    let lost = item.extensions.iter().filter(|extension| !is_written(extension)).count();
-    context.notes.add_many(NoteKind::Extension, lost, subject);
+    context.notes.add_many(NoteKind::Extension, item.extensions.len(), subject);
 }
 
-fn kept<'i>(item: &'i Item, key: &str) -> Option<&'i CompactString> {
-    item.extensions.iter().find(|extension| extension.key == key).map(|extension| &extension.value)
+/// Returns an identifier in the relations of an item, if there is one.
+fn reference(item: &Item, text: impl Fn(&RelatedItems) -> &CompactString) -> Option<&CompactString> {
+    item.related.as_deref().map(text).filter(|text| !text.is_empty())
 }
 
 fn value(value: &Value) -> Option<String> {
@@ -158,10 +159,10 @@ fn value(value: &Value) -> Option<String> {
 
 /// Returns the allowed values as ranges. If the IR stores the original text, returns this text.
 fn allowed(item: &Item) -> Option<String> {
-    if let Some(kept) = kept(item, "AllowedValues") {
-        return Some(kept.to_string());
-    }
     let limits = &item.limits;
+    if !limits.text.is_empty() {
+        return Some(limits.text.to_string());
+    }
     let one = limits.low.clone().zip(limits.high.clone()).filter(|_| !limits.are_swapped(item.ty));
     let ranges = if limits.allowed.is_empty() { one.as_slice() } else { &limits.allowed };
     let texts: Vec<String> =

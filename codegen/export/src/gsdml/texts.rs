@@ -6,7 +6,7 @@ use compact_str::{format_compact, CompactString};
 
 use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
-use lexibus_codegen::ir::{Documentation, Extension, LocalText, Texts};
+use lexibus_codegen::ir::{Documentation, Texts, UnusedText};
 
 /// A language code and the texts in this language, with their identifiers.
 type Language<'t> = (&'t CompactString, Vec<(&'t CompactString, &'t CompactString)>);
@@ -22,36 +22,12 @@ pub(super) struct TextList {
 }
 
 impl TextList {
-    /// Creates a text list with the texts of the source to which no field of the IR refers. These texts keep their
-    /// identifiers, because attributes that the IR stores unchanged can refer to them.
-    pub(super) fn new(extensions: &[Extension]) -> Self {
-        let mut list = TextList::default();
-        let mut positions: HashMap<CompactString, usize> = HashMap::new();
-        let mut others: Vec<Vec<LocalText>> = Vec::new();
-        for extension in extensions {
-            let Some((language, id)) = kept(&extension.key) else { continue };
-            let at = *positions.entry(id.into()).or_insert_with(|| {
-                list.texts.push((id.into(), CompactString::default(), Texts::default()));
-                others.push(Vec::new());
-                list.texts.len() - 1
-            });
-            match language {
-                "primary" => {
-                    if let Some((_, text, _)) = list.texts.get_mut(at) {
-                        *text = extension.value.clone();
-                    }
-                }
-                _ => {
-                    let local = LocalText { language: language.into(), text: extension.value.clone() };
-                    others.get_mut(at).into_iter().for_each(|translations| translations.push(local.clone()));
-                }
-            }
-        }
-        for (text, translations) in list.texts.iter_mut().zip(others) {
-            text.2 = translations.into();
-        }
-        list.used_ids = list.texts.iter().map(|(id, ..)| id.clone()).collect();
-        list
+    /// Creates a text list with the unused texts of the source. These texts keep their identifiers, because attributes that the IR
+    /// stores unchanged can refer to them.
+    pub(super) fn new(unused: &[UnusedText]) -> Self {
+        let texts = unused.iter().map(|text| (text.id.clone(), text.text.clone(), text.translations.clone()));
+        let used_ids = unused.iter().map(|text| text.id.clone()).collect();
+        TextList { texts: texts.collect(), used_ids, ..TextList::default() }
     }
 
     /// Returns the identifier of a text. Adds the text if the list does not contain it.
@@ -138,11 +114,6 @@ fn text(xml: &mut Xml, id: &str, value: &str) {
     xml.attribute("TextId", id);
     xml.attribute("Value", value);
     xml.close();
-}
-
-/// Returns the language and identifier from the key of an unreferenced text, such as `Text/de/T7`.
-pub(super) fn kept(key: &str) -> Option<(&str, &str)> {
-    key.strip_prefix("Text/")?.split_once('/')
 }
 
 /// Returns whether a text has the form of a language tag (`xs:language`).

@@ -1,13 +1,16 @@
 //! Compares catalogs: devices, modules, submodules and their shared data.
 
 use super::change::{Change, Judgment};
-use super::comparison::{compare_fields, fact_as, list, part, text, Comparison, Elements, COMPARED, KEY, POSITION};
+use super::comparison::{
+    compare_fields, fact, fact_as, list, or_default, part, text, Comparison, Elements, COMPARED, KEY, POSITION,
+};
+use super::ethercat::joined;
 use super::pairing::pairs;
 use super::show::Show;
 use super::texts::extensions;
 use super::{codes, devices, modules, profinet, types};
 use lexibus_codegen::facts::device::title;
-use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, Submodule};
+use lexibus_codegen::ir::{Catalog, Device, Family, Graphic, LocalText, Module, ProfileHeader, Submodule, UnusedText};
 
 /// Compares two versions of a device description.
 ///
@@ -47,8 +50,29 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
         })),
         vendor_names: part("the catalog", text("name of the vendor in other languages")),
         descriptions: part("the catalog", text("description in other languages")),
+        vendor_urls: part("the catalog", fact("URLs of the vendor", Judgment::NONE)),
+        format_version: part("the file", text("version of the format")),
+        profile_header: part("the file", or_default(profile_header)),
+        unused_texts: part("the catalog", fact_as("texts without a use", Judgment::NONE, |list: &Vec<UnusedText>| {
+            joined(list, |text| format!("{} {}{}", text.id, text.text, text.translations.show()))
+        })),
         extensions: part("the catalog", extensions),
     }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
+}
+
+fn profile_header(old: &ProfileHeader, new: &ProfileHeader, comparison: &mut Comparison<'_>) {
+    compare_fields!(ProfileHeader, old, new, comparison, {
+        identification: text("identification of the profile"),
+        revision: text("revision of the profile"),
+        name: text("name of the profile"),
+        source: text("source of the profile"),
+        class: text("class of the profile"),
+        date: text("date of the profile"),
+        additional_information: text("additional information"),
+        iso_part: text("part of ISO 15745"),
+        iso_edition: text("edition of ISO 15745"),
+        technology: text("technology of the profile"),
+    });
 }
 
 /// Compares the devices. If both descriptions have exactly one device, these two are compared. Otherwise, devices are

@@ -1,11 +1,13 @@
 //! Compares the EtherCAT settings with which a master configures a slave.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, fact_as, list, optional, text, Comparison, Elements, KEY, POSITION};
+use super::comparison::{
+    compare_fields, fact, fact_as, list, optional, or_default, text, Comparison, Elements, KEY, POSITION,
+};
 use super::show::{index, Show};
 use lexibus_codegen::ir::{
     ClockMode, ClockSyncManager, ClockTime, Coe, CompactString, DistributedClocks, Eeprom, EtherCatSettings, Fmmu,
-    InitCommand, Mailbox, ModulePdoGroup, Protocol, SlotRules, SyncUnit,
+    InitCommand, LocalText, Mailbox, ModulePdoGroup, Protocol, SlaveController, SlotRules, SyncUnit, ToolSettings,
 };
 use lexibus_codegen::number::{self, bytes, hex, hex16, hex32};
 
@@ -34,6 +36,13 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
         identification_in_al_status: fact("identification in the AL status code", Judgment::WIRE),
         without_lrw: fact("no LRW datagrams", Judgment::WIRE),
         safe_op_without_sync: fact("SafeOp before synchronization", Judgment::BEHAVIOR),
+        tool: or_default(tool),
+        controller: or_default(controller),
+        station_alias: fact("station alias", Judgment::BEHAVIOR),
+        urls: fact_as("URLs", Judgment::NONE, |urls: &Vec<LocalText>| {
+            joined(urls, |url| format!("{} {}", url.language, url.text))
+        }),
+        picture: fact("picture", Judgment::NONE),
     });
 }
 
@@ -51,6 +60,27 @@ pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
 fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
     let set = flags.iter().filter(|(is_set, _)| *is_set).map(|(_, name)| *name);
     std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")
+}
+
+fn tool(old: &ToolSettings, new: &ToolSettings, comparison: &mut Comparison<'_>) {
+    compare_fields!(ToolSettings, old, new, comparison, {
+        check_product_code: fact("check of the product code", Judgment::BEHAVIOR),
+        check_revision: fact("check of the revision", Judgment::BEHAVIOR),
+        check_serial_number: fact("check of the serial number", Judgment::BEHAVIOR),
+        sync_manager_class: fact("class of sync manager settings", Judgment::BEHAVIOR),
+        safe_op_in_config_mode: fact("SafeOp in configuration mode", Judgment::BEHAVIOR),
+        module_pdo_group: fact("module PDO group", Judgment::BEHAVIOR),
+        download_module_list: fact("download of the module list", Judgment::BEHAVIOR),
+        show_hideable_sub_devices: fact("shows hideable sub-devices", Judgment::NONE),
+    });
+}
+
+fn controller(old: &SlaveController, new: &SlaveController, comparison: &mut Comparison<'_>) {
+    compare_fields!(SlaveController, old, new, comparison, {
+        memory_bytes: fact("memory of the slave controller in bytes", Judgment::BEHAVIOR),
+        sync_managers: fact("sync managers of the slave controller", Judgment::BEHAVIOR),
+        fmmus: fact("FMMUs of the slave controller", Judgment::BEHAVIOR),
+    });
 }
 
 fn fmmu(fmmu: &Fmmu) -> String {
@@ -71,7 +101,7 @@ fn sync_unit(sync_unit: &SyncUnit) -> String {
     with_flags(format!("unit {name}"), &flags)
 }
 
-fn mailbox(old: &Mailbox, new: &Mailbox, comparison: &mut Comparison<'_>) {
+pub(super) fn mailbox(old: &Mailbox, new: &Mailbox, comparison: &mut Comparison<'_>) {
     let optional_protocol =
         |name: &'static str| optional::<Protocol, Protocol>(name, Judgment::ADDITION, Judgment::API_AND_WIRE, protocol);
     compare_fields!(Mailbox, old, new, comparison, {
@@ -108,7 +138,7 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
 }
 
 /// Compares the start-up commands of the master. The commands are paired by their objects.
-pub(super) fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
+fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
     let title =
         |command: &InitCommand| format!("start-up write to {}", number::object(command.index, command.sub_index));
     list(Elements::titled(title).judged(|_| Judgment::WIRE, |_| Judgment::WIRE), init_command)

@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, fact_as, Comparison, COMPARED, POSITION};
+use super::comparison::{compare_fields, fact, fact_as, or_default, Comparison, COMPARED, POSITION};
 use super::item;
 use super::names::{is_module, Identifiers};
 use super::pairing::{Key, Matching};
 use super::show::index;
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::item::entry_name;
-use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record};
+use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record, ToolFlags};
 use lexibus_codegen::number::{bytes, hex, hex16};
 
 /// Compares groups and their items. An item that moved to another group is still compared with its old version.
@@ -166,6 +166,16 @@ fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Co
     }
 }
 
+/// Compares the flags of an object for tools.
+fn tool_flags(old: &ToolFlags, new: &ToolFlags, comparison: &mut Comparison<'_>) {
+    compare_fields!(ToolFlags, old, new, comparison, {
+        attribute: fact("attribute for tools", Judgment::NONE),
+        transition: fact("state transition of the write access", Judgment::BEHAVIOR),
+        sdo_access: fact("SDO access", Judgment::BEHAVIOR),
+        overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
+    });
+}
+
 /// Compares the facts of a group. The items of the group are compared separately.
 fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
     compare_fields!(Group, old, new, comparison, {
@@ -180,6 +190,7 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| hex(*flags)),
         depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
+        tool_flags: or_default(tool_flags),
         described: fact("number of described entries", Judgment::NONE),
         documentation, doubts, extensions, origins,
     }, COMPARED => [items], POSITION => [origin, name_at]);

@@ -64,6 +64,8 @@ fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'
         same_quantity: fact("same quantity as", Judgment::NONE),
         upper_half: fact("upper half", Judgment::BEHAVIOR),
         valid_count: fact("number of valid elements", Judgment::BEHAVIOR),
+        id: text("identifier in the file"),
+        unsuitable_values: text("unsuitable named values"),
     });
 }
 

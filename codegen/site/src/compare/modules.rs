@@ -2,10 +2,11 @@
 
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, fact, fact_as, judged, list, part, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
+    compare_fields, fact, fact_as, judged, list, optional, part, slice, text, Comparison, Elements, COMPARED, KEY,
+    POSITION,
 };
 use super::conditions::restricted;
-use super::ethercat::init_commands;
+use super::ethercat::mailbox;
 use super::identity::identity;
 use super::show::index;
 use super::slots::{compare_slots, Use};
@@ -81,7 +82,11 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
             pdos::compare(old, new, ObjectBuses::COE, comparison);
         },
         pdo_group: part("module", fact("module PDO group", Judgment::WIRE)),
-        init_commands: init_commands(),
+        mailbox: part("module", optional("mailbox", Judgment::ADDITION, Judgment::API_AND_WIRE, mailbox)),
+        clock_mode: part("module", text("mode of the distributed clocks")),
+        add_info: part("module", fact("additional profile number", Judgment::BEHAVIOR)),
+        sub_add_info: part("module", fact("further additional profile number", Judgment::BEHAVIOR)),
+        attributes: part("module", fact("attributes", Judgment::BEHAVIOR)),
         submodules: part("module", slice(profinet::compare_uses)),
         subslots: part("module", fact("subslots", Judgment::BEHAVIOR)),
         subslot_names: part("module", fact_as("names of subslots", Judgment::NONE, |list: &Vec<SubslotName>| {

@@ -63,6 +63,8 @@ fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
         is_virtual: fact("carries no data", Judgment::API_AND_WIRE),
         overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
         oversampling: fact("oversampling", Judgment::WIRE),
+        order: fact("position in the assignment", Judgment::WIRE),
+        sra_parameter: fact("parameters of the safety-related application", Judgment::BEHAVIOR),
         names,
         max_bytes: fact("maximum length in bytes", Judgment::BEHAVIOR),
         documentation, doubts, extensions,

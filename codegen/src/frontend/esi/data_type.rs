@@ -112,7 +112,7 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
             "Type" => raw.ty = reader.text(&tag)?,
             "BitSize" => raw.bits = reader.number(&tag, "size in bits")?,
             "BitOffs" => raw.offset = reader.number(&tag, "bit offset")?,
-            "Flags" => raw.flags = flags::read(reader, &tag)?,
+            "Flags" => raw.flags = flags::read(reader, &tag, None)?,
             "Comment" => reader.name(&tag, raw.comment.get_or_insert_default())?,
             "Property" => info_value::property(reader, &tag)?,
             "Xml" => reader.keep(&tag)?,

@@ -8,7 +8,7 @@ use super::reader::{Names, Reader};
 use super::{clocks, device_info, eeprom, mailbox, slots, sync};
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Device, EtherCatSettings, Reference, SyncManager};
+use crate::ir::{Device, EtherCatSettings, Reference, SyncManager, ToolSettings};
 use crate::syntax::xml::Tag;
 
 /// Contents of a `Device` element that are collected until its end tag.
@@ -43,6 +43,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(D
             "the device has no product code",
         );
     }
+    reader.note("AddInfo", &parts.profiles.add_info);
+    reader.note("SubAddInfo", &parts.profiles.sub_add_info);
     parts.device.extensions = reader.extensions_since(start);
     Ok(finish(reader, parts))
 }
@@ -52,7 +54,7 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parts: &mut Parts<'a>) 
     match tag.name {
         "Type" => {
             parts.has_type = true;
-            settings.without_lrw = device_type(reader, tag, device)?;
+            device_type(reader, tag, device, settings)?;
         }
         "HideType" => hide(reader, tag, settings)?,
         "Name" => reader.name(tag, &mut parts.names)?,
@@ -75,19 +77,59 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parts: &mut Parts<'a>) 
         }
         "ESC" => eeprom::registers(reader, tag, settings)?,
         "Eeprom" => settings.eeprom = Some(Box::new(eeprom::read(reader, tag)?)),
+        "Image16x14" | "ImageFile16x14" if settings.picture.is_none() => {
+            settings.picture = Some((tag.name.into(), reader.text(tag)?.compact()));
+        }
         "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(tag)?,
         "VendorSpecific" => reader.vendor_specific(tag)?,
-        "URL" | "Sci" | "AlternativeType" | "SubDevice" => reader.keep(tag)?,
+        "URL" => {
+            let mut url = Names::default();
+            reader.name(tag, &mut url)?;
+            settings.urls.extend(url.all());
+        }
+        "Sci" | "AlternativeType" | "SubDevice" => reader.keep(tag)?,
         _ => reader.unknown(tag)?,
     }
     Ok(())
 }
 
-/// Reads a `Type` element. Returns the flag `UseLrdLwr`.
-fn device_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Device) -> Read<bool> {
-    let fields = reader.attributes(tag, ["ProductCode", "RevisionNo", "SerialNo", "UseLrdLwr"])?;
-    let [product, revision, serial, without_lrw] = &fields;
-    let without_lrw = reader.flag(without_lrw);
+/// Reads a `Type` element.
+fn device_type<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    device: &mut Device,
+    settings: &mut EtherCatSettings,
+) -> Read<()> {
+    const NAMES: [&str; 12] = [
+        "ProductCode",
+        "RevisionNo",
+        "SerialNo",
+        "UseLrdLwr",
+        "CheckProductCode",
+        "CheckRevisionNo",
+        "CheckSerialNo",
+        "TcSmClass",
+        "TcCfgModeSafeOp",
+        "ModulePdoGroup",
+        "DownloadModuleList",
+        "ShowHideableSubDevices",
+    ];
+    let [product, revision, serial, without_lrw, texts @ ..] = &reader.attributes(tag, NAMES)?;
+    settings.without_lrw = reader.flag(without_lrw);
+    if texts.iter().any(|given| !given.is_empty()) {
+        let [check_product_code, check_revision, check_serial_number, class, safe_op, group, download, show] =
+            texts.each_ref().map(Given::compact);
+        settings.tool = Some(Box::new(ToolSettings {
+            check_product_code,
+            check_revision,
+            check_serial_number,
+            sync_manager_class: class,
+            safe_op_in_config_mode: safe_op,
+            module_pdo_group: group,
+            download_module_list: download,
+            show_hideable_sub_devices: show,
+        }));
+    }
     let identity = &mut device.identity;
     identity.product_code = reader.int(product, "product code");
     identity.revision_number = reader.int(revision, "revision number");
@@ -99,7 +141,7 @@ fn device_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, device: &mut Devi
     let given = reader.content()?;
     identity.order_code = given.compact();
     device.id = given.compact();
-    Ok(without_lrw)
+    Ok(())
 }
 
 fn hide<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, settings: &mut EtherCatSettings) -> Read<()> {

@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use crate::frontend::xml::Read;
-use crate::ir::EtherCatSettings;
+use crate::ir::{EtherCatSettings, SlaveController};
 use crate::syntax::xml::Tag;
 
 /// Reads the `Info` element of a device into `settings`.
@@ -16,12 +16,31 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: 
                 let given = reader.text(&tag)?;
                 settings.identification_in_al_status = reader.flag(&given);
             }
-            "EtherCATController" | "Port" | "ExecutionUnit" | "StationAliasSupported" | "DeviceFeature" => {
-                reader.keep(&tag)?;
+            "EtherCATController" => controller(reader, &tag, settings.controller.get_or_insert_default())?,
+            "StationAliasSupported" => {
+                let given = reader.text(&tag)?;
+                settings.station_alias = (!given.is_empty()).then(|| reader.flag(&given));
             }
+            "Port" | "ExecutionUnit" | "DeviceFeature" => reader.keep(&tag)?,
             "VendorSpecific" => reader.vendor_specific(&tag)?,
             _ => reader.unknown(&tag)?,
         }
+    }
+    Ok(())
+}
+
+fn controller<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, controller: &mut SlaveController) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
+        let number = match tag.name {
+            "DpramSize" => &mut controller.memory_bytes,
+            "SmCount" => &mut controller.sync_managers,
+            "FmmuCount" => &mut controller.fmmus,
+            _ => {
+                reader.keep(&tag)?;
+                continue;
+            }
+        };
+        *number = reader.number(&tag, "number")?;
     }
     Ok(())
 }

@@ -81,7 +81,7 @@ fn dictionary_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description:
 /// Reads the root element of a file that contains diagnosis messages but no device.
 fn messages_only<'a>(reader: &mut Reader<'a, '_>, root: &Tag<'a>, description: &mut Description) -> Read<()> {
     let [version] = reader.attributes(root, ["Version"])?;
-    reader.note("EtherCATDiag@Version", &version);
+    description.catalog.format_version = version.compact();
     reader.each(root, "DiagMessages", |reader, tag| {
         description.catalog.code_tables.extend(diagnosis::read(reader, tag)?);
         Ok(())

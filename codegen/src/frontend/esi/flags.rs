@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Access, Behavior, Category, CompactString, Mappable};
+use crate::ir::{Access, Behavior, Category, CompactString, Mappable, ToolFlags};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
@@ -31,8 +31,12 @@ pub(super) struct MoreFlags {
     pub write_states: Vec<CompactString>,
 }
 
-/// Reads a `Flags` element.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Flags> {
+/// Reads a `Flags` element. Stores the flags for tools in `tool`. Without `tool`, they become extensions.
+pub(super) fn read<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    mut tool: Option<&mut Option<Box<ToolFlags>>>,
+) -> Read<Flags> {
     let mut flags = Flags { given: true, ..Flags::default() };
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
@@ -56,7 +60,18 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Fl
             }
             "Backup" => flags.backup = number_as_flag(reader, &tag)?,
             "Setting" => flags.setting = number_as_flag(reader, &tag)?,
-            "SdoAccess" | "Transition" | "Attribute" => reader.note_text(&tag)?,
+            "SdoAccess" | "Transition" | "Attribute" => {
+                let Some(tool) = tool.as_deref_mut() else {
+                    reader.note_text(&tag)?;
+                    continue;
+                };
+                let flags = tool.get_or_insert_default();
+                *match tag.name {
+                    "SdoAccess" => &mut flags.sdo_access,
+                    "Transition" => &mut flags.transition,
+                    _ => &mut flags.attribute,
+                } = reader.text(&tag)?.compact();
+            }
             _ => reader.unknown(&tag)?,
         }
     }

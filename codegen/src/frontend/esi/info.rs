@@ -6,7 +6,7 @@ use super::reader::{Names, Reader};
 use super::{device, modules};
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Family, Header};
+use crate::ir::{CompactString, Family, Header};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -28,7 +28,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, descriptio
     vendor.header.format_version = version.compact();
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Vendor" => read_vendor(reader, &tag, &mut vendor)?,
+            "Vendor" => read_vendor(reader, &tag, &mut vendor, &mut description.catalog.vendor_urls)?,
             "InfoReference" => {
                 let given = reader.text(&tag)?;
                 if !given.is_empty() {
@@ -76,7 +76,12 @@ fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut 
     Ok(())
 }
 
-fn read_vendor<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, vendor: &mut Vendor<'a>) -> Read<()> {
+fn read_vendor<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    vendor: &mut Vendor<'a>,
+    urls: &mut Vec<CompactString>,
+) -> Read<()> {
     vendor.seen = true;
     let [version] = reader.attributes(parent, ["FileVersion"])?;
     vendor.header.file_version = version.compact();
@@ -90,7 +95,8 @@ fn read_vendor<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, vendor: &mut V
                 vendor.header.comments.extend(comment.all().map(|text| text.text));
             }
             "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
-            "URL" | "DescriptionURL" => reader.keep(&tag)?,
+            "URL" => urls.push(reader.text(&tag)?.compact()),
+            "DescriptionURL" => reader.keep(&tag)?,
             "VendorSpecific" => reader.vendor_specific(&tag)?,
             _ => reader.unknown(&tag)?,
         }

@@ -80,6 +80,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         group.depends_on_slot = raw.depends_on_slot;
         group.depends_on_slot_group = raw.depends_on_slot_group;
         group.described = u32::try_from(subs.len()).unwrap_or(u32::MAX);
+        group.tool_flags = raw.tool_flags.take();
         group.extensions = std::mem::take(&mut raw.extensions);
         let code = match self.types.record_of(ty) {
             Some(record) => self.record(reader, &mut group, &raw, ty, record, subs),

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use compact_str::format_compact;
-
 use super::description::OtherFiles;
 use super::dictionary::missing_index;
 use super::lower::lower;
@@ -14,9 +12,7 @@ use super::reader::{Names, Reader};
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::Read;
-use crate::ir::{
-    Catalog, CompactString, Device, Extension, Fit, Mailbox, Module, ModuleId, ModuleUse, Numbers, SlotNumbers,
-};
+use crate::ir::{Catalog, CompactString, Device, Fit, Module, ModuleId, ModuleUse, Numbers, SlotNumbers};
 use crate::limits;
 use crate::number::hex32;
 use crate::syntax::xml::Tag;
@@ -37,10 +33,10 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
             }
             "Name" => reader.name(&tag, &mut names)?,
             "RxPdo" | "TxPdo" => pdos.read(reader, &tag)?,
-            "Mailbox" => settings(reader, &tag, &mut module)?,
+            "Mailbox" => module.mailbox = Some(Box::new(mailbox::read(reader, &tag)?)),
             "Profile" => profiles.read(reader, &tag)?,
             "SafetyParaMapping" => reader.keep(&tag)?,
-            "DcOpModeName" => reader.note_text(&tag)?,
+            "DcOpModeName" => module.clock_mode = reader.text(&tag)?.compact(),
             "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
             "VendorSpecific" => reader.vendor_specific(&tag)?,
             _ => reader.unknown(&tag)?,
@@ -51,6 +47,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(M
     }
     (module.name, module.names) = (names.name(), names.others());
     module.profiles = profiles.numbers;
+    module.add_info = reader.int(&profiles.add_info, "number");
+    module.sub_add_info = reader.int(&profiles.sub_add_info, "number");
     module.extensions = reader.extensions_since(start);
     let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data, &mut profiles.other_files);
     (module.types, module.groups) = lowered;
@@ -73,55 +71,6 @@ fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Modu
     module.id = given.compact();
     module.identity.order_code = given.compact();
     Ok(())
-}
-
-/// Reads the mailbox of a module. Stores the CoE start-up commands in `module`, and all other settings as extensions.
-fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
-    let mailbox = mailbox::read(reader, tag)?;
-    let mut keep = |key: CompactString, value: &str| {
-        reader.extensions.push(Extension { key, value: value.into(), span: tag.span });
-    };
-    protocols(&mailbox, &mut keep);
-    let Some(coe) = mailbox.coe else { return Ok(()) };
-    keep("Mailbox/CoE".into(), "true");
-    module.init_commands = coe.init_commands;
-    let flags = [
-        ("DiagHistory", coe.diag_history),
-        ("SdoInfo", coe.sdo_info),
-        ("PdoAssign", coe.pdo_assign),
-        ("PdoConfig", coe.pdo_config),
-        ("PdoUpload", coe.pdo_upload),
-        ("CompleteAccess", coe.complete_access),
-        ("SegmentedSdo", coe.segmented_sdo),
-    ];
-    for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
-        keep(format_compact!("CoE@{name}"), "true");
-    }
-    for (name, value) in &coe.attributes {
-        keep(format_compact!("CoE@{name}"), value);
-    }
-    Ok(())
-}
-
-/// Passes the attributes of a mailbox to `keep`, which stores them as extensions. Does the same with the attributes and start-up
-/// commands of all protocols except CoE.
-fn protocols(mailbox: &Mailbox, keep: &mut impl FnMut(CompactString, &str)) {
-    let flags = [("DataLinkLayer", mailbox.data_link_layer), ("RealTimeMode", mailbox.real_time)];
-    for (name, _) in flags.into_iter().filter(|(_, is_set)| *is_set) {
-        keep(format_compact!("Mailbox@{name}"), "true");
-    }
-    let Mailbox { aoe, eoe, foe, soe, voe, .. } = mailbox;
-    for (name, protocol) in [("AoE", aoe), ("EoE", eoe), ("FoE", foe), ("SoE", soe), ("VoE", voe)] {
-        let Some(protocol) = protocol else { continue };
-        keep(format_compact!("Mailbox/{name}"), "true");
-        protocol.attributes.iter().for_each(|(attribute, value)| keep(format_compact!("{name}@{attribute}"), value));
-        for command in &protocol.init_commands {
-            let data: String = command.data.iter().map(|byte| format!("{byte:02X}")).collect();
-            let when = command.transitions.join(", ");
-            let value = format!("{when}: {}:{} = {data}", command.index, command.sub_index);
-            keep(format_compact!("{name}/InitCmd"), &value);
-        }
-    }
 }
 
 /// Adds to each device the modules of the catalog that fit into its slots.

@@ -6,7 +6,7 @@ use super::flags::{self, Flags};
 use super::info_value::{self, RawInfo};
 use super::reader::{Names, Reader};
 use crate::frontend::xml::{Given, Read};
-use crate::ir::Extensions;
+use crate::ir::{Extensions, ToolFlags};
 use crate::source::{Origin, Span};
 use crate::syntax::xml::Tag;
 
@@ -25,6 +25,7 @@ pub(super) struct RawObject<'a> {
     /// Range of the object's sub-items in the list of all sub-items of the dictionary.
     pub subs: Range<usize>,
     pub flags: Flags,
+    pub tool_flags: Option<Box<ToolFlags>>,
     pub extensions: Extensions,
     pub origin: Origin,
 }
@@ -58,7 +59,7 @@ pub(super) fn read<'a>(
                 raw.bits = reader.int(&given, "size in bits");
             }
             "Info" => info(reader, &tag, &mut raw.info, subs)?,
-            "Flags" => raw.flags = flags::read(reader, &tag)?,
+            "Flags" => raw.flags = flags::read(reader, &tag, Some(&mut raw.tool_flags))?,
             "Properties" => info_value::properties(reader, &tag)?,
             "Xml" => reader.keep(&tag)?,
             _ => reader.unknown(&tag)?,
@@ -74,7 +75,9 @@ fn index<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, raw: &mut RawObject<'a>
     let [slot, group, overwritten] = reader.attributes(tag, names)?;
     raw.depends_on_slot = reader.flag(&slot);
     raw.depends_on_slot_group = reader.flag(&group);
-    reader.note("OverwrittenByModule", &overwritten);
+    if !overwritten.is_empty() {
+        raw.tool_flags.get_or_insert_default().overwritten_by_module = overwritten.compact();
+    }
     let given = reader.content()?;
     raw.index = reader.int(&given, "index");
     Ok(())

@@ -56,7 +56,7 @@ pub(super) fn content<'a>(
 
 /// Reads the attributes of a PDO or template. Returns the PDO's reference to a template, if it has one.
 pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &mut Pdo) -> Read<Option<Reference<'a>>> {
-    const NAMES: [&str; 13] = [
+    const NAMES: [&str; 15] = [
         "Fixed",
         "Mandatory",
         "Virtual",
@@ -69,16 +69,21 @@ pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &m
         "OverwrittenByModule",
         "Ref",
         "Chn",
+        "PdoOrder",
+        "SRA_Parameter",
         "RefName",
     ];
     let fields = reader.attributes(tag, NAMES)?;
-    let [fixed, mandatory, is_virtual, sm, su, factor, min, max, increment, overwritten, name, channel, _] = &fields;
+    let [fixed, mandatory, is_virtual, sm, su, factor, min, max, increment, overwritten, name, channel, order, sra, _] =
+        &fields;
     pdo.fixed = reader.flag(fixed);
     pdo.mandatory = reader.flag(mandatory);
     pdo.is_virtual = reader.flag(is_virtual);
     pdo.sync_manager = reader.int(sm, "sync manager number");
     pdo.sync_unit = reader.int(su, "sync unit number");
     pdo.overwritten_by_module = reader.flag(overwritten);
+    pdo.order = reader.int(order, "order number");
+    pdo.sra_parameter = (!sra.is_empty()).then(|| reader.flag(sra));
     let oversampling = Oversampling {
         factor: reader.int(factor, "oversampling factor"),
         min: reader.int(min, "oversampling factor"),

@@ -101,6 +101,8 @@ fn complete<'a>(
     pdo.mandatory |= given.mandatory;
     pdo.sync_manager = pdo.sync_manager.or(given.sync_manager);
     pdo.sync_unit = pdo.sync_unit.or(given.sync_unit);
+    pdo.order = pdo.order.or(given.order);
+    pdo.sra_parameter = pdo.sra_parameter.or(given.sra_parameter);
     pdo.excludes.extend(given.excludes);
     pdo.excluded_sync_managers.extend(given.excluded_sync_managers);
     Ok(true)

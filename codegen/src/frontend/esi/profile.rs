@@ -5,7 +5,7 @@ use super::diagnosis;
 use super::dictionary::Dictionary;
 use super::reader::Reader;
 use crate::collections::HashSet;
-use crate::frontend::xml::Read;
+use crate::frontend::xml::{Given, Read};
 use crate::ir::CodeTable;
 use crate::syntax::xml::Tag;
 
@@ -15,6 +15,9 @@ pub(super) struct Profiles<'a> {
     /// Profile numbers, without duplicates.
     pub numbers: Vec<u32>,
     seen: HashSet<u32>,
+    /// Additional numbers of the first profile that has them.
+    pub add_info: Given<'a>,
+    pub sub_add_info: Given<'a>,
     pub dictionary: Dictionary<'a>,
     pub code_tables: Vec<CodeTable>,
     /// Files to which the profiles refer, and types that these files may define.
@@ -29,7 +32,15 @@ impl<'a> Profiles<'a> {
         while let Some(tag) = reader.child(parent)? {
             match tag.name {
                 "ProfileNo" => self.number(reader, &tag)?,
-                "AddInfo" | "SubAddInfo" | "ChannelCount" => reader.note_text(&tag)?,
+                "AddInfo" | "SubAddInfo" => {
+                    let given = reader.text(&tag)?;
+                    let first = if tag.name == "AddInfo" { &mut self.add_info } else { &mut self.sub_add_info };
+                    match first.is_empty() {
+                        true => *first = given,
+                        false => reader.note(tag.name, &given),
+                    }
+                }
+                "ChannelCount" => reader.note_text(&tag)?,
                 "ChannelInfo" => self.channel(reader, &tag)?,
                 "Dictionary" => self.dictionary.read(reader, &tag)?,
                 "DictionaryFile" => self.file(reader, &tag, Target::Dictionary)?,

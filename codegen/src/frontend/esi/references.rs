@@ -184,6 +184,7 @@ fn join(description: &mut Description, read: Description) -> Vec<(Owner, Referen
     catalog.modules.append(&mut other.modules);
     catalog.families.append(&mut other.families);
     catalog.code_tables.append(&mut other.code_tables);
+    catalog.vendor_urls.append(&mut other.vendor_urls);
     catalog.extensions.append(&mut other.extensions);
     if catalog.vendor_names.is_empty() {
         catalog.vendor_names = other.vendor_names.clone();
@@ -267,7 +268,8 @@ fn cost_of(dictionary: &Device, length: usize) -> Cost {
     let of_groups = dictionary.groups.iter().map(|group| group.items.len() + 1);
     let items = of_groups.chain(dictionary.types.iter().map(|def| parts(&def.shape) + 1)).sum();
     let of_groups = dictionary.groups.iter().flat_map(|group| {
-        group.items.iter().map(|item| item.extensions.len()).chain(std::iter::once(group.extensions.len()))
+        let of_group = group.extensions.len() + usize::from(group.tool_flags.is_some());
+        group.items.iter().map(|item| item.extensions.len()).chain([of_group])
     });
     let extensions: usize = of_groups.sum::<usize>() + dictionary.extensions.len();
     Cost { items, bytes: length + extensions * size_of::<Extension>() }

@@ -226,9 +226,12 @@ impl<'a> Reader<'a, '_> {
         let Location { ty, bit_offset, bits, .. } = self.location(tag, &data_type, [&byte, &bit, &bits, &length]);
         let name = self.name(tag, text);
         let default = if default.is_missing() { None } else { self.default_value(&default, ty, bits) };
-        let values = match self.named_values(values, ty) {
+        let values = match self.named_values(values.clone(), ty) {
             Some(Type::Named(id)) => Some(id),
-            _ => None,
+            _ => {
+                self.note("ValueItemTarget", &values);
+                None
+            }
         };
         self.no_children(tag)?;
         Ok(UnitDiagnosisField { name, names: Default::default(), bit_offset, bits, ty, values, default })

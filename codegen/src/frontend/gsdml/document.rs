@@ -8,7 +8,7 @@ use super::text_list::TextList;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::declared_encoding;
 use crate::frontend::xml::Read;
-use crate::ir::Catalog;
+use crate::ir::{Catalog, ProfileHeader};
 use crate::source::{FileId, Source};
 use crate::syntax::xml::{Cursor, Tag};
 use crate::text::brief;
@@ -34,7 +34,7 @@ pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Opt
     resolve::catalog(&mut catalog, &mut resolver);
     header.apply(&mut catalog, &mut resolver);
     let Resolver { list, diagnostics, .. } = resolver;
-    list.close(diagnostics, &mut catalog.extensions);
+    list.close(diagnostics, &mut catalog.unused_texts);
     Some(catalog)
 }
 
@@ -56,7 +56,8 @@ impl<'a> Document<'a> {
         while let Some(tag) = reader.child(&root)? {
             match tag.name {
                 "ProfileBody" => self.body(reader, &tag)?,
-                "ProfileHeader" | "Signature" => reader.keep(&tag)?,
+                "ProfileHeader" => profile_header(reader, &tag, self.catalog.profile_header.get_or_insert_default())?,
+                "Signature" => reader.keep(&tag)?,
                 _ => reader.unknown(&tag)?,
             }
         }
@@ -118,6 +119,34 @@ impl<'a> Document<'a> {
         }
         Ok(())
     }
+}
+
+/// Reads a `ProfileHeader` element, or the `ISO15745Reference` element in it.
+fn profile_header<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, header: &mut ProfileHeader) -> Read<()> {
+    while let Some(tag) = reader.child(parent)? {
+        let text = match tag.name {
+            "ProfileIdentification" => &mut header.identification,
+            "ProfileRevision" => &mut header.revision,
+            "ProfileName" => &mut header.name,
+            "ProfileSource" => &mut header.source,
+            "ProfileClassID" => &mut header.class,
+            "ProfileDate" => &mut header.date,
+            "AdditionalInformation" => &mut header.additional_information,
+            "ISO15745Part" => &mut header.iso_part,
+            "ISO15745Edition" => &mut header.iso_edition,
+            "ProfileTechnology" => &mut header.technology,
+            "ISO15745Reference" if parent.name == "ProfileHeader" => {
+                profile_header(reader, &tag, header)?;
+                continue;
+            }
+            _ => {
+                reader.keep(&tag)?;
+                continue;
+            }
+        };
+        *text = reader.text(&tag)?.compact();
+    }
+    Ok(())
 }
 
 fn not_gsdml(root: &Tag<'_>) -> Box<Diagnostic> {

@@ -90,8 +90,7 @@ impl<'a> Reader<'a, '_> {
             return Some(self.format.types.enumeration(target, base));
         }
         let message = "only integers can have named values";
-        self.report(&codes::GSDML_VALUE, target.span, message, "kept as an extension attribute");
-        self.note("ValueItemTarget", &target);
+        self.report(&codes::GSDML_VALUE, target.span, message, "kept, but has no effect");
         None
     }
 }

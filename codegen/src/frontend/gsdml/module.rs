@@ -5,7 +5,7 @@ use super::module_info::{named_graphic, Info};
 use super::reader::Reader;
 use super::submodule::Holder;
 use crate::frontend::xml::{Attributes, Read};
-use crate::ir::{Catalog, Extension, Module};
+use crate::ir::{Catalog, Module};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
@@ -50,9 +50,8 @@ impl<'a> Reader<'a, '_> {
             Some(info) => info.of_module(&mut module, &mut attributes),
             None => self.missing(parent, "ModuleInfo", "the name is left empty"),
         }
-        let span = module.origin.span;
         module.extensions = self.extensions_since(start);
-        module.extensions.extend(attributes.into_iter().map(|(key, value)| Extension { key, value, span }));
+        module.attributes = attributes;
         Ok(module)
     }
 }

@@ -4,7 +4,7 @@ use super::data_type::DataType;
 use super::location::Location;
 use super::reader::Reader;
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Access, Behavior, Binding, Item, OtherSpans};
+use crate::ir::{Access, Behavior, Binding, CompactString, Item, OtherSpans, RelatedItems};
 use crate::syntax::xml::Tag;
 
 impl<'a> Reader<'a, '_> {
@@ -28,7 +28,7 @@ impl<'a> Reader<'a, '_> {
         item.origin = self.origin(tag);
         let fields = self.attributes(tag, NAMES)?;
         let [values, data_type, byte, bit, bits, length, default, allowed, changeable, visible, text, id] = fields;
-        self.note("ID", &id);
+        let (id, mut unsuitable_values) = (id.compact(), CompactString::default());
         item.at.name = text.span;
         item.name = self.name(tag, text);
         self.require(tag, &byte, "ByteOffset", "read as 0");
@@ -42,8 +42,12 @@ impl<'a> Reader<'a, '_> {
         item.limits = self.allowed_values(&allowed, location.number()).into();
         item.at.others = OtherSpans { low: allowed.span, high: allowed.span, ..OtherSpans::default() }.into();
         self.default(tag, default, &location, item)?;
-        if let Some(named) = self.named_values(values, ty) {
-            item.ty = named;
+        match self.named_values(values.clone(), ty) {
+            Some(named) => item.ty = named,
+            None => unsuitable_values = values.compact(),
+        }
+        if !id.is_empty() || !unsuitable_values.is_empty() {
+            item.related = Some(Box::new(RelatedItems { id, unsuitable_values, ..RelatedItems::default() }));
         }
         item.at.access = changeable.span;
         item.access = if self.flag_or(&changeable, true) { Access::ReadWrite } else { Access::Constant };

@@ -2,13 +2,13 @@
 
 use std::borrow::Cow;
 
-use compact_str::{format_compact, CompactString};
+use compact_str::CompactString;
 
 use super::reader::Reader;
 use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::xml::{Given, Read};
-use crate::ir::{Extension, Extensions, LocalText, Texts};
+use crate::ir::{LocalText, Texts, UnusedText};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
@@ -182,9 +182,9 @@ impl<'a> TextList<'a> {
         self.entries.get(at)?.finished.clone()
     }
 
-    /// Reports unreferenced texts and stores them as extensions. Also reports texts that are missing in the primary
+    /// Reports unreferenced texts and adds them to `unused`. Also reports texts that are missing in the primary
     /// language.
-    pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
+    pub fn close(&self, diagnostics: &mut Diagnostics, unused: &mut Vec<UnusedText>) {
         for entry in &self.entries {
             if entry.primary.is_none() {
                 let message = format!("the primary language has no text `{}`", brief(&entry.id));
@@ -192,24 +192,20 @@ impl<'a> TextList<'a> {
                 diagnostics.push(diagnostic.label("the first translation is used instead"));
             }
             if entry.finished.is_none() {
-                self.keep_unused(entry, diagnostics, extensions);
+                self.keep_unused(entry, diagnostics, unused);
             }
         }
     }
 
-    fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
+    fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, unused: &mut Vec<UnusedText>) {
         if diagnostics.wants(&codes::UNUSED_TEXT) {
             let message = format!("the text `{}` is not used", brief(&entry.id));
             let diagnostic = Diagnostic::new(&codes::UNUSED_TEXT, entry.span, message);
-            diagnostics.push(diagnostic.label("kept as an extension attribute"));
+            diagnostics.push(diagnostic.label("kept"));
         }
         let (name, texts) = self.finish(entry);
-        let key = |language: &str| format_compact!("Text/{language}/{}", brief(&entry.id));
-        if entry.primary.is_some() {
-            extensions.push(Extension { key: key("primary"), value: name, span: entry.span });
-        }
-        let others = texts.iter().map(|local| (key(&local.language), local.text.clone()));
-        extensions.extend(others.map(|(key, value)| Extension { key, value, span: entry.span }));
+        let text = if entry.primary.is_some() { name } else { CompactString::default() };
+        unused.push(UnusedText { id: entry.id.as_ref().into(), text, translations: texts });
     }
 
     /// Returns the text of an entry, and its translations.

@@ -78,7 +78,7 @@ impl<'a> Reader<'a, '_> {
             Type::Real32 | Type::Real64 => real_range,
             // The IR cannot express allowed values of other types, such as strings.
             _ => {
-                self.note("AllowedValues", given);
+                limits.text = given.compact();
                 return limits;
             }
         };

@@ -99,5 +99,5 @@ fn limits(low: Option<Value>, high: Option<Value>, allowed: ThinVec<(Value, Valu
     };
     let minimum = allowed.iter().map(|(first, _)| first).min_by(compare).cloned();
     let maximum = allowed.iter().map(|(_, last)| last).max_by(compare).cloned();
-    Limits { low: low.or(minimum), high: high.or(maximum), allowed }
+    Limits { low: low.or(minimum), high: high.or(maximum), allowed, ..Limits::default() }
 }

@@ -44,7 +44,7 @@ pub(super) fn module(module: &Module, pdos: &PdoModels<'_>) -> Doc {
             ("class", Doc::from(literal::string(&module.class))),
             ("pdo_group", Doc::from(module.pdo_group.unwrap_or(0).to_string())),
             ("pdos", pdo_list(&module.process_data.pdos, pdos)),
-            ("init_commands", Data::slice(module.init_commands.iter().map(init_command))),
+            ("init_commands", Data::slice(module.init_commands().iter().map(init_command))),
             ("objects", Data::slice(slot_objects(&module.groups))),
         ],
     )

@@ -1,4 +1,8 @@
-//! Applies an overlay to the devices and modules that it selects.
+//! Reads an overlay, and applies it to the devices and modules that it selects.
+//!
+//! `resolve` applies the overlays, but calls a function of this front end, because a row has a meaning only together with the item that
+//! it changes: the bits or values of a row have the type of the item, and a formula or condition refers to other items. The code that
+//! creates an item from a row of a register table therefore also changes an item.
 
 use super::super::definitions::DefinitionKind;
 use super::super::file::resolve;
@@ -10,6 +14,7 @@ use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
 use crate::collections::{HashMap, HashMapExt, HashSet};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::Overlay as ReadOverlay;
 use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
     Bus, Buses, Catalog, CodeRow, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId,
@@ -20,16 +25,18 @@ use crate::source::{FileId, Source, Span};
 use crate::text::glob;
 use crate::text::{brief, similar};
 
-/// Applies the overlay `source` to those devices or modules in `catalog` that the overlay selects.
-pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
-    let first = diagnostics.list().len();
-    let mut reader = Reader::new(source, file, diagnostics);
-    if let Some(overlay) = Overlay::read(&mut reader) {
+/// Reads an overlay. Returns the function that applies it, or `None` if the file has no `[overlay]` or is not valid TOML.
+pub(crate) fn read<'s>(source: &'s Source, file: FileId, diagnostics: &mut Diagnostics) -> Option<ReadOverlay<'s>> {
+    let overlay = Overlay::read(&mut Reader::new(source, file, diagnostics));
+    diagnostics.forget_repeated(|other| other == file);
+    let overlay = overlay?;
+    Some(Box::new(move |catalog, diagnostics| {
+        let mut reader = Reader::new(source, file, diagnostics);
         reader.language.clone_from(&overlay.patch.language);
         Applied::new(&overlay).run(&mut reader, catalog);
-    }
-    // An error in a row is reported again for each device, so repeated diagnostics are removed.
-    diagnostics.forget_repeated(first);
+        // An error in a row is reported again for each device, so repeated diagnostics are removed.
+        diagnostics.forget_repeated(|other| other == file);
+    }))
 }
 
 /// State of an overlay while it is applied.

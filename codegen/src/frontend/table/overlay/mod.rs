@@ -2,7 +2,7 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `apply` | applies an overlay to its devices and modules |
+//! | `apply` | reads an overlay, and applies it to its devices and modules |
 //! | `change` | applies a row of an overlay, and records the reason for the change |
 //! | `patch` | the rows and definitions of an overlay or profile |
 //! | `profile` | reads a profile, in tests only: the compiler contains the result (`profiles`) |
@@ -13,5 +13,5 @@ mod patch;
 #[cfg(test)]
 pub(crate) mod profile;
 
-pub use apply::apply;
+pub(crate) use apply::read;
 use patch::{Overlay, PatchRow, Target};
