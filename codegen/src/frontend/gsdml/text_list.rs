@@ -13,10 +13,13 @@ use crate::source::Span;
 use crate::syntax::xml::Tag;
 use crate::text::brief;
 
+/// Files rarely have more languages.
+const USUAL_LANGUAGES: usize = 16;
+
 /// Texts of a file by identifier.
 #[derive(Default)]
 pub(super) struct TextList<'a> {
-    positions: HashMap<Cow<'a, str>, usize>,
+    positions: HashMap<Cow<'a, str>, u32>,
     entries: Vec<Entry<'a>>,
     translations: Vec<Translation<'a>>,
     /// Number of texts in the primary language.
@@ -34,17 +37,17 @@ struct Entry<'a> {
     span: Span,
     primary: Option<Cow<'a, str>>,
     /// Positions of the first and the last translation.
-    translations: Option<(usize, usize)>,
+    translations: Option<(u32, u32)>,
     /// Text with its translations, created when the first reference is resolved.
     finished: Option<(CompactString, Texts)>,
 }
 
 struct Translation<'a> {
-    language: usize,
+    language: u32,
     /// Span of the text identifier in the text list of the translation's language.
     span: Span,
     text: Cow<'a, str>,
-    next: Option<usize>,
+    next: Option<u32>,
 }
 
 /// `Text` element of a text list.
@@ -96,7 +99,7 @@ impl<'a> TextList<'a> {
             reader.diagnostics.push(diagnostic.label("the lists are merged").note_at(first, "first list"));
         }
         self.seen.insert(name.clone(), parent.span);
-        let language = self.languages.len();
+        let language = self.languages.len() as u32;
         self.languages.push(name);
         let mut count = 0;
         while let Some(tag) = reader.child(parent)? {
@@ -115,7 +118,7 @@ impl<'a> TextList<'a> {
     fn entry(&mut self, id: Given<'a>) -> usize {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id.text => self.next,
-            _ => *self.positions.entry(id.text.clone()).or_insert(self.entries.len()),
+            _ => *self.positions.entry(id.text.clone()).or_insert(self.entries.len() as u32) as usize,
         };
         if at == self.entries.len() {
             let Given { text: id, span } = id;
@@ -127,12 +130,12 @@ impl<'a> TextList<'a> {
 
     /// Adds a translation to an entry. If the last translation of the entry has the same language, adds nothing and returns the
     /// span of the existing translation.
-    fn translate(&mut self, at: usize, language: usize, span: Span, text: Cow<'a, str>) -> Option<Span> {
-        let number = self.translations.len();
+    fn translate(&mut self, at: usize, language: u32, span: Span, text: Cow<'a, str>) -> Option<Span> {
+        let number = self.translations.len() as u32;
         let entry = self.entries.get_mut(at)?;
         match &mut entry.translations {
             Some((_, last)) => {
-                let before = self.translations.get_mut(*last)?;
+                let before = self.translations.get_mut(*last as usize)?;
                 if before.language == language {
                     return Some(before.span);
                 }
@@ -147,17 +150,17 @@ impl<'a> TextList<'a> {
 
     /// Reports a language that translates fewer texts than the primary language contains. `count` is the number of
     /// translated texts.
-    fn report_missing(&self, diagnostics: &mut Diagnostics, tag: &Tag<'a>, language: usize, count: usize) {
+    fn report_missing(&self, diagnostics: &mut Diagnostics, tag: &Tag<'a>, language: u32, count: usize) {
         let missing = self.primaries.saturating_sub(count);
         if missing == 0 {
             return;
         }
-        let name = self.languages.get(language).map_or("", CompactString::as_str);
+        let name = self.languages.get(language as usize).map_or("", CompactString::as_str);
         let texts = if missing == 1 { "text has" } else { "texts have" };
         let message = format!("{missing} {texts} no translation in the language `{name}`");
         let mut diagnostic = Diagnostic::new(&codes::MISSING_TRANSLATION, tag.span, message)
             .label("the primary language is used instead");
-        let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last));
+        let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last as usize));
         let translated = |entry: &Entry<'a>| last(entry).is_some_and(|last| last.language == language);
         // Among the first `count + 1` entries, at least one has no text in this language, so no further entries are
         // searched. This keeps the search fast if a file has many languages with one text each.
@@ -172,7 +175,7 @@ impl<'a> TextList<'a> {
     pub fn find(&mut self, id: &str) -> Option<(CompactString, Texts)> {
         let at = match self.entries.get(self.next) {
             Some(entry) if entry.id == id => self.next,
-            _ => *self.positions.get(id)?,
+            _ => *self.positions.get(id)? as usize,
         };
         self.next = at + 1;
         if self.entries.get(at)?.finished.is_none() {
@@ -210,13 +213,14 @@ impl<'a> TextList<'a> {
 
     /// Returns the text of an entry, and its translations.
     fn finish(&self, entry: &Entry<'a>) -> (CompactString, Texts) {
-        let mut texts = Vec::new();
+        let count = if entry.translations.is_some() { self.languages.len().min(USUAL_LANGUAGES) } else { 0 };
+        let mut texts = Vec::with_capacity(count);
         // A language with two lists usually has each text twice, so repeated texts are removed.
         let is_repeated = self.seen.len() < self.languages.len();
         let mut seen = HashSet::default();
         let mut chain = entry.translations;
-        while let Some(translation) = chain.and_then(|(at, _)| self.translations.get(at)) {
-            let language = self.languages.get(translation.language).cloned().unwrap_or_default();
+        while let Some(translation) = chain.and_then(|(at, _)| self.translations.get(at as usize)) {
+            let language = self.languages.get(translation.language as usize).cloned().unwrap_or_default();
             if !is_repeated || seen.insert((language.clone(), translation.text.as_ref())) {
                 texts.push(LocalText { language, text: translation.text.as_ref().into() });
             }

@@ -108,7 +108,7 @@ impl<'a> Cursor<'a> {
     ///
     /// Returns the errors of [`Cursor::read`].
     pub fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
-        while self.open.len() >= parent.depth {
+        while self.depth() >= parent.depth {
             match self.read()? {
                 Some(Event::Start(tag)) if tag.depth == parent.depth + 1 => return Ok(Some(tag)),
                 Some(_) => {}
@@ -137,13 +137,13 @@ impl<'a> Cursor<'a> {
     ///
     /// Returns the errors of [`Cursor::read`].
     pub fn skip(&mut self, tag: &Tag<'a>) -> Result<(), Error> {
-        while self.open.len() >= tag.depth && self.read()?.is_some() {}
+        while self.depth() >= tag.depth && self.read()?.is_some() {}
         Ok(())
     }
 
     /// Returns the number of open elements.
-    pub fn depth(&self) -> usize {
-        self.open.len()
+    pub fn depth(&self) -> u32 {
+        self.open.len() as u32
     }
 
     /// Returns the byte offset at which reading continues.
@@ -203,12 +203,12 @@ impl<'a> Cursor<'a> {
             return Err(malformed(self.span(start, self.boundary(start + 2)), NO_START_TAG));
         };
         let after_name = start + 1 + name.length;
-        let Some(end) = scan::tag_end(bytes, after_name) else { return Err(self.endless_tag(start)) };
+        let Some((end, has_less_than)) = scan::tag_end(bytes, after_name) else { return Err(self.endless_tag(start)) };
         let empty = end > after_name && bytes[end - 1] == b'/';
         let attributes = &self.text[after_name..end - usize::from(empty)];
         if !attributes.is_empty() {
             let is_separate = attributes.bytes().next().is_some_and(scan::is_blank);
-            if !is_separate || memchr(b'<', attributes.as_bytes()).is_some() {
+            if !is_separate || has_less_than {
                 return Err(malformed(self.span(start, after_name), NO_START_TAG));
             }
         }
@@ -217,7 +217,7 @@ impl<'a> Cursor<'a> {
         self.push(full, span)?;
         (self.empty, self.at) = (empty, end + 1);
         let (prefix, name) = name.split(full);
-        let depth = self.open.len();
+        let depth = self.depth();
         Ok(Event::Start(Tag { name, prefix, span, depth, empty, attributes, attributes_at: after_name as u32 }))
     }
 

@@ -53,7 +53,7 @@ pub struct Tag<'a> {
     /// Span of the tag from `<` to `>`.
     pub span: Span,
     /// Number of open elements, including this element.
-    pub depth: usize,
+    pub depth: u32,
     /// True if the tag is an empty-element tag (`<empty/>`).
     pub empty: bool,
     /// The attributes as written in the file: the text between the name and the end of the tag.

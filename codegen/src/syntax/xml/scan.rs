@@ -55,8 +55,18 @@ pub(super) fn is_blank(byte: u8) -> bool {
 
 /// Returns the offset of the first byte at or after `at` that is not white space.
 pub(super) fn after_blanks(bytes: &[u8], at: usize) -> usize {
-    let rest = bytes.get(at..).unwrap_or(&[]);
-    at + rest.iter().position(|&byte| !is_blank(byte)).unwrap_or(rest.len())
+    let mut rest = bytes.get(at..).unwrap_or(&[]);
+    while let [byte, after @ ..] = rest {
+        if !is_blank(*byte) {
+            break;
+        }
+        rest = after;
+        // Indentation is skipped eight bytes at once.
+        while let Some(after) = rest.strip_prefix(b"        ") {
+            rest = after;
+        }
+    }
+    bytes.len() - rest.len()
 }
 
 /// Returns the position of the first occurrence of `byte`. Most positions are near, and a loop finds them faster than a
@@ -109,32 +119,33 @@ pub(super) fn after(bytes: &[u8], at: usize, end: &str) -> Option<usize> {
     Some(at + memmem::find(rest, end.as_bytes())? + end.len())
 }
 
-/// Returns the offset of the `>` that ends a start tag, or `None` if there is none. `from` is the offset after the element name.
-pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<usize> {
+/// Returns the offset of the `>` that ends a start tag, and whether the tag contains a `<` after `from`. Returns `None` if there is no
+/// such `>`. `from` is the offset after the element name.
+pub(super) fn tag_end(bytes: &[u8], from: usize) -> Option<(usize, bool)> {
     if bytes.get(from) == Some(&b'>') {
-        return Some(from);
+        return Some((from, false));
     }
     let end = from + memchr(b'>', bytes.get(from..)?)?;
-    if has_pairs_of_quotes(&bytes[from..end]) {
-        return Some(end);
+    if has_only_pairs_of_quotes(&bytes[from..end]) {
+        return Some((end, false));
     }
     let mut at = from;
     loop {
         match bytes.get(at)? {
-            b'>' => return Some(at),
+            b'>' => return Some((at, memchr(b'<', &bytes[from..at]).is_some())),
             quote @ (b'"' | b'\'') => at += memchr(*quote, &bytes[at + 1..])? + 2,
             _ => at += 1,
         }
     }
 }
 
-/// Returns whether `bytes` contain an even number of double quotation marks and no single quotation mark. If so, the `>` after
-/// `bytes` ends the tag. The loop has no early exit, which allows vectorization.
-fn has_pairs_of_quotes(bytes: &[u8]) -> bool {
-    let (odd, single) = bytes
-        .iter()
-        .fold((0u8, 0u8), |(odd, single), &byte| (odd ^ u8::from(byte == b'"'), single | u8::from(byte == b'\'')));
-    odd | single == 0
+/// Returns whether `bytes` contain an even number of double quotation marks, but no single quotation mark and no `<`. If so, the `>`
+/// after `bytes` ends the tag. The loop has no early exit, which allows vectorization.
+fn has_only_pairs_of_quotes(bytes: &[u8]) -> bool {
+    let (odd, others) = bytes.iter().fold((0u8, 0u8), |(odd, others), &byte| {
+        (odd ^ u8::from(byte == b'"'), others | u8::from(byte == b'\'') | u8::from(byte == b'<'))
+    });
+    odd | others == 0
 }
 
 /// Returns the offset after a document type declaration, which may contain other declarations.
