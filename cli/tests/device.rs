@@ -11,6 +11,9 @@ use bus_support::{adapter, modbus_server};
 use nix::sys::signal::{kill, Signal};
 use nix::unistd::Pid;
 
+/// Timeout in milliseconds that is enough even if other programs occupy the processor.
+const PATIENT: &str = "10000";
+
 fn dictionary(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries").join(name);
     path.to_string_lossy().into_owned()
@@ -41,7 +44,7 @@ fn texts(output: &Output) -> (String, String) {
 #[test]
 fn nothing_is_written_without_a_confirmation() {
     let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
-    let common = ["--bus", &bus, "--node", "5", &eds];
+    let common = ["--bus", &bus, "--node", "5", "--timeout", PATIENT, &eds];
     let output = run(&[&["write"], &common[..], &["Profile velocity", "20000"]].concat());
     let (_, error) = texts(&output);
     assert_eq!(output.status.code(), Some(2), "{error}");
@@ -67,7 +70,7 @@ fn nothing_is_written_without_a_confirmation() {
 fn a_backup_of_each_format_is_restored() {
     let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
     let folder = folder("formats");
-    let common = ["--bus", &bus, "--node", "5", &eds];
+    let common = ["--bus", &bus, "--node", "5", "--timeout", PATIENT, &eds];
     for name in ["axis.dcf", "axis.toml"] {
         let file = folder.join(name).to_string_lossy().into_owned();
         let output = run(&[&["backup"], &common[..], &["--out", &file]].concat());
@@ -98,7 +101,7 @@ fn a_backup_of_each_format_is_restored() {
 fn an_interrupted_restore_reports_its_writes() {
     let (bus, eds) = (format!("slcan:{}", adapter(Duration::from_millis(60))), dictionary("demo-drive.eds"));
     let file = folder("interrupt").join("axis.toml").to_string_lossy().into_owned();
-    let common = ["--bus", &bus, "--node", "5", &eds];
+    let common = ["--bus", &bus, "--node", "5", "--timeout", PATIENT, &eds];
     let output = run(&[&["backup"], &common[..], &["--out", &file]].concat());
     assert!(output.status.success(), "{:?}", texts(&output));
     let mut restore = lexibus(&[&["restore"], &common[..], &[&file, "--yes"]].concat());
@@ -198,7 +201,7 @@ fn a_monitor_shows_states_and_values_until_it_is_interrupted() {
 #[test]
 fn a_report_is_written_in_each_format() {
     let (bus, eds) = (format!("slcan:{}", adapter(Duration::ZERO)), dictionary("demo-drive.eds"));
-    let common = ["verify", "--bus", &bus, "--node", "5", &eds];
+    let common = ["verify", "--bus", &bus, "--node", "5", "--timeout", PATIENT, &eds];
     let (text, _) = texts(&run(&[&common[..], &["--changed"]].concat()));
     assert!(text.contains("changed: 0x1017:00 Producer heartbeat time: value: declared 0 ms, found 100 ms"), "{text}");
     let (json, _) = texts(&run(&[&common[..], &["--format", "json"]].concat()));

@@ -1,6 +1,7 @@
 //! Data types as written in the file, before references are resolved.
 
 use compact_str::format_compact;
+use thin_vec::ThinVec;
 
 use super::flags::{self, Flags};
 use super::info_value::{self, RawInfo};
@@ -20,9 +21,9 @@ pub(super) struct RawType<'a> {
     pub code: Option<u32>,
     pub base: Given<'a>,
     pub bits: Option<u32>,
-    pub dimensions: Vec<Dimension>,
-    pub fields: Vec<RawField<'a>>,
-    pub values: Vec<EnumValue>,
+    pub dimensions: ThinVec<Dimension>,
+    pub fields: ThinVec<RawField<'a>>,
+    pub values: ThinVec<EnumValue>,
     pub comment: Option<Box<Names<'a>>>,
     pub origin: Origin,
 }

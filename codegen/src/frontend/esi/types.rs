@@ -4,6 +4,7 @@ use std::collections::hash_map::Entry;
 
 use compact_str::format_compact;
 use smallvec::SmallVec;
+use thin_vec::ThinVec;
 
 use super::data_type::{Dimension, RawField, RawType};
 use super::reader::{Names, Reader};
@@ -21,7 +22,7 @@ use crate::text::brief;
 pub(super) struct Types<'t, 'a> {
     raw: &'t [RawType<'a>],
     /// Enumeration values of each data type. They are removed when the data type is converted.
-    values: Vec<Vec<EnumValue>>,
+    values: Vec<ThinVec<EnumValue>>,
     by_name: HashMap<&'t str, u32>,
     links: Links,
     /// IR type for each data type of the file. For an alias, this is the type that the alias names.
@@ -124,7 +125,7 @@ impl<'t, 'a> Types<'t, 'a> {
     /// Lowers all data types in `raw`.
     ///
     /// `values` contains the enumeration values of each data type.
-    pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>], values: Vec<Vec<EnumValue>>) -> Self {
+    pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>], values: Vec<ThinVec<EnumValue>>) -> Self {
         let mut types = Types { raw, values, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
         for (at, ty) in raw.iter().enumerate() {
             types.note_name(reader, at, ty);
@@ -179,6 +180,7 @@ impl<'t, 'a> Types<'t, 'a> {
         let values = self.values.get_mut(at).map(std::mem::take).unwrap_or_default();
         if !values.is_empty() {
             let base = self.integer_base(reader, at, ty);
+            let values = values.into_iter().collect();
             let shape = Shape::Enumeration { base, values, closed: false };
             return (shape, ty.bits.or(base.bits()));
         }
