@@ -34,10 +34,7 @@ pub(super) fn model(code: &mut Code, mut model: Model) {
     given::models(code, &model.models);
     given::machine(code, model.given.as_ref());
     #[cfg(feature = "messages")]
-    {
-        messages::write(code, &model);
-        model.protocol = None;
-    }
+    messages::write(code, &mut model);
     types::write(code, &model);
     model.types = Types::default();
     codes::write(code, &model);

@@ -8,15 +8,16 @@ use crate::backend::rust::messages::{
 };
 use crate::backend::rust::model::Model;
 
-pub(super) fn write(code: &mut Code, model: &Model) {
-    let Some(protocol) = &model.protocol else { return };
+/// Takes the protocol from the model, and drops each message as soon as it is printed.
+pub(super) fn write(code: &mut Code, model: &mut Model) {
+    let Some(mut protocol) = model.protocol.take() else { return };
     code.doc("Requests and replies of the message protocol.");
     if protocol.has_real_limits() {
         line!(code, "#[allow(clippy::approx_constant)]");
     }
     open!(code, "pub mod messages {");
     code.use_runtime();
-    constants(code, protocol);
+    constants(code, &protocol);
     if let Some(parameters) = &protocol.parameters {
         self::parameters(code, parameters, protocol.has_station);
     }
@@ -28,16 +29,17 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         line!(code, "lengths: ", list("&[", &rule.lengths, "]"), ",");
         code.close("};");
     }
-    for message in &protocol.messages {
+    let device = (!protocol.calls.is_empty()).then_some(model.device_name.as_str());
+    for message in std::mem::take(&mut protocol.messages) {
         if let Some(data) = &message.request {
-            request(code, model, message, data);
+            request(code, &message, data, device);
         }
         if let Some(data) = &message.reply {
             reply(code, data);
         }
     }
     if !protocol.requests.is_empty() {
-        requests(code, protocol);
+        requests(code, &protocol);
     }
     code.close("}");
 }
@@ -154,7 +156,8 @@ fn lifetime(data: &DataModel) -> &'static str {
     }
 }
 
-fn request(code: &mut Code, model: &Model, message: &MessageModel, data: &DataModel) {
+/// `device` is the type of the device if it has methods that send requests.
+fn request(code: &mut Code, message: &MessageModel, data: &DataModel, device: Option<&str>) {
     self::data(code, data);
     let (name, lifetime) = (&data.name, lifetime(data));
     open!(code, "impl", lifetime, " rt::message::Message for ", name, lifetime, " {");
@@ -194,8 +197,8 @@ fn request(code: &mut Code, model: &Model, message: &MessageModel, data: &DataMo
         }
         code.close("}");
     }
-    if message.is_selector && model.protocol.as_ref().is_some_and(|protocol| !protocol.calls.is_empty()) {
-        selector(code, name, &model.device_name);
+    if let Some(device) = device.filter(|_| message.is_selector) {
+        selector(code, name, device);
     }
 }
 
