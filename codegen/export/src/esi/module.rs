@@ -26,7 +26,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     profile(xml, context, module, &mut types);
     xml.text_leaf("DcOpModeName", &module.clock_mode);
     xml.close();
-    context.notes.add_many(NoteKind::Extension, module.extensions.len(), subject);
+    context.notes.add_many(NoteKind::Extension, module.extensions.len() + module.attributes.len(), subject);
     losses::of_module(context, module);
 }
 
