@@ -1,5 +1,5 @@
-//! Formats numbers for people in hexadecimal notation: addresses, identifiers, masks, bytes, and ranges of numbers. Generated Rust
-//! and exported files have their own formats.
+//! Formats numbers for people and for generated Rust in hexadecimal notation: addresses, identifiers, masks and bytes. Also formats
+//! ranges of numbers. Exported files have their own formats.
 
 /// Maximum number of allowed values that a sentence lists.
 pub const ALLOWED_SHOWN: usize = 16;

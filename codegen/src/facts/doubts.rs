@@ -4,9 +4,9 @@ use crate::collections::HashSet;
 use crate::ir::{Catalog, CompactString, Device, Doubt, Doubts};
 
 /// Returns the ambiguities that concern the device as a whole, its models, types, code tables, state machines, procedures,
-/// process images and composites, and the types of its modules. Each has the name of its element, which is empty for the
-/// device. They are in the order of the source. An ambiguity of a definition that became several types occurs once, with the
-/// first of these types.
+/// process images and composites, and the types of its modules. For a PROFINET device, also returns those of the types of all
+/// submodules. Each ambiguity has the name of its element, which is empty for the device. The order is that of the source. An
+/// ambiguity of a definition that became several types occurs once, with the first of these types.
 pub fn of_device<'d>(catalog: &'d Catalog, device: &'d Device) -> Vec<(&'d str, &'d Doubt)> {
     let of_modules = device.accepted_modules(&catalog.modules).flat_map(|module| &module.types);
     let of_submodules = catalog.types.iter().filter(|_| device.profinet.is_some());

@@ -1,6 +1,5 @@
 //! Values, limits of values, and reasons why limits exclude a value.
 
-use crate::number::hex;
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -8,6 +7,7 @@ use thin_vec::ThinVec;
 
 use super::rare::Missing;
 use super::{CompactString, Type};
+use crate::number::hex;
 
 /// A value, converted to the type of its item.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `run` | order of the steps; the front end for register tables contains the function that applies an overlay |
+//! | `run` | order of the steps, including the overlays, which the front end for register tables applies |
 //! | `selection`, `removal` | removes elements that are not selected, and updates ids |
 //! | `conditions` | signs of the values in conditions |
 //! | `profiles` | facts of standards about the objects of all devices that follow them |

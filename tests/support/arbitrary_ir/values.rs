@@ -94,5 +94,6 @@ pub fn limits(b: &mut Bytes<'_>, ty: Type) -> Limits {
         let last = b.maybe(2, |b| of(b, ty)).filter(|last| last.as_real() >= first.as_real());
         (first.clone(), last.unwrap_or(first))
     });
-    Limits { low, high, allowed: allowed.into(), ..Limits::default() }
+    let text = if matches!(ty, Type::VisibleString(_)) { names::version(b) } else { Default::default() };
+    Limits { low, high, allowed: allowed.into(), text }
 }

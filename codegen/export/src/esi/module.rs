@@ -26,7 +26,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     profile(xml, context, module, &mut types);
     xml.text_leaf("DcOpModeName", &module.clock_mode);
     xml.close();
-    context.notes.add_many(NoteKind::Extension, module.extensions.len(), subject);
+    context.notes.add_many(NoteKind::Extension, module.extensions.len() + module.attributes.len(), subject);
     losses::of_module(context, module);
 }
 
@@ -50,6 +50,8 @@ fn of_mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
 fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
     let objects = objects::all(module.groups.iter(), &mut context.notes);
     if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {
+        let lost = [module.add_info, module.sub_add_info].into_iter().flatten().count();
+        context.notes.add_many(NoteKind::Setting, lost, Subject::Named(&module.name));
         return;
     }
     xml.open("Profile");

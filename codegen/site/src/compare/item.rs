@@ -113,7 +113,10 @@ fn stated_effects<T>(old: &Option<T>, _: &Option<T>) -> Judgment {
 fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &mut Comparison<'_>) {
     if limits[0] != limits[1] {
         let (old_types, new_types) = comparison.types;
-        let text = |side: usize, types: &[TypeDef]| facts::item::range(items[side], limits[side], types, usize::MAX);
+        let text = |side: usize, types: &[TypeDef]| match limits[side].text.is_empty() {
+            true => facts::item::range(items[side], limits[side], types, usize::MAX),
+            false => limits[side].text.to_string(),
+        };
         let texts = [text(0, old_types), text(1, new_types)];
         comparison.values("range", limits, texts, range_effects(limits[0], limits[1], access));
     }
@@ -123,7 +126,8 @@ fn range(items: [&Item; 2], limits: [&Limits; 2], access: Access, comparison: &m
 /// becomes invalid. For any other item, the change is breaking if a value can be outside of the old limits.
 fn range_effects(old: &Limits, new: &Limits, access: Access) -> Judgment {
     let is_broken = if access.writable() { is_narrower(old, new) } else { is_narrower(new, old) };
-    if is_broken {
+    // Allowed values that are not numbers are not compared one by one.
+    if is_broken || old.text != new.text {
         Judgment::BEHAVIOR
     } else {
         Judgment::BEHAVIOR_COMPATIBLE

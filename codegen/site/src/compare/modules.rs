@@ -83,7 +83,7 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         },
         pdo_group: part("module", fact("module PDO group", Judgment::WIRE)),
         mailbox: part("module", optional("mailbox", Judgment::ADDITION, Judgment::API_AND_WIRE, mailbox)),
-        clock_mode: part("module", text("mode of the distributed clocks")),
+        clock_mode: part("module", fact("mode of the distributed clocks", Judgment::BEHAVIOR)),
         add_info: part("module", fact("additional profile number", Judgment::BEHAVIOR)),
         sub_add_info: part("module", fact("further additional profile number", Judgment::BEHAVIOR)),
         attributes: part("module", fact("attributes", Judgment::BEHAVIOR)),

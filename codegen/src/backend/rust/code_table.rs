@@ -56,7 +56,7 @@ fn model(
     );
     let origin = WORDS.defined_by(table.stated_by.as_deref(), table.documentation.as_deref());
     docs.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
-    docs::doubtful(&table.doubts, manual, &mut docs);
+    docs::add_doubts(&table.doubts, manual, &mut docs);
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("These codes occur on {}.", bus_names(table.buses))]);
     }

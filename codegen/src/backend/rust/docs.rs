@@ -110,7 +110,7 @@ pub(super) fn method(
     let storage = item.behavior.as_ref().and_then(|behavior| words.storage(&behavior.storage));
     lines.extend(storage.map(|storage| sentence(&capital(&storage))));
     lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
-    doubtful(&item.doubts, &context.manual, &mut lines);
+    add_doubts(&item.doubts, &context.manual, &mut lines);
     lines
 }
 
@@ -168,7 +168,7 @@ fn doubts(list: &[Doubt], manual: &Manual) -> Vec<String> {
 }
 
 /// Adds the ambiguities of an element, each as a paragraph.
-pub(super) fn doubtful(list: &[Doubt], manual: &Manual, lines: &mut Vec<String>) {
+pub(super) fn add_doubts(list: &[Doubt], manual: &Manual, lines: &mut Vec<String>) {
     lines.extend(doubts(list, manual).into_iter().flat_map(|doubt| [String::new(), doubt]));
 }
 
@@ -181,7 +181,7 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
     if let Some(origin) = WORDS.defined_by(definition.stated_by.as_deref(), definition.documentation.as_deref()) {
         lines.extend([String::new(), origin]);
     }
-    doubtful(&definition.doubts, &context.manual, &mut lines);
+    add_doubts(&definition.doubts, &context.manual, &mut lines);
     let users = context.links.users(position, DocModule::TYPES);
     if !users.is_empty() {
         lines.extend([String::new(), users]);

@@ -184,7 +184,7 @@ fn documentation(
     docs::described(machine.documentation.as_deref(), &context.manual, &mut lines);
     let origin = docs::WORDS.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref());
     lines.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
-    docs::doubtful(&machine.doubts, &context.manual, &mut lines);
+    docs::add_doubts(&machine.doubts, &context.manual, &mut lines);
     let row = |pattern: &PatternModel| {
         [format!("[`{0}`](Self::{0})", pattern.name), format!("`{}`", pattern.bits), pattern.meaning.clone()]
     };

@@ -46,7 +46,7 @@ fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {
     }
     sentences.extend(WORDS.manual_entry(&context.manual, "", procedure.documentation.as_deref(), &procedure.names));
     let mut lines: Vec<String> = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]).collect();
-    docs::doubtful(&procedure.doubts, &context.manual, &mut lines);
+    docs::add_doubts(&procedure.doubts, &context.manual, &mut lines);
     let rows: Vec<[String; 2]> = procedure.steps.iter().filter_map(|step| row(context, step)).collect();
     lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }

@@ -65,11 +65,11 @@ pub(super) fn read<'a>(
                     reader.note_text(&tag)?;
                     continue;
                 };
-                let flags = tool.get_or_insert_default();
+                let tool = tool.get_or_insert_default();
                 *match tag.name {
-                    "SdoAccess" => &mut flags.sdo_access,
-                    "Transition" => &mut flags.transition,
-                    _ => &mut flags.attribute,
+                    "SdoAccess" => &mut tool.sdo_access,
+                    "Transition" => &mut tool.transition,
+                    _ => &mut tool.attribute,
                 } = reader.text(&tag)?.compact();
             }
             _ => reader.unknown(&tag)?,

@@ -409,7 +409,7 @@ impl<'t, 'a> Types<'t, 'a> {
         };
         let ty = Type::Named(TypeId(self.defs.len() as u32));
         if self.defs.len() == self.defs.capacity() {
-            // Only few types have such names, so the list must not double.
+            // Few types have such names. If the list doubled its capacity, most of the memory would be unused.
             self.defs.reserve_exact(self.defs.len() / 8 + 16);
         }
         self.defs.push(TypeDef::new(name, shape, bits));

@@ -3,6 +3,7 @@
 //! The parser reads some statements at a time. If it read the whole file at once, its tokens would need more memory than the tree.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
 
 use toml_datetime::Datetime;
 use toml_parser::decoder::{Encoding, ScalarKind};
@@ -13,7 +14,8 @@ use toml_parser::{ErrorSink, ParseError, Source, Span};
 use super::at::At;
 use crate::collections::HashMap;
 
-/// Maximum depth of nested values, and maximum number of parts of a dotted key.
+/// Maximum depth of nested arrays and inline tables, and maximum number of parts of a header or of the nested keys around a value.
+/// Functions that call themselves for each level of the tree rely on these limits.
 const MAX_DEPTH: u32 = 80;
 
 /// Number of tokens after which the parser reads the statements that are complete.
@@ -186,7 +188,7 @@ impl<'a> Table<'a> {
         errors: &mut dyn ErrorSink,
     ) -> Option<&mut Table<'a>> {
         let (of_header, mut table) = (created == TableKind::Implicit, self);
-        for key in path.take(MAX_DEPTH as usize) {
+        for key in path {
             let at = table.position(&key.value).unwrap_or(table.entries.len());
             if at == table.entries.len() {
                 let (start, end) = (key.start, key.end);
@@ -436,10 +438,17 @@ impl EventReceiver for Builder<'_> {
 
     fn simple_key(&mut self, span: Span, encoding: Option<Encoding>, errors: &mut dyn ErrorSink) {
         if !std::mem::take(&mut self.is_dotted) {
+            if self.open.is_empty() {
+                // After a syntax error, the list can contain the key of an earlier statement.
+                self.keys.clear();
+            }
             self.first_part = self.keys.len();
         }
-        if self.keys.len() - self.first_part == MAX_DEPTH as usize {
-            errors.report_error(ParseError::new("recursion limit").with_unexpected(span));
+        // The part beyond the limit is reported, and all further parts are left out.
+        match self.keys.len().cmp(&(MAX_DEPTH as usize)) {
+            Ordering::Less => {}
+            Ordering::Equal => errors.report_error(ParseError::new("recursion limit").with_unexpected(span)),
+            Ordering::Greater => return,
         }
         let mut text = Cow::Borrowed("");
         if let Some(raw) = self.source.get(Event::new_unchecked(EventKind::SimpleKey, encoding, span)) {
@@ -570,6 +579,17 @@ mod tests {
         let path = "a.".repeat(50_000) + "a";
         assert_eq!(parsed(&format!("{path} = 1\n")), None);
         assert_eq!(parsed(&format!("[{path}]\n")), None);
+        // Both the nesting and the number of parts of each key are below the limit.
+        let entry = format!("{{ {}a = ", "a.".repeat(70));
+        assert_eq!(parsed(&format!("a = {}1{}\n", entry.repeat(70), "}".repeat(70))), None);
+        let allowed = format!("a = {}1{}\n", "{ a.a = ".repeat(39), "}".repeat(39));
+        assert_eq!(parsed(&allowed), Some(allowed.parse().unwrap()));
+    }
+
+    #[test]
+    fn keys_without_values_do_not_count_toward_the_limit_of_later_keys() {
+        let (_, errors) = parse(&"a.b\n".repeat(2 * MAX_DEPTH as usize));
+        assert!(errors.iter().all(|error| error.description() == "key with no value"), "{errors:?}");
     }
 
     /// Statements that extend or repeat each other.
