@@ -200,7 +200,7 @@ pub(super) fn model(
         } else {
             format!("raw & {}", hex(mask(bits)))
         },
-        written: written(zeros, ones),
+        written: written(zeros, ones, mask(generator.native_bits())),
         flags: flags(&entries, views.is_empty()),
         allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
         views,
@@ -283,9 +283,12 @@ fn flags(entries: &[&BitFieldEntry], has_no_views: bool) -> Option<String> {
         .then(|| hex(entries.iter().fold(0, |mask, entry| mask | 1 << entry.offset)))
 }
 
-fn written(zeros: u64, ones: u64) -> Option<String> {
+/// Returns the expression for the value to write, with the reserved bits `zeros` and `ones`. Returns `None` if there are no reserved
+/// bits. `all` is the mask of all bits of the native type. Clippy rejects operators that have the same result for every value.
+fn written(zeros: u64, ones: u64, all: u64) -> Option<String> {
     match (zeros, ones) {
         (0, 0) => None,
+        (zeros, ones) if zeros | ones == all => Some(hexadecimal_or_zero(ones)),
         (zeros, 0) => Some(format!("self.0 & !{}", hex(zeros))),
         (0, ones) => Some(format!("self.0 | {}", hex(ones))),
         (zeros, ones) => Some(format!("(self.0 & !{}) | {}", hex(zeros), hex(ones))),
@@ -463,4 +466,20 @@ struct Code {
 
 fn native_bits(native: &str) -> u32 {
     native[1..].parse().unwrap_or(64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::written;
+
+    #[test]
+    fn reserved_bits_have_their_values() {
+        let written = |zeros, ones| written(zeros, ones, 0xFF);
+        assert_eq!(written(0, 0), None);
+        assert_eq!(written(0xF0, 0).as_deref(), Some("self.0 & !0xF0"));
+        assert_eq!(written(0, 0x0F).as_deref(), Some("self.0 | 0xF"));
+        assert_eq!(written(0xF0, 0x08).as_deref(), Some("(self.0 & !0xF0) | 0x8"));
+        assert_eq!(written(0xFF, 0).as_deref(), Some("0"));
+        assert_eq!(written(0xF0, 0x0F).as_deref(), Some("0xF"));
+    }
 }
