@@ -44,13 +44,18 @@ pub fn bytes(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
 }
 
-/// Formats ranges of numbers: `1, 4 to 7`. `shown` formats one number. A list of more than [`ALLOWED_SHOWN`] ranges is shortened.
-pub fn ranges(numbers: &[(u16, u16)], shown: impl Fn(u16) -> String) -> String {
-    let range = |&(first, last): &(u16, u16)| match first == last {
+/// Formats a range of numbers: `4 to 7`, or `4` if the range has only one number. `shown` formats one number.
+pub fn range<N: PartialEq>(first: N, last: N, shown: impl Fn(N) -> String) -> String {
+    match first == last {
         true => shown(first),
         false => format!("{} to {}", shown(first), shown(last)),
-    };
-    let mut list: Vec<String> = numbers.iter().take(ALLOWED_SHOWN).map(range).collect();
+    }
+}
+
+/// Formats ranges of numbers: `1, 4 to 7`. `shown` formats one number. A list of more than [`ALLOWED_SHOWN`] ranges is shortened.
+pub fn ranges(numbers: &[(u16, u16)], shown: impl Fn(u16) -> String) -> String {
+    let first_ones = numbers.iter().take(ALLOWED_SHOWN);
+    let mut list: Vec<String> = first_ones.map(|&(first, last)| range(first, last, &shown)).collect();
     if numbers.len() > ALLOWED_SHOWN {
         list.push("…".to_owned());
     }

@@ -6,6 +6,7 @@ use super::context::Context;
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{stated, Device, Item, ItemRef, Quantity, Scale, Shape};
+use crate::number;
 use crate::source::Span;
 use crate::text::{brief, count_of, more, numbered};
 
@@ -174,11 +175,8 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     (!only.is_empty()).then(|| format!("only one of them has names for {}", numbered(what, &only)))
 }
 
-fn range(range: &(i128, i128)) -> String {
-    match range {
-        (first, last) if first == last => first.to_string(),
-        (first, last) => format!("{first} to {last}"),
-    }
+fn range(&(first, last): &(i128, i128)) -> String {
+    number::range(first, last, |number| number.to_string())
 }
 
 /// Returns the ranges of values, or the single bits, that have a name.

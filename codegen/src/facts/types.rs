@@ -2,7 +2,7 @@
 
 use crate::ir::owner::Owner;
 use crate::ir::{Type, TypeDef, TypeId};
-use crate::number::hex;
+use crate::number::{hex, range};
 
 /// Returns the basic type of a type. The basic type of an array or record is an opaque type.
 pub fn basic(types: &[TypeDef], ty: Type) -> Type {
@@ -27,10 +27,7 @@ pub fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
 
 /// Formats a value or a range of an enumeration: `3`, `4 to 7`.
 pub fn numbers(first: i128, last: Option<i128>) -> String {
-    match last.filter(|last| *last != first) {
-        Some(last) => format!("{} to {}", number(first), number(last)),
-        None => number(first),
-    }
+    range(first, last.unwrap_or(first), number)
 }
 
 /// Formats a number. A large number has both decimal and hexadecimal notation, because large numbers are often bit

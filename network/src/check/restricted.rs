@@ -1,9 +1,9 @@
 //! CAN-IDs that no configurable COB-ID can have.
 
-use lexibus_codegen::number::hex;
 use std::ops::RangeInclusive;
 
 use lexibus_codegen::diagnostics::{codes, Diagnostic};
+use lexibus_codegen::number::{self, hex};
 use lexibus_codegen::source::Span;
 
 use crate::model::EXTENDED;
@@ -36,10 +36,7 @@ pub(super) fn fault(cob_id: u32, name: &str, span: Span) -> Option<Diagnostic> {
         return Some(found.label("a CAN-ID has 11 bits if bit 29 of the COB-ID is 0"));
     }
     let (range, owner) = RESTRICTED.iter().find(|(range, _)| range.contains(&can_id))?;
-    let ids = match (range.start(), range.end()) {
-        (first, last) if first == last => hex(*first),
-        (first, last) => format!("{} to {}", hex(*first), hex(*last)),
-    };
+    let ids = number::range(*range.start(), *range.end(), hex);
     Some(found("choose another COB-ID").label(format!("CiA 301 reserves {ids} for {owner}")))
 }
 

@@ -6,7 +6,7 @@ use lexibus_codegen::ir::{
     Access, AxisStep, Bus, Buses, Category, CompactString, Condition, Direction, Fit, LocalText, Numbers, ObjectBuses,
     ObjectCode, Oversampling, Reference, SharedList, SlotNumbers, Trigger, Value, Zone,
 };
-use lexibus_codegen::number::{hex, hex16, hex32};
+use lexibus_codegen::number::{self, hex, hex16, hex32};
 
 /// Formats a value for reports. Different values must have different texts.
 pub(super) trait Show {
@@ -71,10 +71,8 @@ show_as_name! {
     }
     ObjectBuses { buses => [("CANopen", buses.canopen), ("EtherCAT", buses.coe)].into_iter().filter(|(_, is_on)| *is_on)
         .map(|(name, _)| name).collect::<Vec<_>>().join(", ") }
-    Numbers { numbers => numbers.0.iter().map(|(first, last)| match first == last {
-        true => first.to_string(),
-        false => format!("{first} to {last}"),
-    }).collect::<Vec<_>>().join(", ") }
+    Numbers { numbers => numbers.0.iter().map(|&(first, last)| number::range(first, last, |number| number.to_string()))
+        .collect::<Vec<_>>().join(", ") }
     SlotNumbers { places => [("allowed", &places.allowed), ("fixed", &places.fixed), ("used", &places.used)].into_iter()
         .filter(|(_, numbers)| !numbers.is_empty()).map(|(kind, numbers)| format!("{kind} {}", numbers.show())).collect::<Vec<_>>().join("; ") }
     Oversampling { oversampling => {

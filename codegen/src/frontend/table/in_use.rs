@@ -10,7 +10,7 @@ use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};
-use crate::number::written_object;
+use crate::number::{self, written_object};
 use crate::source::Span;
 use crate::text::{brief, numbered};
 
@@ -177,10 +177,7 @@ fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help
 }
 
 fn numbers(first: u32, last: u32) -> String {
-    match first == last {
-        true => first.to_string(),
-        false => format!("{first} to {last}"),
-    }
+    number::range(first, last, |number| number.to_string())
 }
 
 fn space_name(space: RegisterSpace) -> &'static str {
