@@ -19,7 +19,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: 
             "EtherCATController" => controller(reader, &tag, settings.controller.get_or_insert_default())?,
             "StationAliasSupported" => {
                 let given = reader.text(&tag)?;
-                settings.station_alias = (!given.is_empty()).then(|| reader.flag(&given));
+                settings.station_alias = reader.optional_flag(&given);
             }
             "Port" | "ExecutionUnit" | "DeviceFeature" => reader.keep(&tag)?,
             "VendorSpecific" => reader.vendor_specific(&tag)?,

@@ -143,7 +143,7 @@ fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
 
 fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<bool>> {
     let given = reader.text(tag)?;
-    Ok((!given.is_empty()).then(|| reader.flag(&given)))
+    Ok(reader.optional_flag(&given))
 }
 
 fn unknown(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str, label: &str) {

@@ -83,7 +83,7 @@ pub(super) fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &m
     pdo.sync_unit = reader.int(su, "sync unit number");
     pdo.overwritten_by_module = reader.flag(overwritten);
     pdo.order = reader.int(order, "order number");
-    pdo.sra_parameter = (!sra.is_empty()).then(|| reader.flag(sra));
+    pdo.sra_parameter = reader.optional_flag(sra);
     let oversampling = Oversampling {
         factor: reader.int(factor, "oversampling factor"),
         min: reader.int(min, "oversampling factor"),

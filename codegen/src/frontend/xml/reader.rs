@@ -246,6 +246,11 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         self.flag_or(given, false)
     }
 
+    /// Reads a Boolean value as [`flag_or`](Self::flag_or) does. Returns `None` if the value is missing or empty.
+    pub fn optional_flag(&mut self, given: &Given<'_>) -> Option<bool> {
+        (!given.is_empty()).then(|| self.flag(given))
+    }
+
     /// Reports a value in a form that the standard does not allow.
     pub fn bad(&mut self, given: &Given<'_>, what: &str, label: impl Into<String>) {
         let message = format!("`{}` is not a valid {what}", brief(&given.text));
