@@ -226,7 +226,7 @@ impl<'a> Reader<'a, '_> {
         let Location { ty, bit_offset, bits, .. } = self.location(tag, &data_type, [&byte, &bit, &bits, &length]);
         let name = self.name(tag, text);
         let default = if default.is_missing() { None } else { self.default_value(&default, ty, bits) };
-        let values = match self.named_values(values.clone(), ty) {
+        let values = match self.named_values(&values, ty) {
             Some(Type::Named(id)) => Some(id),
             _ => {
                 self.note("ValueItemTarget", &values);

@@ -80,7 +80,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the enumeration that the `ValueItem` called `target` defines for values of the type `ty`.
-    pub fn named_values(&mut self, target: Given<'a>, ty: Type) -> Option<Type> {
+    pub fn named_values(&mut self, target: &Given<'a>, ty: Type) -> Option<Type> {
         if target.is_missing() {
             return None;
         }

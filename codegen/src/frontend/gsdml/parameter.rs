@@ -42,7 +42,7 @@ impl<'a> Reader<'a, '_> {
         item.limits = self.allowed_values(&allowed, location.number()).into();
         item.at.others = OtherSpans { low: allowed.span, high: allowed.span, ..OtherSpans::default() }.into();
         self.default(tag, default, &location, item)?;
-        match self.named_values(values.clone(), ty) {
+        match self.named_values(&values, ty) {
             Some(named) => item.ty = named,
             None => unsuitable_values = values.compact(),
         }

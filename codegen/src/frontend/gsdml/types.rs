@@ -93,14 +93,14 @@ impl<'a> Types<'a> {
     }
 
     /// Returns the enumeration that the `ValueItem` called `target` defines, with the underlying integer type `base`.
-    pub fn enumeration(&mut self, target: Given<'a>, base: Type) -> Type {
+    pub fn enumeration(&mut self, target: &Given<'a>, base: Type) -> Type {
         let key = (target.text.clone(), base);
         if let Some(&id) = self.enumerations.get(&key) {
             return Type::Named(id);
         }
         let id = self.push(&target.text, Shape::Alias(base), base.bits());
         self.enumerations.insert(key, id);
-        self.wanted.push((target, base, id));
+        self.wanted.push((target.clone(), base, id));
         Type::Named(id)
     }
 

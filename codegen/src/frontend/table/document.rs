@@ -250,21 +250,15 @@ fn parse_parts(text: &str, min: usize) -> (Table<'_>, Vec<ParseError>) {
     let (mut part, mut depth) = (Vec::<Token>::new(), 0_usize);
     for token in source.lex() {
         part.push(token);
-        let is_complete = match token.kind() {
-            TokenKind::LeftSquareBracket | TokenKind::LeftCurlyBracket => {
-                depth += 1;
-                false
+        match token.kind() {
+            TokenKind::LeftSquareBracket | TokenKind::LeftCurlyBracket => depth += 1,
+            TokenKind::RightSquareBracket | TokenKind::RightCurlyBracket => depth = depth.saturating_sub(1),
+            TokenKind::Newline if depth > 0 || part.len() < min => {}
+            TokenKind::Newline | TokenKind::Eof => {
+                parser::parse_document(&part, &mut receiver, &mut errors);
+                part.clear();
             }
-            TokenKind::RightSquareBracket | TokenKind::RightCurlyBracket => {
-                depth = depth.saturating_sub(1);
-                false
-            }
-            TokenKind::Newline => depth == 0 && part.len() >= min,
-            kind => kind == TokenKind::Eof,
-        };
-        if is_complete {
-            parser::parse_document(&part, &mut receiver, &mut errors);
-            part.clear();
+            _ => {}
         }
     }
     builder.finish_section(&mut errors);
