@@ -43,8 +43,8 @@
 //!
 //! - Only [`Write::execute`], [`restore::Plan::execute`] and [`Connection::write`] write values to a device. The caller can
 //!   also write with the client of a connection, and send frames over an [`AnyPort`].
-//! - No function sends an NMT command by itself. No function writes object 0x1010 (store parameters) or 0x1011
-//!   (restore default parameters) unless the caller names it.
+//! - No function sends an NMT command. No function writes object 0x1010 (store parameters) or 0x1011 (restore default
+//!   parameters) unless the caller names it.
 //! - A restore writes a [protected](Protection) parameter, such as a controlword, only if the caller names it.
 //! - The [outcome](restore::Outcome) of a restore lists the state of every write, even after an error.
 //!
