@@ -17,7 +17,7 @@ type Target<'a> = for<'i> fn(&'i mut RawInfo<'a>) -> &'i mut Option<RawValue<'a>
 ///
 /// For each entry, `of_entry` contains the position of its sub-item in `subs`.
 pub(super) fn split<'a>(
-    types: &mut Types<'_, 'a>,
+    types: &Types<'_>,
     entries: &[Entry<'_, 'a>],
     of_entry: &[Option<usize>],
     subs: &mut [RawSub<'a>],

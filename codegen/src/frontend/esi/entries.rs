@@ -1,6 +1,6 @@
 //! Entries that the data type of an object defines, and the assignment of the object's sub-items to these entries.
 
-use super::data_type::{RawField, RawType};
+use super::data_type::RawField;
 use super::object::{RawObject, RawSub};
 use super::reader::Reader;
 use super::types::Types;
@@ -29,16 +29,16 @@ pub(super) struct Entry<'t, 'a> {
 /// array is read as a single value.
 pub(super) fn of_object<'t, 'a>(
     reader: &mut Reader<'_, '_>,
-    types: &Types<'_, 'a>,
+    types: &Types<'_>,
     raw: &RawObject<'_>,
     ty: Type,
-    record: &'t RawType<'a>,
+    fields: &'t [RawField<'a>],
 ) -> Vec<Entry<'t, 'a>> {
-    let mut entries: Vec<Entry<'t, 'a>> = Vec::with_capacity(record.fields.len());
+    let mut entries: Vec<Entry<'t, 'a>> = Vec::with_capacity(fields.len());
     let (mut next, mut is_reported) = (0u32, false);
-    for (position, field) in record.fields.iter().enumerate() {
+    for (position, field) in fields.iter().enumerate() {
         let field_type = types.field(ty, position);
-        let following = record.fields.get(position + 1).and_then(|field| field.sub_index);
+        let following = fields.get(position + 1).and_then(|field| field.sub_index);
         let (first, mut count, mut element) = span_of(types, field, field_type, next, following);
         if count > 1 && first.saturating_add(count) > SUB_INDICES {
             let message = format!(
@@ -67,13 +67,7 @@ pub(super) fn of_object<'t, 'a>(
 }
 
 /// Returns the first sub-index of a field, the number of its sub-indices, and their type.
-fn span_of(
-    types: &Types<'_, '_>,
-    field: &RawField<'_>,
-    ty: Type,
-    next: u32,
-    following: Option<u16>,
-) -> (u32, u32, Type) {
+fn span_of(types: &Types<'_>, field: &RawField<'_>, ty: Type, next: u32, following: Option<u16>) -> (u32, u32, Type) {
     let single = |first| (first, 1, ty);
     let given = field.sub_index.map(u32::from);
     let Some((element, lower, count)) = types.elements(ty) else { return single(given.unwrap_or(next)) };

@@ -1,10 +1,13 @@
 //! Converts objects and their data types to groups and items of the IR.
 
+use std::rc::Rc;
+
 use compact_str::{format_compact, CompactString};
+use thin_vec::ThinVec;
 
 use super::array_default;
 use super::budget::Cost;
-use super::data_type::RawType;
+use super::data_type::{RawField, RawType};
 use super::dictionary::missing_index;
 use super::entries::{self, Entry};
 use super::flags::Flags;
@@ -23,20 +26,26 @@ use crate::text::brief;
 
 /// Converts the objects of a dictionary to groups, sorted by index. Adds to `types` the types that are defined only by
 /// their names, such as `BITARR8`.
+///
+/// `raw` contains the data types as written in the file.
 pub(super) fn build<'a>(
     reader: &mut Reader<'_, '_>,
-    types: &mut Types<'_, 'a>,
+    types: &mut Types<'a>,
+    raw: Vec<RawType<'a>>,
     mut objects: Vec<RawObject<'a>>,
     subs: &mut [RawSub<'a>],
     units: &[(u32, CompactString)],
 ) -> Vec<Group> {
     // The objects are removed from the end of the list, so that the list can be shortened while the groups are created.
-    // This reduces the peak memory use.
+    // The fields of a data type are freed after its last object, and its other contents at once. This reduces the peak
+    // memory use.
     objects.sort_by_key(|object| object.index);
     objects.reverse();
+    let mut fields = fields_of(types, raw, &objects);
     let mut builder = Builder { types, units };
     let mut groups: Vec<Group> = Vec::with_capacity(objects.len());
     while let Some(object) = objects.pop() {
+        let fields = fields.pop().flatten();
         if objects.len() < objects.capacity() / 2 {
             objects.shrink_to_fit();
         }
@@ -54,22 +63,33 @@ pub(super) fn build<'a>(
             continue;
         }
         let sub_items = subs.get_mut(object.subs.clone()).unwrap_or_default();
-        groups.push(builder.object(reader, index, object, sub_items));
+        groups.push(builder.object(reader, index, object, fields.as_deref(), sub_items));
     }
     groups
 }
 
-struct Builder<'b, 't, 'a> {
-    types: &'b mut Types<'t, 'a>,
+/// Returns the fields of each object's data type; `None` for an object whose data type is not a record.
+fn fields_of<'a>(
+    types: &Types<'_>,
+    raw: Vec<RawType<'a>>,
+    objects: &[RawObject<'_>],
+) -> Vec<Option<Rc<ThinVec<RawField<'a>>>>> {
+    let records: Vec<_> = raw.into_iter().map(|ty| (!ty.fields.is_empty()).then(|| Rc::new(ty.fields))).collect();
+    objects.iter().map(|object| records.get(types.position(&object.ty.text)?)?.clone()).collect()
+}
+
+struct Builder<'b, 'a> {
+    types: &'b mut Types<'a>,
     units: &'b [(u32, CompactString)],
 }
 
-impl<'t, 'a> Builder<'_, 't, 'a> {
+impl<'a> Builder<'_, 'a> {
     fn object(
         &mut self,
         reader: &mut Reader<'_, '_>,
         index: u16,
         mut raw: RawObject<'a>,
+        fields: Option<&ThinVec<RawField<'a>>>,
         subs: &mut [RawSub<'a>],
     ) -> Group {
         let ty = self.object_type(reader, &raw);
@@ -82,8 +102,8 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         group.described = u32::try_from(subs.len()).unwrap_or(u32::MAX);
         group.tool_flags = raw.tool_flags.take();
         group.extensions = std::mem::take(&mut raw.extensions);
-        let code = match self.types.record_of(ty) {
-            Some(record) => self.record(reader, &mut group, &raw, ty, record, subs),
+        let code = match fields {
+            Some(fields) => self.record(reader, &mut group, &raw, ty, fields, subs),
             None if subs.is_empty() => {
                 group.items = vec![self.value(reader, &group, index, &raw, ty)];
                 ObjectCode::Var
@@ -139,10 +159,10 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         group: &mut Group,
         raw: &RawObject<'a>,
         ty: Type,
-        record: &'t RawType<'a>,
+        fields: &[RawField<'a>],
         subs: &mut [RawSub<'a>],
     ) -> ObjectCode {
-        let entries = entries::of_object(reader, self.types, raw, ty, record);
+        let entries = entries::of_object(reader, self.types, raw, ty, fields);
         let mut matched = entries::match_up(reader, &entries, subs);
         let mut parts = array_default::split(self.types, &entries, &matched.of_entry, subs);
         group.items.reserve_exact(entries.len() + matched.extra.len());
@@ -197,7 +217,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         &mut self,
         reader: &mut Reader<'_, '_>,
         raw: &RawObject<'a>,
-        entry: &Entry<'t, 'a>,
+        entry: &Entry<'_, 'a>,
         sub: Option<&mut RawSub<'a>>,
         part: RawInfo<'a>,
         item: &mut Item,
@@ -234,7 +254,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         reader: &mut Reader<'_, '_>,
         group: &mut Group,
         raw: &RawObject<'a>,
-        last: Option<&Entry<'t, 'a>>,
+        last: Option<&Entry<'_, 'a>>,
         extra: &[usize],
         subs: &mut [RawSub<'a>],
     ) {

@@ -33,13 +33,13 @@ pub(super) fn lower<'a>(
         }
         entry_type(reader, &mut types, given, entry)
     });
-    let groups = items::build(reader, &mut types, objects, &mut subs, &units);
+    let groups = items::build(reader, &mut types, raw, objects, &mut subs, &units);
     (types.into_defs(), groups)
 }
 
 /// Returns the type that a PDO entry names. If the entry names no type, returns an unsigned integer type of the entry's length, or
 /// raw bytes if the entry is padding or does not have 1 to 64 bits.
-fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_, '_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
+fn entry_type(reader: &mut Reader<'_, '_>, types: &mut Types<'_>, given: &Given<'_>, entry: &PdoEntry) -> Type {
     if given.is_empty() {
         return match u8::try_from(entry.bits) {
             Ok(bits @ 1..=64) if entry.kind != PdoEntryKind::Padding => Type::Unsigned(bits),

@@ -1,5 +1,6 @@
 //! Converts the data types of a dictionary to types of the IR.
 
+use std::borrow::Cow;
 use std::collections::hash_map::Entry;
 
 use compact_str::format_compact;
@@ -19,11 +20,10 @@ use crate::text::brief;
 
 /// Types of a device, module or dictionary.
 #[derive(Default)]
-pub(super) struct Types<'t, 'a> {
-    raw: &'t [RawType<'a>],
+pub(super) struct Types<'a> {
     /// Enumeration values of each data type. They are removed when the data type is converted.
     values: Vec<ThinVec<EnumValue>>,
-    by_name: HashMap<&'t str, u32>,
+    by_name: HashMap<Cow<'a, str>, u32>,
     links: Links,
     /// IR type for each data type of the file. For an alias, this is the type that the alias names.
     meaning: Vec<Type>,
@@ -46,7 +46,7 @@ struct Links {
 }
 
 impl Links {
-    fn new<'r>(raw: &'r [RawType<'_>], by_name: &HashMap<&str, u32>) -> Self {
+    fn new<'r>(raw: &'r [RawType<'_>], by_name: &HashMap<Cow<'_, str>, u32>) -> Self {
         let mut links = Links::default();
         // The last result is cached because adjacent fields often have the same type.
         let mut last = ("", None);
@@ -121,14 +121,14 @@ impl Links {
     }
 }
 
-impl<'t, 'a> Types<'t, 'a> {
+impl<'a> Types<'a> {
     /// Lowers all data types in `raw`.
     ///
     /// `values` contains the enumeration values of each data type.
-    pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>], values: Vec<ThinVec<EnumValue>>) -> Self {
-        let mut types = Types { raw, values, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
+    pub fn new(reader: &mut Reader<'_, '_>, raw: &[RawType<'a>], values: Vec<ThinVec<EnumValue>>) -> Self {
+        let mut types = Types { values, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
         for (at, ty) in raw.iter().enumerate() {
-            types.note_name(reader, at, ty);
+            types.note_name(reader, raw, at, ty);
         }
         types.links = Links::new(raw, &types.by_name);
         let opaque = Type::Opaque(None);
@@ -157,13 +157,13 @@ impl<'t, 'a> Types<'t, 'a> {
         types
     }
 
-    fn note_name(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) {
+    fn note_name(&mut self, reader: &mut Reader<'_, '_>, raw: &[RawType<'a>], at: usize, ty: &RawType<'a>) {
         if ty.name.is_empty() {
             reader.report(&codes::ESI_VALUE, ty.origin.span, "this data type has no name", "nothing can refer to it");
             return;
         }
-        let first = *self.by_name.entry(ty.name.text.as_ref()).or_insert(at as u32) as usize;
-        if let Some(first) = self.raw.get(first).filter(|_| first != at) {
+        let first = *self.by_name.entry(ty.name.text.clone()).or_insert(at as u32) as usize;
+        if let Some(first) = raw.get(first).filter(|_| first != at) {
             let message = format!("the data type `{}` has two definitions", brief(&ty.name.text));
             reader.diagnostics.push(
                 Diagnostic::new(&codes::DUPLICATE_TYPE, ty.name.span, message)
@@ -173,7 +173,7 @@ impl<'t, 'a> Types<'t, 'a> {
         }
     }
 
-    fn shape(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) -> (Shape, Option<u32>) {
+    fn shape(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> (Shape, Option<u32>) {
         if !ty.fields.is_empty() {
             return self.record(reader, at, ty);
         }
@@ -234,7 +234,7 @@ impl<'t, 'a> Types<'t, 'a> {
         (Shape::Alias(Type::Opaque(ty.code)), ty.bits)
     }
 
-    fn record(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) -> (Shape, Option<u32>) {
+    fn record(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> (Shape, Option<u32>) {
         let (mut fields, mut end) = (Vec::with_capacity(ty.fields.len()), 0u32);
         field_names(reader, &ty.fields);
         for (position, field) in ty.fields.iter().enumerate() {
@@ -352,10 +352,13 @@ impl<'t, 'a> Types<'t, 'a> {
         self.by_name.contains_key(name) || matches!(type_name::basic(name), Some((_, Spelling::Standard)))
     }
 
-    /// Returns the data type to which `ty` refers, if this data type is a record.
-    pub fn record_of(&self, ty: Type) -> Option<&'t RawType<'a>> {
-        let Type::Named(TypeId(at)) = ty else { return None };
-        self.raw.get(at as usize).filter(|raw| !raw.fields.is_empty())
+    /// Returns the position of the data type called `name`. For an alias, returns the position of the data type that it names.
+    pub fn position(&self, name: &str) -> Option<usize> {
+        let at = *self.by_name.get(name)?;
+        match self.meaning.get(at as usize) {
+            Some(&Type::Named(TypeId(at))) => Some(at as usize),
+            _ => None,
+        }
     }
 
     /// Returns the type of the field at `position` of a record.
