@@ -67,6 +67,7 @@ impl Code {
 
 impl Diagnostic {
     /// Creates a diagnostic with a code at `span`.
+    #[cold]
     pub fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
         Diagnostic {
             code,

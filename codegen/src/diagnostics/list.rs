@@ -42,6 +42,8 @@ impl Diagnostics {
 
     /// Adds a diagnostic, unless its code is allowed. Keeps at most [`MAX_SAME_DIAGNOSTICS`] diagnostics for each code and file,
     /// and only counts further diagnostics.
+    // Most checks report nothing, so code that reports is kept apart from the code of the checks.
+    #[cold]
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if self.allowed.contains(diagnostic.span, diagnostic.code) {
             return;
