@@ -20,6 +20,10 @@ fn report(item: &Item, code: &'static Code, span: Span, message: String, diagnos
 }
 
 fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Diagnostics) {
+    // An object address does not depend on the length.
+    if !matches!(binding, Binding::EscMemory { .. } | Binding::Register(_)) {
+        return;
+    }
     let basic = || match stated::ty(owner, item) {
         Type::OctetString(bytes) | Type::VisibleString(bytes) => bytes?.checked_mul(8),
         ty => ty.bits(),

@@ -96,17 +96,20 @@ fn classify_object(name: &str) -> Option<(SectionKind, bool)> {
         Some("0x" | "0X") => (&name[2..], true),
         _ => (name, false),
     };
-    let mut length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
+    let (mut index, mut length) = (0, 0);
+    while let Some(digit) = digits.as_bytes().get(length).and_then(|&byte| char::from(byte).to_digit(16)) {
+        (index, length) = (index << 4 | digit, length + 1);
+    }
     // The letters `De` of `Denotation` are hexadecimal digits, too.
     if length == 6 && digits[4..].eq_ignore_ascii_case("Denotation") {
-        length = 4;
+        (index, length) = (index >> 8, 4);
     }
     // At most eight digits are read as an index, because some files write leading zeros. Names such as `[DeviceInfo]`
     // also start with hexadecimal digits, and are recognized by the text after these digits.
     if length == 0 || length > 8 {
         return None;
     }
-    let index = u16::from_str_radix(&digits[..length], 16).ok()?;
+    let index = u16::try_from(index).ok()?;
     let legal = length == 4 && !prefixed;
     let rest = &digits[length..];
     if rest.is_empty() {
@@ -157,8 +160,8 @@ fn classify_module(name: &str) -> Option<(SectionKind, bool)> {
 }
 
 fn hex_u8(digits: &str) -> Option<u8> {
-    let only_digits = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    only_digits.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
+    // `from_str_radix` also accepts a plus sign.
+    (!digits.starts_with('+')).then(|| u8::from_str_radix(digits, 16).ok()).flatten()
 }
 
 fn strip_prefix_ignore_case<'a>(text: &'a str, prefix: &str) -> Option<&'a str> {
