@@ -23,8 +23,8 @@ pub struct Terms {
 pub struct ObjectType<'t> {
     /// Text of the object type.
     pub text: &'t str,
-    /// Number of the object type, or `None` if the text is not a number.
-    pub number: Option<i128>,
+    /// Object code that the text states, or `None` if the text is not the number of an object code.
+    pub code: Option<ObjectCode>,
     /// Span of the object type in the file.
     pub span: Span,
 }
@@ -32,9 +32,9 @@ pub struct ObjectType<'t> {
 impl ObjectType<'_> {
     /// Returns the object code of a sub-index: VAR or DOMAIN. Reports any other object type.
     pub fn of_sub_index(&self, terms: &Terms, diagnostics: &mut Diagnostics) -> ObjectCode {
-        match self.number {
-            Some(2) => return ObjectCode::Domain,
-            Some(7) => {}
+        match self.code {
+            Some(ObjectCode::Domain) => return ObjectCode::Domain,
+            Some(ObjectCode::Var) => {}
             _ => {
                 let message = format!("`{}` is not a valid object type for a {}", self.text, terms.sub_object);
                 let found = Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, self.span, message);
@@ -57,7 +57,7 @@ pub fn object_code(
 ) -> ObjectCode {
     let span = given.map_or(span, |given| given.span);
     let by_content = if has_subs { ObjectCode::Record } else { ObjectCode::Var };
-    match given.map(|given| given.number.and_then(ObjectCode::from_number)) {
+    match given.map(|given| given.code) {
         Some(Some(code)) if code != ObjectCode::Var => return code,
         Some(None) => {
             let message = format!("`{}` is not a valid object type", given.map_or("", |given| given.text));
@@ -77,7 +77,7 @@ pub fn object_code(
 /// Returns the origin of an object code. `None` means that the file states the code, or that the object is a VAR without a stated
 /// code, because VAR is the default of CiA 306.
 pub fn code_origin(given: Option<&ObjectType<'_>>, code: ObjectCode) -> Option<FactOrigin> {
-    let stated = given.map_or(Some(ObjectCode::Var), |given| given.number.and_then(ObjectCode::from_number));
+    let stated = given.map_or(Some(ObjectCode::Var), |given| given.code);
     (stated != Some(code)).then_some(FactOrigin::Rule(Rule::ObjectContents))
 }
 

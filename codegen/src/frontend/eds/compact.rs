@@ -41,7 +41,8 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
         group.items.push(item);
     }
     // The keywords of the object apply to all sub-indices, so they are read once and their errors are reported once.
-    let template = reader.item(index, 1, raw, ObjectCode::Array);
+    let mut template = Item::new(Binding::canopen(index, 1));
+    reader.describe(&mut template, raw, ObjectCode::Array);
     group.flags = template.flags;
     let bytes = copied(reader, raw, &template) + group.name.len();
     let bytes = bytes.saturating_mul(count.into());

@@ -77,7 +77,9 @@ fn keyword(key: &str) -> Option<Key> {
         (14, b'p') => ("ParameterValue", Key::ParameterValue),
         _ => return None,
     };
-    (name == key || name.eq_ignore_ascii_case(key)).then_some(keyword)
+    // The names have 8 to 14 letters. Comparing the first and the last eight is faster than comparing texts of any length.
+    let ends = |name: &str| (name.as_bytes().first_chunk::<8>().copied(), name.as_bytes().last_chunk::<8>().copied());
+    (ends(name) == ends(key) || name.eq_ignore_ascii_case(key)).then_some(keyword)
 }
 
 /// Keywords that describe a single value, and have no meaning for an object whose values are in its sub-indices.
@@ -112,22 +114,21 @@ pub(super) struct Raw {
 }
 
 impl Raw {
+    /// Creates a list without entries.
+    pub(super) fn new() -> Self {
+        Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() }
+    }
+
     pub(super) fn get(&self, key: Key) -> Option<&Entry> {
         self.fields[key as usize].as_ref()
     }
 }
 
 impl Reader<'_, '_> {
-    /// Assigns the entries of sections with the same name to keywords. The last value of a repeated key applies.
-    pub(super) fn raw(&mut self, sections: &[Section]) -> Raw {
-        self.raw_with(sections, &[])
-    }
-
-    /// Assigns entries to keywords as [`raw`](Self::raw) does, with `more` as up to two further keywords.
-    pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
-        let mut raw =
-            Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };
-        let Some(first) = sections.first() else { return raw };
+    /// Assigns the entries of sections with the same name to the keywords of `raw`, with `more` as up to two further keywords. The
+    /// last value of a repeated key applies.
+    pub(super) fn assign(&mut self, sections: &[Section], more: &[&str], raw: &mut Raw) {
+        let Some(first) = sections.first() else { return };
         raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
         let mut unknown = Vec::new();
         for section in sections {
@@ -149,8 +150,7 @@ impl Reader<'_, '_> {
                 }
             }
         }
-        unknown.iter().for_each(|entry| self.misspelled(entry, &raw));
-        raw
+        unknown.iter().for_each(|entry| self.misspelled(entry, raw));
     }
 
     /// Reports an unknown key that differs in at most two letters from a keyword that the object lacks.

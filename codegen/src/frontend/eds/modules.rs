@@ -10,7 +10,7 @@ use super::reader::{Fixed, Reader};
 use super::sections::ModulePart;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
-use crate::ir::{Device, Group, Module, SubExtension};
+use crate::ir::{Binding, Device, Group, Item, Module, SubExtension};
 use crate::number::hex16;
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
@@ -179,9 +179,11 @@ fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
 
 fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) -> SubExtension {
     reader.duplicate_sections(sections);
-    let mut raw = reader.raw_with(sections, &["Count", "ObjExtend"]);
+    let mut raw = Raw::new();
+    reader.assign(sections, &["Count", "ObjExtend"], &mut raw);
     let code = reader.sub_code(&raw);
-    let mut template = reader.item(index, 1, &raw, code);
+    let mut template = Item::new(Binding::canopen(index, 1));
+    reader.describe(&mut template, &raw, code);
     reader.name(raw.get(Key::ParameterName), &mut template.name, &mut template.at.name);
     reader.unused(&raw, &OF_MANY_VALUES, &mut template.extensions);
     template.extensions.append(&mut raw.extensions);

@@ -53,7 +53,8 @@ impl<'a> Reader<'a, '_> {
             return None;
         }
         self.duplicate_sections(&sections.object);
-        let raw = self.raw(&sections.object);
+        let mut raw = Raw::new();
+        self.assign(&sections.object, &[], &mut raw);
         let orphan = sections.object.is_empty();
         let mut group = Group::object(index, ObjectCode::Record);
         group.origin = raw.origin;
@@ -79,7 +80,7 @@ impl<'a> Reader<'a, '_> {
             self.object_code(index, &raw, !sections.subs.is_empty() || compact.is_some(), &mut group)
         };
         self.take_comments(&mut group.extensions);
-        self.fill(&mut group, index, code, raw, sections, compact);
+        self.fill(&mut group, index, code, &mut raw, sections, compact);
         self.links(&mut group, &sections.links);
         in_order_of_file(&mut group.extensions);
         Some(group)
@@ -90,7 +91,7 @@ impl<'a> Reader<'a, '_> {
         group: &mut Group,
         index: u16,
         code: ObjectCode,
-        mut raw: Raw,
+        raw: &mut Raw,
         sections: &ObjectSections,
         compact: Option<u8>,
     ) {
@@ -99,20 +100,21 @@ impl<'a> Reader<'a, '_> {
         if code.has_subs() || (!sections.subs.is_empty() && code != ObjectCode::Var) {
             self.subs(group, index, &sections.subs);
             let has_value = code == ObjectCode::Record && raw.get(Key::DataType).is_some() && group.sub(0).is_none();
-            if has_value && compact.is_none() && self.is_var(&raw) {
-                self.value_of_var(group, index, &raw);
+            if has_value && compact.is_none() && self.is_var(raw) {
+                self.value_of_var(group, index, raw);
             } else if compact.is_none() {
-                group.flags = self.flags(&raw);
-                self.unused(&raw, &OF_A_VALUE, &mut group.extensions);
+                group.flags = self.flags(raw);
+                self.unused(raw, &OF_A_VALUE, &mut group.extensions);
             }
-            self.sub_number(group, &raw, compact);
+            self.sub_number(group, raw, compact);
             if let Some(count) = compact {
-                compact::expand(self, group, &raw, count);
+                compact::expand(self, group, raw, count);
             }
             self.take_comments(&mut group.extensions);
         } else {
-            self.unused(&raw, &OF_MANY_VALUES, &mut group.extensions);
-            let mut item = self.item(index, 0, &raw, code);
+            self.unused(raw, &OF_MANY_VALUES, &mut group.extensions);
+            let mut item = Item::new(Binding::canopen(index, 0));
+            self.describe(&mut item, raw, code);
             item.name = group.name.clone();
             item.at.name = group.name_at;
             // An object without sub-indices has a single section, so the remaining entries of this section are
@@ -162,7 +164,8 @@ impl<'a> Reader<'a, '_> {
     /// Adds sub-index 0 to a VAR that has other sub-indices, but no sub-index 0. The new sub-index contains the value
     /// of the VAR.
     fn value_of_var(&mut self, group: &mut Group, index: u16, raw: &Raw) {
-        let mut item = self.item(index, 0, raw, ObjectCode::Var);
+        let mut item = Item::new(Binding::canopen(index, 0));
+        self.describe(&mut item, raw, ObjectCode::Var);
         item.name = group.name.clone();
         item.at.name = group.name_at;
         group.items.insert(0, item);
@@ -173,18 +176,22 @@ impl<'a> Reader<'a, '_> {
         let mut rest = subs;
         while let Some(&(sub, _)) = rest.first() {
             let count = rest.iter().take_while(|(other, _)| *other == sub).count();
-            let mut raw = if count == 1 {
-                self.raw(std::slice::from_ref(&rest[0].1))
+            let repeated: Vec<Section>;
+            let same = if count == 1 {
+                std::slice::from_ref(&rest[0].1)
             } else {
-                let same: Vec<Section> = rest[..count].iter().map(|(_, section)| *section).collect();
-                self.duplicate_sections(&same);
-                self.raw(&same)
+                repeated = rest[..count].iter().map(|(_, section)| *section).collect();
+                self.duplicate_sections(&repeated);
+                &repeated
             };
+            let mut raw = Raw::new();
+            self.assign(same, &[], &mut raw);
             let code = self.sub_code(&raw);
-            let mut item = self.item(index, sub, &raw, code);
+            let mut item = Item::new(Binding::canopen(index, sub));
+            item.extensions = std::mem::take(&mut raw.extensions);
+            self.describe(&mut item, &raw, code);
             self.name(raw.get(Key::ParameterName), &mut item.name, &mut item.at.name);
             self.unused(&raw, &OF_MANY_VALUES, &mut item.extensions);
-            item.extensions.append(&mut raw.extensions);
             in_order_of_file(&mut item.extensions);
             group.items.push(item);
             rest = &rest[count..];
@@ -192,14 +199,20 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the object type, or `None` if it is missing.
+    #[inline]
     fn object_type(&mut self, raw: &Raw) -> Option<ObjectType<'a>> {
-        let (text, span) = self.fixed(raw.get(Key::ObjectType)?, Fixed::Number);
+        let entry = raw.get(Key::ObjectType)?;
+        if let Some(number) = self.plain(entry) {
+            let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
+            return Some(ObjectType { text, code: ObjectCode::from_number(number.into()), span });
+        }
+        let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
             return None;
         }
         let number = number::parse(text, &[]);
         self.converter().quirk(number, text, span);
-        Some(ObjectType { text, number: number.int(), span })
+        Some(ObjectType { text, code: number.int().and_then(ObjectCode::from_number), span })
     }
 
     /// Returns the object code of a sub-index.
@@ -217,17 +230,16 @@ impl<'a> Reader<'a, '_> {
         code
     }
 
-    /// Builds the item of a VAR, DOMAIN or sub-index. The caller sets the name.
-    pub(super) fn item(&mut self, index: u16, sub: u8, raw: &Raw, code: ObjectCode) -> Item {
-        let mut item = Item::new(Binding::canopen(index, sub));
+    /// Adds the entries of a VAR, DOMAIN or sub-index to an item. The caller sets the name.
+    pub(super) fn describe(&mut self, item: &mut Item, raw: &Raw, code: ObjectCode) {
         item.origin = raw.origin;
-        let ty = self.data_type(raw, code, &mut item);
+        let ty = self.data_type(raw, code, item);
         item.ty = ty.unwrap_or(Type::Opaque(None));
-        item.access = self.access(raw, code, &mut item);
+        item.access = self.access(raw, code, item);
         if ty.is_none() {
-            object::without_type(&mut item);
+            object::without_type(item);
         }
-        item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, &mut item);
+        item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, item);
         item.default = self.typed(raw.get(Key::DefaultValue), item.ty, Role::Value);
         item.limits = Limits {
             low: self.typed(raw.get(Key::LowLimit), item.ty, Role::Limit),
@@ -245,10 +257,9 @@ impl<'a> Reader<'a, '_> {
         .into();
         item.flags = self.flags(raw);
         item.behavior = self.srdo(raw).map(|srdo| Box::new(Behavior { srdo: Some(srdo), ..Behavior::default() }));
-        self.configured(raw, &mut item);
+        self.configured(raw, item);
         self.take_comments(&mut item.extensions);
         item.extensions.shrink_to_fit();
-        item
     }
 
     /// Adds the DCF entries to an item: configured value, denotation and file names.
@@ -272,12 +283,17 @@ impl<'a> Reader<'a, '_> {
 
     /// Converts the text of an entry to a value of type `ty`. A comment after the value is removed, except from texts,
     /// DOMAIN values and values without a basic type. Returns `None` if the entry is missing or empty.
+    // Most values are plain integers. Inlined, they are not copied through memory.
+    #[inline(always)]
     pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
         let entry = entry?;
         let text = self.doc.value(entry);
-        if let Some(value) = self.converter().plain_integer(text, ty) {
-            return Some(value);
-        }
+        self.converter().plain_integer(text, ty).or_else(|| self.converted(entry, ty, role))
+    }
+
+    /// Converts a text as [`typed`](Self::typed) does, for values of any form.
+    #[inline(never)]
+    fn converted(&mut self, entry: &Entry, ty: Type, role: Role) -> Option<Value> {
         let (text, span) = match ty {
             Type::VisibleString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_) | Type::Named(_) => {
                 (self.doc.value(entry), self.doc.value_span(entry))
@@ -290,18 +306,19 @@ impl<'a> Reader<'a, '_> {
     /// Returns the data type of an object or sub-index. Returns `None` and reports the data type if it is not a number,
     /// or if it is missing and the value needs one.
     fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
-        let (text, span) = match raw.get(Key::DataType) {
-            Some(entry) => self.fixed(entry, Fixed::Number),
-            None => ("", raw.origin.span),
-        };
+        let entry = raw.get(Key::DataType);
+        let plain = entry.and_then(|entry| self.plain(entry)).and_then(|number| u32::try_from(number).ok());
+        if let Some(number) = plain {
+            item.at.ty = self.span_of(entry);
+            return Some(self.type_by_code(number, item.at.ty));
+        }
+        let (text, span) = entry.map_or(("", raw.origin.span), |entry| self.fixed(entry, Fixed::Number));
         item.at.ty = span;
         if text.is_empty() {
             return self.no_data_type(code, span);
         }
         // The converter reports a text that is not a number.
-        let plain = number::plain(text).map(|number| Value::Int(number.into()));
-        let number = plain.or_else(|| self.converter().number(text, span))?;
-        match number.as_int().and_then(|number| u32::try_from(number).ok()) {
+        match self.converter().number(text, span)?.as_int().and_then(|number| u32::try_from(number).ok()) {
             Some(number) => Some(self.type_by_code(number, span)),
             None => {
                 let message = format!("`{text}` is not the code of a data type");

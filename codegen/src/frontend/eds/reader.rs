@@ -66,6 +66,12 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.fixed_part(text, span, cut, form)
     }
 
+    /// Returns the value of an entry that is a plain number. The value has neither comment nor quotation marks, and needs no
+    /// diagnostic.
+    pub(super) fn plain(&self, entry: &Entry) -> Option<i64> {
+        number::plain(self.doc.value(entry))
+    }
+
     /// Reads a value as [`fixed`](Self::fixed) does. `mark` is the offset of the first comment mark or quotation mark
     /// in `text`.
     #[cold]
@@ -168,6 +174,10 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     /// Reads a number up to `max`. Returns `None` for any other text, and reports this text unless it is empty.
     pub(super) fn unsigned(&mut self, entry: &Entry, max: u32) -> Option<u32> {
+        let in_range = |value: i64| u32::try_from(value).ok().filter(|&value| value <= max);
+        if let Some(value) = self.plain(entry).and_then(in_range) {
+            return Some(value);
+        }
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
             return None;

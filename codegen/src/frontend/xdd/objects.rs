@@ -128,7 +128,7 @@ impl<'a> Raw<'a> {
 
     fn object_type(&self) -> Option<ObjectType<'_>> {
         let Given { text, span } = self.get(Key::ObjectType)?;
-        Some(ObjectType { text, number: number::parse(text, &[]).int(), span: *span })
+        Some(ObjectType { text, code: number::parse(text, &[]).int().and_then(ObjectCode::from_number), span: *span })
     }
 
     /// Returns the span of the attribute `key`, or of the element if the attribute is missing.
@@ -145,7 +145,7 @@ const TERMS: Terms = Terms {
 };
 
 fn is_var(raw: &Raw<'_>) -> bool {
-    raw.object_type().is_none_or(|given| given.number == Some(7))
+    raw.object_type().is_none_or(|given| given.code == Some(ObjectCode::Var))
 }
 
 /// Builds the groups of a device from its objects.
